@@ -1,0 +1,385 @@
+#pragma once
+
+#include "control/cut_state.hpp"
+
+#include <cmath>
+
+/// The feed override that holds the largest force on a tooth at its limit.
+///
+/// Force grows with feed as F ∝ f^m, m = d ln F/d ln f = (1 + p_s) × the share of F that is not edge force, and its gain
+/// varies by an order of magnitude along a part (depth, immersion). A loop with a fixed gain is slow or unstable there.
+/// In logarithms the gain is one number, m, and known. So the law inverts the process at the measured point,
+///
+///   f* = f (F_set / F)^(1/m),
+///
+/// with f and F averaged over the same window of tooth periods: the depth, the immersion and K_s cancel, and a delay
+/// between override and force delays the correction but does not add to it. f* below the present feed is taken at
+/// once; f* above it is approached by a share per revolution. Ceilings follow, and the smallest wins.
+///
+/// No estimate, no rise: without an estimate the override may fall (the tangential force alone suffices for that) or
+/// stay, never grow. Output is finite and within [override_min, override_max] whatever the input. Not thread-safe.
+
+namespace millforce::control {
+
+template <typename Scalar>
+struct FeedControllerParameters {
+    Scalar tooth_force_limit_N{1000};      ///< F_tooth,max
+    Scalar setpoint_share{static_cast<Scalar>(0.92L)};          ///< of the limit that steady cutting is held at; the rest is for noise
+    Scalar override_min{static_cast<Scalar>(0.1L)};
+    Scalar override_max{1.5F};
+    Scalar recovery_per_rev{0.25F};        ///< share of the way up that one revolution goes
+    Scalar slew_up_per_s{2};               ///< largest rise of the override per second
+    Scalar slew_down_per_s{40};            ///< largest fall
+    Scalar entry_feed_per_tooth_mm{static_cast<Scalar>(0.05L)}; ///< ceiling from contact until the estimate stands
+    Scalar air_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};   ///< ceiling in air: the feed at which the tool may meet the workpiece
+    Scalar max_feed_per_tooth_mm{static_cast<Scalar>(0.2L)};    ///< what the tool's edge and chip space allow
+    Scalar entry_revolutions{2};
+    Scalar exit_travel_mm{2};              ///< without contact before `exit` becomes `air`
+    Scalar contact_force_N{40};            ///< F_at that counts as contact, beside its noise
+    Scalar contact_significance{4};        ///< … and this many standard deviations
+    Scalar surge_radial_immersion{0};      ///< largest immersion that may come without warning; 0: none does
+    Scalar surge_share{static_cast<Scalar>(1.08L)};             ///< of the limit that such a surge may reach
+    Scalar overload_share{static_cast<Scalar>(1.35L)};          ///< of the limit above which the feed is held and the fault latched
+    Scalar overload_revolutions{3};        ///< for so long, though the override already falls
+    Scalar no_estimate_hold_s{0.5F};       ///< in cut without estimate for longer: state hold
+    Scalar stale_s{static_cast<Scalar>(0.05L)};                 ///< without a sample for longer: fault
+    Scalar teeth{4};
+    bool monitor_only{false};              ///< estimate and watch, leave the override to the operator
+};
+
+/// What the estimators say after a tooth period. `fresh` is false on ticks without a new one.
+template <typename Scalar>
+struct CutEstimateForControl {
+    bool fresh = false;
+    bool force_valid = false;          ///< the spindle's F_at is there
+    Scalar tangential_N{0};            ///< F_at over the last tooth period or window, the larger counts
+    Scalar tangential_sd_N{0};
+    bool tooth_force_valid = false;    ///< the immersion behind it is an estimate, not a guess
+    Scalar tooth_force_N{0};           ///< peak force of one tooth; without an immersion, the worst it can be
+    Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
+    Scalar force_feed_exponent{0.75F}; ///< m
+    Scalar feed_mm_s{0};               ///< path speed over the same window
+    Scalar spindle_speed_rad_s{0};
+    bool spindle_turning = false;
+};
+
+template <typename Scalar>
+struct ControlInput {
+    Scalar dt_s{static_cast<Scalar>(0.001L)};
+    Scalar programmed_feed_mm_s{0};
+    Scalar operator_override{1};
+    Scalar path_speed_mm_s{0};
+    Scalar time_since_sample_s{0};
+    bool rapid = false;
+    bool feed_hold = false;
+    CutEstimateForControl<Scalar> cut{};
+};
+
+template <typename Scalar>
+struct ControlOutput {
+    Scalar ratio{0};
+    bool hold = false;
+    CutState state = CutState::air;
+    Fault fault = Fault::none;
+    Limit limit = Limit::none;
+};
+
+template <typename Scalar>
+class FeedController {
+  public:
+    explicit FeedController(const FeedControllerParameters<Scalar>& parameters = {})
+        : parameters_(parameters), ratio_(parameters.override_min) {
+        if (!configuration_is_sound()) {
+            fault_ = Fault::bad_configuration;
+            state_ = CutState::fault;
+            parameters_.override_min = Scalar(0);
+            ratio_ = Scalar(0);
+        }
+    }
+
+    [[nodiscard]] CutState state() const { return state_; }
+
+    /// Leaves a latched fault. Only at standstill: the caller has seen the spindle stop or the operator acknowledge.
+    void reset() {
+        if (fault_ != Fault::bad_configuration) {
+            *this = FeedController(parameters_);
+        }
+    }
+
+    ControlOutput<Scalar> step(const ControlInput<Scalar>& input) {
+        update_state(input);
+        Limit limit = Limit::none;
+        const Scalar wanted = wanted_ratio(input, limit);
+        approach(wanted, input);
+        ControlOutput<Scalar> output;
+        output.state = state_;
+        output.fault = fault_;
+        output.limit = limit;
+        output.hold = state_ == CutState::fault || input.feed_hold;
+        output.ratio = ratio_;
+        if (parameters_.monitor_only && state_ != CutState::fault) {
+            output.ratio = bounded(input.operator_override);
+        }
+        return output;
+    }
+
+  private:
+    [[nodiscard]] bool configuration_is_sound() const {
+        const auto& p = parameters_;
+        return p.tooth_force_limit_N > Scalar(0) && p.override_min >= Scalar(0) && p.override_max > p.override_min &&
+               p.override_max < Scalar(10) && p.setpoint_share > Scalar(0) && p.slew_up_per_s > Scalar(0) &&
+               p.slew_down_per_s > Scalar(0) && p.teeth >= Scalar(1) && p.entry_feed_per_tooth_mm > Scalar(0) &&
+               p.air_feed_per_tooth_mm > Scalar(0) && p.max_feed_per_tooth_mm > Scalar(0);
+    }
+
+    [[nodiscard]] static bool is_finite(Scalar value) { return value - value == Scalar(0); }
+
+    /// NaN becomes the minimum.
+    [[nodiscard]] Scalar bounded(Scalar ratio) const {
+        if (!(ratio >= parameters_.override_min)) {
+            return parameters_.override_min;
+        }
+        return ratio > parameters_.override_max ? parameters_.override_max : ratio;
+    }
+
+    [[nodiscard]] bool is_in_contact(const CutEstimateForControl<Scalar>& cut) const {
+        return cut.force_valid && cut.tangential_N > parameters_.contact_force_N &&
+               cut.tangential_N > parameters_.contact_significance * cut.tangential_sd_N;
+    }
+
+    [[nodiscard]] bool has_lost_contact(const CutEstimateForControl<Scalar>& cut) const {
+        return cut.force_valid && cut.tangential_N < Scalar(0.5F) * parameters_.contact_force_N;
+    }
+
+    void update_state(const ControlInput<Scalar>& input) {
+        if (state_ == CutState::fault) {
+            return;
+        }
+        if (input.time_since_sample_s > parameters_.stale_s || !is_finite(input.time_since_sample_s)) {
+            enter_fault(Fault::stale_input);
+            return;
+        }
+        watch_spindle(input);
+        watch_overload(input);
+        if (state_ == CutState::fault) {
+            return;
+        }
+        travel_in_state_mm_ += input.path_speed_mm_s * input.dt_s;
+        const bool silent = !input.cut.force_valid;
+        silent_s_ = silent ? silent_s_ + input.dt_s : Scalar(0);
+        if (input.cut.fresh) {
+            follow_contact(input);
+        }
+        const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
+        if ((cutting && silent_s_ > parameters_.no_estimate_hold_s) || input.feed_hold) {
+            go_to(CutState::hold);
+        }
+    }
+
+    void follow_contact(const ControlInput<Scalar>& input) {
+        const bool contact = is_in_contact(input.cut);
+        const bool lost = has_lost_contact(input.cut);
+        revolutions_in_state_ += Scalar(1) / parameters_.teeth;
+        switch (state_) {
+            case CutState::air:
+                if (contact) {
+                    go_to(CutState::entry);
+                }
+                break;
+            case CutState::entry:
+                if (lost) {
+                    go_to(CutState::exit);
+                } else if (revolutions_in_state_ >= parameters_.entry_revolutions) {
+                    go_to(CutState::in_cut);
+                }
+                break;
+            case CutState::in_cut:
+                if (lost) {
+                    go_to(CutState::exit);
+                }
+                break;
+            case CutState::exit:
+                if (contact) {
+                    go_to(CutState::entry);
+                    ratio_at_entry_ = ratio_;
+                } else if (travel_in_state_mm_ > parameters_.exit_travel_mm) {
+                    go_to(CutState::air);
+                }
+                break;
+            case CutState::hold:
+                if (!input.feed_hold && input.cut.force_valid) {
+                    go_to(contact ? CutState::entry : CutState::exit);
+                }
+                break;
+            case CutState::fault:
+                break;
+        }
+    }
+
+    void go_to(CutState state) {
+        if (state == state_) {
+            return;
+        }
+        // What was cut before the gap was survived at this feed; from air, contact starts at the entry feed.
+        ratio_at_entry_ = state == CutState::entry && state_ == CutState::air ? Scalar(-1) : ratio_;
+        state_ = state;
+        travel_in_state_mm_ = Scalar(0);
+        revolutions_in_state_ = Scalar(0);
+    }
+
+    void enter_fault(Fault fault) {
+        fault_ = fault;
+        state_ = CutState::fault;
+    }
+
+    void watch_spindle(const ControlInput<Scalar>& input) {
+        const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
+        if (cutting && !input.cut.spindle_turning && input.path_speed_mm_s > Scalar(0)) {
+            stopped_s_ += input.dt_s;
+            if (stopped_s_ > parameters_.stale_s) {
+                enter_fault(Fault::spindle_stopped);
+            }
+        } else {
+            stopped_s_ = Scalar(0);
+        }
+    }
+
+    void watch_overload(const ControlInput<Scalar>& input) {
+        if (!input.cut.fresh) {
+            return;
+        }
+        const bool over = input.cut.force_valid && input.cut.tooth_force_valid &&
+                          input.cut.tooth_force_N > parameters_.overload_share * parameters_.tooth_force_limit_N;
+        overload_revolutions_ = over ? overload_revolutions_ + Scalar(1) / parameters_.teeth : Scalar(0);
+        if (overload_revolutions_ > parameters_.overload_revolutions && !parameters_.monitor_only) {
+            enter_fault(Fault::overload);
+        }
+    }
+
+    [[nodiscard]] Scalar ratio_of_feed_per_tooth(Scalar feed_per_tooth_mm, const ControlInput<Scalar>& input) const {
+        constexpr Scalar per_rad = static_cast<Scalar>(0.159154943091895336L);
+        const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s * per_rad;
+        return feed_mm_s / input.programmed_feed_mm_s;
+    }
+
+    struct Wish {
+        Scalar ratio;
+        Limit limit;
+        void cap(Scalar ceiling, Limit reason) {
+            if (!(ratio <= ceiling)) {
+                ratio = ceiling;
+                limit = reason;
+            }
+        }
+    };
+
+    [[nodiscard]] Scalar wanted_ratio(const ControlInput<Scalar>& input, Limit& limit) {
+        if (state_ == CutState::fault) {
+            return parameters_.override_min;
+        }
+        Wish wish{parameters_.override_max, Limit::override_max};
+        const bool feed_is_known = input.programmed_feed_mm_s > Scalar(0) && is_finite(input.programmed_feed_mm_s);
+        if (!feed_is_known && !input.rapid) {
+            wish.cap(ratio_, Limit::no_estimate);
+        }
+        if (feed_is_known && input.cut.spindle_speed_rad_s > Scalar(0)) {
+            cap_by_state(wish, input);
+            wish.cap(ratio_of_feed_per_tooth(parameters_.max_feed_per_tooth_mm, input), Limit::feed_per_tooth);
+            cap_by_force(wish, input);
+        }
+        if (input.rapid) {
+            wish = {Scalar(1), Limit::none};  // a rapid is the program's word that nothing is in the way
+        }
+        if (state_ == CutState::hold) {
+            wish.cap(ratio_, Limit::no_estimate);
+        }
+        if (input.operator_override < Scalar(1) || !is_finite(input.operator_override)) {
+            wish.cap(is_finite(input.operator_override) ? input.operator_override : Scalar(0), Limit::operator_limit);
+        }
+        if (wish.ratio <= parameters_.override_min) {
+            wish.limit = wish.limit == Limit::operator_limit ? wish.limit : Limit::override_min;
+        }
+        limit = wish.limit;
+        return bounded(wish.ratio);
+    }
+
+    void cap_by_state(Wish& wish, const ControlInput<Scalar>& input) const {
+        if (state_ == CutState::air) {
+            wish.cap(ratio_of_feed_per_tooth(parameters_.air_feed_per_tooth_mm, input), Limit::air_feed);
+        }
+        if (state_ == CutState::entry) {
+            const Scalar ceiling = ratio_at_entry_ >= Scalar(0)
+                                       ? ratio_at_entry_
+                                       : ratio_of_feed_per_tooth(parameters_.entry_feed_per_tooth_mm, input);
+            wish.cap(ceiling, Limit::entry_feed);
+        }
+        if (state_ == CutState::exit) {
+            wish.cap(ratio_at_entry_ >= Scalar(0) ? ratio_at_entry_ : ratio_, Limit::no_estimate);
+        }
+    }
+
+    /// The law. Remembers its last demand: between two tooth periods the override keeps moving towards it.
+    void cap_by_force(Wish& wish, const ControlInput<Scalar>& input) {
+        using std::exp;
+        using std::log;
+        const CutEstimateForControl<Scalar>& cut = input.cut;
+        if (state_ == CutState::air || state_ == CutState::exit) {
+            demand_ = parameters_.override_max;
+            return;
+        }
+        const bool usable = cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
+                            is_finite(cut.tooth_force_N);
+        if (cut.fresh && usable) {
+            const Scalar exponent = cut.force_feed_exponent > static_cast<Scalar>(0.3L) ? cut.force_feed_exponent : static_cast<Scalar>(0.3L);
+            const auto feed_for = [&](Scalar force_N, Scalar share) {
+                const Scalar ratio = share * parameters_.tooth_force_limit_N / force_N;
+                return cut.feed_mm_s * exp(log(ratio) / exponent) / input.programmed_feed_mm_s;
+            };
+            demand_ = feed_for(cut.tooth_force_N, parameters_.setpoint_share);
+            demand_limit_ = Limit::force;
+            if (parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1)) {
+                const Scalar before_surge = feed_for(cut.tooth_force_N * cut.surge_ratio, parameters_.surge_share);
+                if (before_surge < demand_) {
+                    demand_ = before_surge;
+                    demand_limit_ = Limit::surge;
+                }
+            }
+        }
+        if (!usable || !cut.tooth_force_valid) {
+            wish.cap(ratio_, Limit::no_estimate);
+        }
+        wish.cap(demand_, demand_limit_);
+    }
+
+    void approach(Scalar wanted, const ControlInput<Scalar>& input) {
+        const Scalar fall = parameters_.slew_down_per_s * input.dt_s;
+        if (wanted < ratio_ || !is_finite(ratio_)) {
+            ratio_ = wanted < ratio_ - fall ? ratio_ - fall : wanted;
+        } else {
+            const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
+            const Scalar revolutions =
+                input.cut.spindle_speed_rad_s * input.dt_s * static_cast<Scalar>(0.159154943091895336L);
+            const Scalar share = cutting ? parameters_.recovery_per_rev * revolutions : Scalar(1);
+            Scalar rise = (wanted - ratio_) * (share < Scalar(1) ? share : Scalar(1));
+            const Scalar most = parameters_.slew_up_per_s * input.dt_s;
+            rise = rise > most ? most : rise;
+            ratio_ += rise;
+        }
+        ratio_ = bounded(ratio_);
+    }
+
+    FeedControllerParameters<Scalar> parameters_;
+    CutState state_ = CutState::air;
+    Fault fault_ = Fault::none;
+    Scalar ratio_{0};
+    Scalar ratio_at_entry_{-1};
+    Scalar demand_{0};
+    Limit demand_limit_ = Limit::force;
+    Scalar travel_in_state_mm_{0};
+    Scalar revolutions_in_state_{0};
+    Scalar silent_s_{0};
+    Scalar stopped_s_{0};
+    Scalar overload_revolutions_{0};
+};
+
+}  // namespace millforce::control

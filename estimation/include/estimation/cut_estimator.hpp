@@ -1,0 +1,347 @@
+#pragma once
+
+#include "estimation/encoder_angle.hpp"
+#include "estimation/engagement_solver.hpp"
+#include "estimation/feed_drive.hpp"
+#include "estimation/peak_factors.hpp"
+#include "estimation/spindle_drive.hpp"
+#include "estimation/synchronous_average.hpp"
+
+/// From drive signals to forces, engagement and peak force: the chain that the tick runs.
+///
+///   encoder → averages over tooth and revolution → F_at, F_x, F_y → R_r, a_p → peak of one tooth, total, threshold
+///
+/// One call of add() per drive sample; work is done when a tooth period ends, the rest is accumulation.
+/// No heap, no clock; about 12 KiB with its tables in float. Not thread-safe.
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+struct CutEstimatorSettings {
+    Scalar teeth{4};
+    Scalar cutter_radius_mm{5};
+    Scalar helix_rad{0};
+    Scalar runout_mm{0};             ///< largest difference of two teeth's radii
+    CutSide side = CutSide::unknown;
+    Scalar centre_offset_in_radii{0};
+    Scalar largest_depth_mm{10};     ///< longest depth of cut of the tool's flutes
+    Scalar nominal_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};
+    Scalar assumed_immersion{1};     ///< used for peaks (never to speed up) until an immersion is known
+    Scalar surge_immersion{0};       ///< see FeedControllerParameters::surge_radial_immersion
+    Scalar tooth_force_limit_N{1000};
+    Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
+    Scalar min_samples{12};
+    std::uint32_t encoder_counts_per_rev = 4096;
+};
+
+/// One drive sample, as plain numbers. `present`: bit 0 spindle current, bits 1–3 the axes x, y, z.
+template <typename Scalar>
+struct DriveSignals {
+    Scalar spindle_current_A{0};
+    std::array<Scalar, 3> axis_current_A{};
+    std::array<Scalar, 3> axis_velocity_mm_s{};
+    std::uint32_t present = 0;
+};
+
+template <typename Scalar>
+struct CutEstimate {
+    Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
+    Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
+    Measurement<Scalar> x_N{};                 ///< along the machine's axes, on the workpiece
+    Measurement<Scalar> y_N{};
+    Measurement<Scalar> z_N{};
+    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid where a needed axis stands
+    EngagementEstimate<Scalar> engagement{};
+
+    Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; not valid without an immersion
+    Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
+    Scalar force_feed_exponent{0.75F};  ///< d ln F/d ln f
+    Scalar surge_ratio{1};
+    Scalar feed_mm_s{0};  ///< path speed over the window
+    Scalar feed_per_tooth_mm{0};
+    Scalar spindle_speed_rad_s{0};
+    Scalar window_s{0};
+};
+
+template <typename Scalar>
+class CutEstimator {
+  public:
+    CutEstimator() = default;
+    CutEstimator(const CutEstimatorSettings<Scalar>& settings, const SpindleDriveParameters<Scalar>& spindle,
+                 const std::array<FeedDriveParameters<Scalar>, 3>& axes, const CuttingLaw<Scalar>& law)
+        : settings_(settings),
+          law_(law),
+          encoder_(settings.encoder_counts_per_rev),
+          average_({static_cast<int>(settings.teeth), settings.min_samples}),
+          spindle_(spindle),
+          axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])} {
+        EngagementSolverSettings<Scalar> solver;
+        solver.teeth = settings.teeth;
+        solver.centre_offset_in_radii = settings.centre_offset_in_radii;
+        solver.law_relative_sd = settings.law_relative_sd;
+        solver_ = EngagementSolver<Scalar>(law, solver);
+        down_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::down : settings.side));
+        up_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::up : settings.side));
+    }
+
+    /// Adds one sample. Returns true when a tooth period ended and estimate() is new.
+    bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
+             const DriveSignals<Scalar>& signals) {
+        const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
+        spindle_.predict(dt_s);
+        for (FeedDrive<Scalar>& axis : axes_) {
+            axis.predict(dt_s);
+        }
+        since_period_s_ += dt_s;
+        if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
+            reading.event == EncoderEvent::index_slipped) {
+            average_.restart();
+            return false;
+        }
+        const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, packed(signals), signals.present);
+        if (completed == 0) {
+            return false;
+        }
+        since_period_s_ = Scalar(0);
+        update();
+        return true;
+    }
+
+    /// The encoder failed or the samples stopped: start anew, keep what was learnt in air.
+    void restart() {
+        encoder_.reset();
+        average_.restart();
+        estimate_ = {};
+    }
+
+    /// The last window was in air: re-zero the spindle's idle torque and the moving axes' friction with it.
+    void rezero() {
+        if (window_.revolutions == 0) {
+            return;
+        }
+        spindle_.rezero(spindle_average(window_, window_));
+        for (std::size_t k = 0; k < axes_.size(); ++k) {
+            axes_[k].rezero(axis_average(k));
+        }
+    }
+
+    [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimate_; }
+    [[nodiscard]] Scalar since_period_s() const { return since_period_s_; }
+    [[nodiscard]] Scalar spindle_drift_Nm() const { return spindle_.drift_Nm(); }
+    [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
+        return axes_[axis].friction_scale(positive);
+    }
+    /// The total force's peak and its threshold, for the operator's eye and for the record: F_at κ and F_tooth,max g.
+    /// Not for the tick: about 300 single-tooth forces.
+    struct TotalForce {
+        Scalar peak_N{0};
+        Scalar limit_N{0};
+    };
+    [[nodiscard]] TotalForce total_force() const {
+        const Scalar immersion = shown_immersion();
+        const PeakFactors<Scalar> factors = peak_factors(law_, peak_settings(last_side_), immersion, shown_depth_mm());
+        const Scalar peak_per_tooth = factors.threshold_factor();
+        return {estimate_.worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
+    }
+
+  private:
+    static constexpr int channels = 7;
+    using Averager = SynchronousAverage<Scalar, channels>;
+    using Signals = typename Averager::Signals;
+
+    [[nodiscard]] PeakFactorSettings<Scalar> peak_settings(CutSide side) const {
+        PeakFactorSettings<Scalar> peak;
+        peak.teeth = settings_.teeth;
+        peak.cutter_radius_mm = settings_.cutter_radius_mm;
+        peak.helix_rad = settings_.helix_rad;
+        peak.nominal_feed_per_tooth_mm = settings_.nominal_feed_per_tooth_mm;
+        peak.side = side;
+        peak.centre_offset_in_radii = settings_.centre_offset_in_radii;
+        return peak;
+    }
+
+    [[nodiscard]] Scalar tooth_factor(CutSide side, Scalar immersion, Scalar depth_mm) const {
+        return side == CutSide::up ? up_table_.at(immersion, depth_mm) : down_table_.at(immersion, depth_mm);
+    }
+
+    [[nodiscard]] static Signals packed(const DriveSignals<Scalar>& signals) {
+        Signals vector;
+        vector << signals.spindle_current_A, signals.axis_current_A[0], signals.axis_current_A[1],
+            signals.axis_current_A[2], signals.axis_velocity_mm_s[0], signals.axis_velocity_mm_s[1],
+            signals.axis_velocity_mm_s[2];
+        return vector;
+    }
+
+    [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average(
+        const typename Averager::Average& average, const typename Averager::Window& window) const {
+        typename SpindleDrive<Scalar>::Average spindle;
+        spindle.current_A = average.mean[0];
+        spindle.speed_rad_s = average.spindle_speed_rad_s;
+        spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
+        // Two half-windows, each bounded by two counts of ± half a count (variance 1/12 each).
+        const Scalar count_rad = Scalar(2) * pi<Scalar> / static_cast<Scalar>(settings_.encoder_counts_per_rev);
+        const Scalar half_s = Scalar(0.5F) * window.duration_s;
+        spindle.acceleration_variance =
+            half_s > Scalar(0) ? square(count_rad / square(half_s)) * static_cast<Scalar>(0.33L) : Scalar(0);
+        spindle.samples = average.samples;
+        spindle.present = (average.present & 1U) != 0U;
+        return spindle;
+    }
+
+    [[nodiscard]] typename FeedDrive<Scalar>::Average axis_average(std::size_t axis) const {
+        const auto k = static_cast<Eigen::Index>(axis);
+        typename FeedDrive<Scalar>::Average average;
+        average.current_A = window_.mean[1 + k];
+        average.velocity_mm_s = window_.mean[4 + k];
+        average.acceleration_mm_s2 = window_.slope_per_s[4 + k];
+        average.duration_s = window_.duration_s;
+        average.samples = window_.samples;
+        average.present = (window_.present & (2U << axis)) != 0U;
+        return average;
+    }
+
+    void update() {
+        window_ = average_.window();
+        estimate_ = {};
+        if (window_.revolutions == 0) {
+            return;
+        }
+        const auto& tooth = average_.tooth();
+        estimate_.window_s = window_.duration_s;
+        estimate_.spindle_speed_rad_s = window_.spindle_speed_rad_s;
+        estimate_.tangential_N = spindle_.tangential_force_N(spindle_average(window_, window_), settings_.cutter_radius_mm);
+        estimate_.tooth_tangential_N =
+            spindle_.tangential_force_N(spindle_average(tooth, window_), settings_.cutter_radius_mm);
+        estimate_.x_N = axes_[0].force_N(axis_average(0));
+        estimate_.y_N = axes_[1].force_N(axis_average(1));
+        estimate_.z_N = axes_[2].force_N(axis_average(2));
+        estimate_feed();
+        solve_engagement();
+        estimate_peaks();
+    }
+
+    void estimate_feed() {
+        using std::sqrt;
+        const Scalar v_x = window_.mean[4];
+        const Scalar v_y = window_.mean[5];
+        const Scalar speed = sqrt(square(v_x) + square(v_y));
+        estimate_.feed_mm_s = speed;
+        const Scalar teeth_per_s = settings_.teeth * window_.spindle_speed_rad_s / (Scalar(2) * pi<Scalar>);
+        estimate_.feed_per_tooth_mm = teeth_per_s > Scalar(0) ? speed / teeth_per_s : Scalar(0);
+        if (!(speed > Scalar(0))) {
+            return;
+        }
+        direction_x_ = v_x / speed;
+        direction_y_ = v_y / speed;
+        const auto usable = [](const Measurement<Scalar>& m, Scalar share) {
+            return m.valid || square(share) < static_cast<Scalar>(0.001L);
+        };
+        if (usable(estimate_.x_N, direction_x_) && usable(estimate_.y_N, direction_y_)) {
+            estimate_.feed_N.valid = true;
+            estimate_.feed_N.value = (estimate_.x_N.valid ? direction_x_ * estimate_.x_N.value : Scalar(0)) +
+                                     (estimate_.y_N.valid ? direction_y_ * estimate_.y_N.value : Scalar(0));
+            estimate_.feed_N.variance = square(direction_x_) * estimate_.x_N.variance +
+                                        square(direction_y_) * estimate_.y_N.variance;
+        }
+    }
+
+    void solve_engagement() {
+        AverageForceMeasurement<Scalar> forces;
+        forces.tangential_N = estimate_.tangential_N;
+        forces.x_N = estimate_.x_N;
+        forces.y_N = estimate_.y_N;
+        forces.feed_direction_x = direction_x_;
+        forces.feed_direction_y = direction_y_;
+        estimate_.engagement = solver_.solve(forces, estimate_.feed_per_tooth_mm, settings_.side);
+        if (estimate_.engagement.immersion_valid) {
+            last_immersion_ = estimate_.engagement.radial_immersion;
+            last_side_ = estimate_.engagement.side;
+            last_depth_mm_ = estimate_.engagement.depth_valid ? estimate_.engagement.axial_depth_mm : last_depth_mm_;
+        }
+    }
+
+    /// The immersion that peaks are worked out with: the estimate, else the last one, else the assumed one.
+    [[nodiscard]] Scalar shown_immersion() const {
+        if (estimate_.engagement.immersion_valid) {
+            return estimate_.engagement.radial_immersion;
+        }
+        return last_immersion_ > Scalar(0) ? last_immersion_ : settings_.assumed_immersion;
+    }
+    [[nodiscard]] Scalar shown_depth_mm() const {
+        return last_depth_mm_ > Scalar(0) ? last_depth_mm_ : settings_.largest_depth_mm;
+    }
+
+    void estimate_peaks() {
+        using std::sqrt;
+        const EngagementEstimate<Scalar>& e = estimate_.engagement;
+        const Scalar immersion = shown_immersion();
+        const Scalar depth = shown_depth_mm();
+        const Scalar factor = tooth_factor(last_side_, immersion, depth);
+        const auto model = solver_.forces_per_mm(last_side_, immersion, estimate_.feed_per_tooth_mm);
+        const Scalar cutting_share = model.mean.tangential_N > Scalar(0)
+                                         ? model.per_ln_K_s.tangential_N / model.mean.tangential_N
+                                         : Scalar(1);
+        estimate_.force_feed_exponent = (Scalar(1) + law_.p_s) * cutting_share;
+        const Measurement<Scalar>& window = estimate_.tangential_N;
+        if (!window.valid) {
+            return;
+        }
+        const Measurement<Scalar>& tooth = estimate_.tooth_tangential_N;
+        const bool has_risen = tooth.valid && tooth.value - window.value > Scalar(2) * sqrt(tooth.variance);
+        const Scalar newest = has_risen ? tooth.value : window.value;
+        const Scalar runout = runout_factor();
+        estimate_.worst_tooth_force_N = newest * factor * runout;
+        if (e.immersion_valid) {
+            const Scalar low = tooth_factor(e.side, e.radial_immersion_low, depth);
+            const Scalar high = tooth_factor(e.side, e.radial_immersion_high, depth);
+            const Scalar factor_sd = (low - high) / static_cast<Scalar>(3.92L);
+            estimate_.tooth_force_N = {true, estimate_.worst_tooth_force_N,
+                                       square(runout) * (square(factor) * window.variance +
+                                                         square(newest * factor_sd))};
+        }
+        estimate_surge(immersion, depth, factor, model.mean.tangential_N);
+    }
+
+    /// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
+    [[nodiscard]] Scalar runout_factor() const {
+        using std::exp;
+        using std::log;
+        if (!(settings_.runout_mm > Scalar(0)) || !(estimate_.feed_per_tooth_mm > Scalar(0))) {
+            return Scalar(1);
+        }
+        const Scalar most = settings_.teeth;  // more than all teeth's chips one tooth cannot take
+        const Scalar chip = clamp(Scalar(1) + settings_.runout_mm / estimate_.feed_per_tooth_mm, Scalar(1), most);
+        return exp(estimate_.force_feed_exponent * log(chip));
+    }
+
+    void estimate_surge(Scalar immersion, Scalar depth_mm, Scalar factor_now, Scalar F_at_now) {
+        if (!(settings_.surge_immersion > immersion) || !(F_at_now > Scalar(0))) {
+            return;
+        }
+        const Scalar factor_then = tooth_factor(last_side_, settings_.surge_immersion, depth_mm);
+        const Scalar F_at_then =
+            solver_.forces_per_mm(last_side_, settings_.surge_immersion, estimate_.feed_per_tooth_mm).mean.tangential_N;
+        estimate_.surge_ratio = F_at_then * factor_then / (F_at_now * factor_now);
+    }
+
+    CutEstimatorSettings<Scalar> settings_{};
+    CuttingLaw<Scalar> law_{};
+    EncoderAngle<Scalar> encoder_{};
+    Averager average_{};
+    SpindleDrive<Scalar> spindle_{};
+    std::array<FeedDrive<Scalar>, 3> axes_{};
+    EngagementSolver<Scalar> solver_{};
+    ToothPeakTable<Scalar> down_table_{};
+    ToothPeakTable<Scalar> up_table_{};
+
+    typename Averager::Window window_{};
+    CutEstimate<Scalar> estimate_{};
+    Scalar since_period_s_{0};
+    Scalar direction_x_{1};
+    Scalar direction_y_{0};
+    Scalar last_immersion_{0};
+    Scalar last_depth_mm_{0};
+    CutSide last_side_ = CutSide::unknown;
+};
+
+}  // namespace millforce::estimation

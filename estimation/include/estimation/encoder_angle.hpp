@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+
+namespace millforce::estimation {
+
+/// What one encoder reading showed.
+enum class EncoderEvent : unsigned char {
+    none,
+    forward,       ///< turned in the cutting direction
+    standstill,    ///< no count, or a jitter of one count backwards
+    reversed,      ///< turned against the cutting direction
+    too_fast,      ///< turned by 0.45 revolutions or more between two readings: the direction is not known
+    index_slipped  ///< counts between two index pulses are not a whole number of revolutions: counts were lost
+};
+
+template <typename Scalar>
+struct EncoderReading {
+    EncoderEvent event = EncoderEvent::none;
+    Scalar turned_rev{0};  ///< since the last accepted reading, in revolutions, ≥ 0
+    Scalar angle_rev{0};   ///< after it, 0…1 from the index (from the first reading where no index is wired)
+};
+
+/// Spindle angle from encoder counts and index pulse.
+///
+/// The count is taken modulo 2³²; the angle is the count since the index, modulo counts_per_rev. When an index pulse
+/// comes where the count does not expect it (± tolerance), the index wins and the reading says `index_slipped`.
+/// A direction change is reported once per reading; a jitter of one count is not a reversal.
+/// Readings must be less than 0.45 revolutions apart. Integer arithmetic only, no accumulation of rounding.
+/// Not thread-safe; about 40 instructions a reading.
+template <typename Scalar>
+class EncoderAngle {
+  public:
+    explicit EncoderAngle(std::uint32_t counts_per_rev = 4096) : counts_per_rev_(counts_per_rev) {}
+
+    void reset() { started_ = false; }
+
+    EncoderReading<Scalar> update(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
+        EncoderReading<Scalar> reading;
+        if (!started_) {
+            started_ = true;
+            last_count_ = count;
+            zero_count_ = index_number == 0 ? count : index_count;
+            last_index_number_ = index_number;
+            reading.angle_rev = angle_rev(count);
+            return reading;
+        }
+        const auto turned = static_cast<std::int32_t>(count - last_count_);
+        const auto limit = static_cast<std::int32_t>(counts_per_rev_ / 20U * 9U);
+        if (turned >= limit || turned <= -limit) {
+            reading.event = EncoderEvent::too_fast;
+            last_count_ = count;
+        } else if (turned > 0) {
+            reading.event = EncoderEvent::forward;
+            reading.turned_rev = static_cast<Scalar>(turned) / static_cast<Scalar>(counts_per_rev_);
+            last_count_ = count;
+        } else if (turned >= -1) {
+            reading.event = EncoderEvent::standstill;
+        } else {
+            reading.event = EncoderEvent::reversed;
+            last_count_ = count;
+        }
+        if (index_number != last_index_number_) {
+            take_index(index_count, index_number, reading);
+        }
+        keep_zero_near();
+        reading.angle_rev = angle_rev(last_count_);
+        return reading;
+    }
+
+    [[nodiscard]] std::uint32_t counts_per_rev() const { return counts_per_rev_; }
+
+  private:
+    void take_index(std::uint32_t index_count, std::uint8_t index_number, EncoderReading<Scalar>& reading) {
+        const bool first_index = last_index_number_ == 0;
+        last_index_number_ = index_number;
+        const std::uint32_t remainder = modulo(index_count - zero_count_);
+        const std::uint32_t tolerance = counts_per_rev_ / 1024U + 1U;
+        if (!first_index && remainder > tolerance && counts_per_rev_ - remainder > tolerance) {
+            reading.event = EncoderEvent::index_slipped;
+        }
+        zero_count_ = index_count;
+    }
+
+    /// Without an index the zero follows by whole revolutions, so that the 32-bit difference never wraps.
+    void keep_zero_near() {
+        if (last_count_ - zero_count_ < 0x80000000U) {
+            zero_count_ += (last_count_ - zero_count_) / counts_per_rev_ * counts_per_rev_;
+        }
+    }
+
+    /// (difference mod 2³²) mod counts_per_rev, read as a signed difference so that a zero ahead of the count works.
+    [[nodiscard]] std::uint32_t modulo(std::uint32_t difference) const {
+        const auto counts = static_cast<std::int64_t>(static_cast<std::int32_t>(difference));
+        const auto period = static_cast<std::int64_t>(counts_per_rev_);
+        return static_cast<std::uint32_t>(((counts % period) + period) % period);
+    }
+
+    [[nodiscard]] Scalar angle_rev(std::uint32_t count) const {
+        return static_cast<Scalar>(modulo(count - zero_count_)) / static_cast<Scalar>(counts_per_rev_);
+    }
+
+    std::uint32_t counts_per_rev_;
+    std::uint32_t last_count_ = 0;
+    std::uint32_t zero_count_ = 0;
+    std::uint8_t last_index_number_ = 0;
+    bool started_ = false;
+};
+
+}  // namespace millforce::estimation

@@ -1,0 +1,135 @@
+#pragma once
+
+#include "estimation/drift_tracker.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace millforce::estimation {
+
+/// I_f(w) = K_x1 w² + K_x2 w + K_x3, w = |velocity| in m/min (Kim & Chung Eq. 9), for one direction of travel.
+template <typename Scalar>
+struct FrictionCurrent {
+    Scalar K_x1_A_min2_per_m2{0};
+    Scalar K_x2_A_min_per_m{0};
+    Scalar K_x3_A{0};
+
+    [[nodiscard]] Scalar at(Scalar speed_m_per_min) const {
+        return (K_x1_A_min2_per_m2 * speed_m_per_min + K_x2_A_min_per_m) * speed_m_per_min + K_x3_A;
+    }
+};
+
+template <typename Scalar>
+struct FeedDriveParameters {
+    FrictionCurrent<Scalar> positive{};    ///< friction current travelling in + direction
+    FrictionCurrent<Scalar> negative{};    ///< its magnitude travelling in − direction
+    Scalar gravity_A{0};                   ///< current that holds the axis against its weight
+    Scalar K_x4_N_per_A{0};                ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
+    Scalar K_x5_N_m_per_min{0};            ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
+    Scalar mass_kg{0};                     ///< moved mass, with the motor's inertia reflected
+    Scalar velocity_floor_mm_s{1};         ///< below it there is no estimate: friction is undefined at rest
+    Scalar gain_relative_sd{static_cast<Scalar>(0.03L)};        ///< of K_x4, from its calibration
+    Scalar friction_relative_sd{static_cast<Scalar>(0.2L)};     ///< of I_f before the first re-zeroing in air
+    Scalar friction_walk_per_sqrt_s{static_cast<Scalar>(0.002L)};  ///< drift of I_f, relative
+    Scalar friction_ripple_A{static_cast<Scalar>(0.05L)};       ///< position-dependent part of friction that no average removes
+    Scalar current_sd_A{static_cast<Scalar>(0.1L)};             ///< noise of one current sample
+};
+
+/// Mean force of the cut along one feed axis from its motor current.
+///
+///   F_ax = K_x4 (I − I_g − σ κ I_f(|w|)) + K_x5/w − M dv/dt,   σ = sign of w      Kim & Chung Eqs. 9, 10
+///
+/// positive in the axis' + direction, as a force on the workpiece. κ scales the friction and is re-zeroed in air for
+/// each direction. An axis below its velocity floor, or one that turned round within the average, gives no estimate:
+/// at rest the force hides in static friction, and K_x5/w is singular there. Not thread-safe.
+template <typename Scalar>
+class FeedDrive {
+  public:
+    explicit FeedDrive(const FeedDriveParameters<Scalar>& parameters = {}) : parameters_(parameters) {
+        const DriftTracker<Scalar> start(Scalar(1), square(parameters.friction_relative_sd),
+                                         square(parameters.friction_walk_per_sqrt_s));
+        friction_scale_ = {start, start};
+    }
+
+    struct Average {
+        Scalar current_A{0};
+        Scalar velocity_mm_s{0};
+        Scalar acceleration_mm_s2{0};
+        Scalar duration_s{0};
+        Scalar samples{1};
+        bool present = false;
+    };
+
+    [[nodiscard]] Measurement<Scalar> force_N(const Average& average) const {
+        if (!is_moving(average)) {
+            return {};
+        }
+        const DriftTracker<Scalar>& scale = friction_scale_[direction(average)];
+        const Scalar friction_A = signed_friction_A(average);
+        const Scalar cut_A = average.current_A - parameters_.gravity_A - scale.value() * friction_A;
+        const Scalar force = parameters_.K_x4_N_per_A * cut_A +
+                             parameters_.K_x5_N_m_per_min / velocity_m_per_min(average) - inertial_force_N(average);
+        const Scalar current_variance =
+            current_variance_A2(average) + square(friction_A) * scale.variance();
+        return {true, force,
+                square(parameters_.K_x4_N_per_A) * current_variance + square(parameters_.gain_relative_sd * force)};
+    }
+
+    /// Time passes: the friction may have moved.
+    void predict(Scalar dt_s) {
+        for (DriftTracker<Scalar>& scale : friction_scale_) {
+            scale.predict(dt_s);
+        }
+    }
+
+    /// The tool is known to be in air: the current is friction, weight and inertia alone.
+    void rezero(const Average& average) {
+        const Scalar friction_A = signed_friction_A(average);
+        if (!is_moving(average) || !(square(friction_A) > Scalar(0))) {
+            return;
+        }
+        const Scalar other_A = parameters_.gravity_A +
+                               (inertial_force_N(average) -
+                                parameters_.K_x5_N_m_per_min / velocity_m_per_min(average)) /
+                                   parameters_.K_x4_N_per_A;
+        friction_scale_[direction(average)].correct({true, (average.current_A - other_A) / friction_A,
+                                                     current_variance_A2(average) / square(friction_A)});
+    }
+
+    [[nodiscard]] Scalar friction_scale(bool positive_direction) const {
+        return friction_scale_[positive_direction ? 1 : 0].value();
+    }
+
+    [[nodiscard]] bool is_moving(const Average& average) const {
+        if (!average.present || !(average.samples > Scalar(0)) || !(parameters_.K_x4_N_per_A > Scalar(0))) {
+            return false;
+        }
+        const Scalar speed = average.velocity_mm_s < Scalar(0) ? -average.velocity_mm_s : average.velocity_mm_s;
+        const Scalar change = average.acceleration_mm_s2 * average.duration_s * Scalar(0.5F);
+        const Scalar magnitude = change < Scalar(0) ? -change : change;
+        return speed - magnitude >= parameters_.velocity_floor_mm_s;
+    }
+
+  private:
+    [[nodiscard]] static std::size_t direction(const Average& average) {
+        return average.velocity_mm_s > Scalar(0) ? 1U : 0U;
+    }
+    [[nodiscard]] static Scalar velocity_m_per_min(const Average& average) {
+        return average.velocity_mm_s * static_cast<Scalar>(0.06L);
+    }
+    [[nodiscard]] Scalar signed_friction_A(const Average& average) const {
+        const Scalar w = velocity_m_per_min(average);
+        return w > Scalar(0) ? parameters_.positive.at(w) : -parameters_.negative.at(-w);
+    }
+    [[nodiscard]] Scalar inertial_force_N(const Average& average) const {
+        return parameters_.mass_kg * average.acceleration_mm_s2 * static_cast<Scalar>(0.001L);
+    }
+    [[nodiscard]] Scalar current_variance_A2(const Average& average) const {
+        return square(parameters_.current_sd_A) / average.samples + square(parameters_.friction_ripple_A);
+    }
+
+    FeedDriveParameters<Scalar> parameters_;
+    std::array<DriftTracker<Scalar>, 2> friction_scale_{};  // [0]: − direction, [1]: + direction
+};
+
+}  // namespace millforce::estimation

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace millforce::estimation {
+
+/// A number that knows how well it is known, or that there is none. `valid == false` is "no estimate": value and
+/// variance then mean nothing, and nothing downstream may speed up on it.
+template <typename Scalar>
+struct Measurement {
+    bool valid = false;
+    Scalar value{0};
+    Scalar variance{0};
+};
+
+template <typename Scalar>
+constexpr Scalar square(Scalar value) {
+    return value * value;
+}
+
+template <typename Scalar>
+constexpr Scalar clamp(Scalar value, Scalar low, Scalar high) {
+    return value < low ? low : (value > high ? high : value);
+}
+
+}  // namespace millforce::estimation

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "estimation/drift_tracker.hpp"
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+struct SpindleDriveParameters {
+    Scalar K_t1_Nm_per_A{0};              ///< torque per ampere below base speed (the paper's K_t1 times R)
+    Scalar K_t2_Nm{0};                    ///< torque at zero current, −K_t1 × idle current (the paper's K_t2 times R)
+    Scalar idle_torque_slope_Nm_s{0};     ///< growth of the idle torque with speed, N·m per rad/s
+    Scalar inertia_kg_m2{0};              ///< J of spindle, rotor and tool
+    Scalar base_speed_rad_s{0};           ///< above it K_t1 falls as base/ω (constant power); 0: never
+    Scalar gain_relative_sd{static_cast<Scalar>(0.02L)};       ///< of K_t1, from its calibration
+    Scalar idle_torque_sd_Nm{static_cast<Scalar>(0.2L)};       ///< of the idle torque before the first re-zeroing in air
+    Scalar idle_walk_Nm_per_sqrt_s{static_cast<Scalar>(0.01L)};  ///< drift of the idle torque
+    Scalar current_sd_A{static_cast<Scalar>(0.1L)};            ///< noise of one current sample
+};
+
+/// Mean tangential force from the spindle's motor current.
+///
+///   F_at = (K_t1(ω) I + K_t2 − k ω − δ − J dω/dt) / R            Kim & Chung Eq. 8, with inertia, speed and drift
+///   K_t1(ω) = K_t1 for ω ≤ ω_base, K_t1 ω_base/ω above           field weakening: constant power
+///
+/// δ is the idle torque's drift, re-zeroed in air by rezero(). Averages over whole tooth periods are meant: between
+/// teeth the rotor stores what the current does not show. R > 0 in mm, ω in rad/s, I in A. Not thread-safe.
+template <typename Scalar>
+class SpindleDrive {
+  public:
+    explicit SpindleDrive(const SpindleDriveParameters<Scalar>& parameters = {})
+        : parameters_(parameters),
+          drift_Nm_(Scalar(0), square(parameters.idle_torque_sd_Nm), square(parameters.idle_walk_Nm_per_sqrt_s)) {}
+
+    struct Average {
+        Scalar current_A{0};
+        Scalar speed_rad_s{0};
+        Scalar acceleration_rad_s2{0};
+        Scalar acceleration_variance{0};
+        Scalar samples{1};
+        bool present = false;
+    };
+
+    [[nodiscard]] Measurement<Scalar> tangential_force_N(const Average& average, Scalar cutter_radius_mm) const {
+        Measurement<Scalar> torque = torque_without_drift_Nm(average);
+        if (!torque.valid || !(cutter_radius_mm > Scalar(0))) {
+            return {};
+        }
+        torque.value -= drift_Nm_.value();
+        torque.variance += drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque.value);
+        const Scalar per_Nm = Scalar(1000) / cutter_radius_mm;
+        return {true, torque.value * per_Nm, torque.variance * square(per_Nm)};
+    }
+
+    /// Time passes: the drift may have moved.
+    void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
+
+    /// The tool is known to be in air: what is left of the torque is drift.
+    void rezero(const Average& average) { drift_Nm_.correct(torque_without_drift_Nm(average)); }
+
+    [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
+
+    [[nodiscard]] Scalar torque_constant_Nm_per_A(Scalar speed_rad_s) const {
+        const bool weakened = parameters_.base_speed_rad_s > Scalar(0) && speed_rad_s > parameters_.base_speed_rad_s;
+        return weakened ? parameters_.K_t1_Nm_per_A * parameters_.base_speed_rad_s / speed_rad_s
+                        : parameters_.K_t1_Nm_per_A;
+    }
+
+  private:
+    [[nodiscard]] Measurement<Scalar> torque_without_drift_Nm(const Average& average) const {
+        if (!average.present || !(average.samples > Scalar(0)) || !(average.speed_rad_s > Scalar(0))) {
+            return {};
+        }
+        const Scalar constant = torque_constant_Nm_per_A(average.speed_rad_s);
+        const Scalar torque = constant * average.current_A + parameters_.K_t2_Nm -
+                              parameters_.idle_torque_slope_Nm_s * average.speed_rad_s -
+                              parameters_.inertia_kg_m2 * average.acceleration_rad_s2;
+        const Scalar variance = square(constant * parameters_.current_sd_A) / average.samples +
+                                square(parameters_.inertia_kg_m2) * average.acceleration_variance;
+        return {true, torque, variance};
+    }
+
+    SpindleDriveParameters<Scalar> parameters_;
+    DriftTracker<Scalar> drift_Nm_;
+};
+
+}  // namespace millforce::estimation

@@ -1,0 +1,248 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+/// Averages of drive signals over spindle angle, per tooth period and per window of whole revolutions.
+///
+/// Samples come at any rate, evenly or not. Each signal is taken as linear between two samples and integrated over
+/// the angle turned, and the integral is split exactly at the tooth boundaries; so the averages are those over the
+/// angle whatever the ratio of sampling rate to tooth-passing rate, without beat between the two.
+///
+/// A gap in the samples shorter than half a tooth period is bridged by the same line. A longer one, a reversal or a
+/// slipped index starts the averages anew: no average is ever made of an unseen stretch.
+
+namespace millforce::estimation {
+
+template <typename Scalar, int Channels, int MaxPeriods = 48>
+class SynchronousAverage {
+  public:
+    using Signals = Eigen::Matrix<Scalar, Channels, 1>;
+
+    struct Settings {
+        int teeth = 4;            ///< tooth periods per revolution, 1…12
+        Scalar min_samples{12};   ///< a window has at least this many samples, rounded up to whole revolutions
+        Scalar max_gap_s{static_cast<Scalar>(0.05L)};  ///< a longer gap between samples starts anew, however slowly the spindle turns
+    };
+
+    /// The average over one tooth period or one window.
+    struct Average {
+        Signals mean = Signals::Zero();
+        std::uint32_t present = 0;  ///< bit k: signal k was there in every sample of the average
+        Scalar duration_s{0};
+        Scalar samples{0};
+        Scalar spindle_speed_rad_s{0};
+    };
+
+    /// The last whole revolutions, and how the spindle and the signals changed across them.
+    struct Window : Average {
+        Scalar spindle_acceleration_rad_s2{0};
+        Signals slope_per_s = Signals::Zero();  ///< of each signal: newer half against older half
+        int revolutions = 0;                    ///< 0: not enough has been seen since the last start
+    };
+
+    explicit SynchronousAverage(const Settings& settings = {}) : settings_(settings) {}
+
+    void restart() {
+        periods_seen_ = 0;
+        has_previous_ = false;
+        period_is_whole_ = false;
+        clear_period();
+    }
+
+    /// Adds one sample. `turned_rev` since the last sample (0 ≤ turned < 0.45), `angle_rev` after it (0…1).
+    /// Returns how many tooth periods were completed (0 or more).
+    int add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
+        if (has_previous_ && gap_is_too_long(dt_s, turned_rev)) {
+            restart();
+        }
+        const Scalar pitch_rev = Scalar(1) / Scalar(settings_.teeth);
+        if (!has_previous_) {
+            to_boundary_rev_ = pitch_rev - offset_in_pitch(angle_rev, pitch_rev);
+            remember(signals, present);
+            return 0;
+        }
+        int completed = 0;
+        Scalar remaining_rev = turned_rev;
+        Scalar used_share{0};
+        while (turned_rev > Scalar(0) && remaining_rev >= to_boundary_rev_) {
+            const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
+            const Scalar share = step_rev / turned_rev;
+            accumulate(used_share, used_share + share, dt_s, turned_rev, signals, present);
+            used_share += share;
+            remaining_rev -= step_rev;
+            completed += close_period();
+            to_boundary_rev_ = pitch_rev;
+        }
+        to_boundary_rev_ = distance_to_boundary(angle_rev, pitch_rev, to_boundary_rev_ - remaining_rev);
+        accumulate(used_share, Scalar(1), dt_s, turned_rev, signals, present);
+        remember(signals, present);
+        return completed;
+    }
+
+    /// The tooth period that ended last. Valid after add() returned at least 1 since the last start.
+    [[nodiscard]] const Average& tooth() const { return periods_[last_index()]; }
+    [[nodiscard]] bool has_tooth() const { return periods_seen_ > 0; }
+
+    /// The newest whole revolutions that hold at least min_samples. Cost: linear in the periods of the window.
+    [[nodiscard]] Window window() const {
+        Window window;
+        int count = 0;
+        Scalar samples{0};
+        int wanted = 0;
+        while (wanted == 0 && count + settings_.teeth <= available()) {
+            for (int k = 0; k < settings_.teeth; ++k) {
+                samples += at(count + k).samples;
+            }
+            count += settings_.teeth;
+            if (samples >= settings_.min_samples) {
+                wanted = count;
+            }
+        }
+        if (wanted == 0) {
+            return window;
+        }
+        sum_up(wanted, window);
+        window.revolutions = wanted / settings_.teeth;
+        return window;
+    }
+
+  private:
+    [[nodiscard]] bool gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
+        if (!(dt_s > Scalar(0)) || dt_s > settings_.max_gap_s) {
+            return true;
+        }
+        // A sample interval that was twice the last one is a missed sample; it may hide at most half a tooth.
+        const bool missed = previous_dt_s_ > Scalar(0) && dt_s > Scalar(1.5F) * previous_dt_s_;
+        const Scalar half_pitch_rev = Scalar(0.5F) / Scalar(settings_.teeth);
+        const Scalar usual_rev = missed ? turned_rev * previous_dt_s_ / dt_s : turned_rev;
+        return missed && turned_rev - usual_rev > half_pitch_rev;
+    }
+
+    /// From the angle to the next tooth boundary. Rounding may put the angle on the wrong side of a boundary; the
+    /// distance expected from counting on tells which one is meant. May be negative: the boundary has just passed.
+    [[nodiscard]] static Scalar distance_to_boundary(Scalar angle_rev, Scalar pitch_rev, Scalar expected_rev) {
+        const Scalar distance = pitch_rev - offset_in_pitch(angle_rev, pitch_rev);
+        if (distance - expected_rev > Scalar(0.5F) * pitch_rev) {
+            return distance - pitch_rev;
+        }
+        return expected_rev - distance > Scalar(0.5F) * pitch_rev ? distance + pitch_rev : distance;
+    }
+
+    [[nodiscard]] static Scalar offset_in_pitch(Scalar angle_rev, Scalar pitch_rev) {
+        const auto whole = static_cast<int>(angle_rev / pitch_rev);
+        const Scalar offset = angle_rev - Scalar(whole) * pitch_rev;
+        return offset < Scalar(0) ? Scalar(0) : offset;
+    }
+
+    void remember(const Signals& signals, std::uint32_t present) {
+        has_previous_ = true;
+        previous_signals_ = signals;
+        previous_present_ = present;
+    }
+
+    /// Adds the part from share `from` to share `to` of the interval between the previous sample and this one.
+    void accumulate(Scalar from, Scalar to, Scalar dt_s, Scalar turned_rev, const Signals& signals,
+                    std::uint32_t present) {
+        const Scalar width = to - from;
+        if (width <= Scalar(0)) {
+            return;
+        }
+        const Scalar middle = Scalar(0.5F) * (from + to);
+        sum_ += (previous_signals_ + (signals - previous_signals_) * middle) * (width * turned_rev);
+        turned_rev_ += width * turned_rev;
+        duration_s_ += width * dt_s;
+        samples_ += width;
+        present_ &= present & previous_present_;
+        previous_dt_s_ = dt_s;
+    }
+
+    int close_period() {
+        int completed = 0;
+        if (period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0)) {
+            Average& period = periods_[periods_seen_ % MaxPeriods];
+            period.mean = sum_ / turned_rev_;
+            period.present = present_;
+            period.duration_s = duration_s_;
+            period.samples = samples_;
+            period.spindle_speed_rad_s = turned_rev_ * two_pi / duration_s_;
+            periods_seen_ = periods_seen_ + 1U == 2U * MaxPeriods ? MaxPeriods : periods_seen_ + 1U;
+            completed = 1;
+        }
+        period_is_whole_ = true;
+        clear_period();
+        return completed;
+    }
+
+    void clear_period() {
+        sum_.setZero();
+        turned_rev_ = Scalar(0);
+        duration_s_ = Scalar(0);
+        samples_ = Scalar(0);
+        present_ = ~0U;
+    }
+
+    void sum_up(int count, Window& window) const {
+        window.present = ~0U;
+        Scalar newer_duration_s{0};
+        Scalar older_duration_s{0};
+        Signals newer = Signals::Zero();
+        Signals older = Signals::Zero();
+        const int half = (count + 1) / 2;
+        for (int k = 0; k < count; ++k) {
+            const Average& period = at(k);
+            window.mean += period.mean;
+            window.present &= period.present;
+            window.samples += period.samples;
+            window.duration_s += period.duration_s;
+            if (k < half) {
+                newer += period.mean;
+                newer_duration_s += period.duration_s;
+            }
+            if (k >= count - half) {
+                older += period.mean;
+                older_duration_s += period.duration_s;
+            }
+        }
+        window.mean /= Scalar(count);
+        const Scalar turned_rad = Scalar(count) * two_pi / Scalar(settings_.teeth);
+        const Scalar half_rad = Scalar(half) * two_pi / Scalar(settings_.teeth);
+        window.spindle_speed_rad_s = turned_rad / window.duration_s;
+        const Scalar apart_s = window.duration_s - Scalar(0.5F) * (newer_duration_s + older_duration_s);
+        if (apart_s > Scalar(0)) {
+            window.spindle_acceleration_rad_s2 =
+                (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
+            window.slope_per_s = (newer - older) / (Scalar(half) * apart_s);
+        }
+    }
+
+    [[nodiscard]] std::size_t last_index() const { return (periods_seen_ - 1U) % MaxPeriods; }
+    [[nodiscard]] int available() const {
+        return periods_seen_ < MaxPeriods ? static_cast<int>(periods_seen_) : MaxPeriods;
+    }
+    /// The period that ended `back` periods before the last one.
+    [[nodiscard]] const Average& at(int back) const {
+        return periods_[(periods_seen_ - 1U - static_cast<std::uint32_t>(back)) % MaxPeriods];
+    }
+
+    static constexpr Scalar two_pi = static_cast<Scalar>(6.28318530717958647692L);
+
+    Settings settings_;
+    Average periods_[static_cast<std::size_t>(MaxPeriods)];
+    std::uint32_t periods_seen_ = 0;  // kept in [0, 2·MaxPeriods): the ring's place, and whether it is full
+
+    Signals sum_ = Signals::Zero();
+    Scalar turned_rev_{0};
+    Scalar duration_s_{0};
+    Scalar samples_{0};
+    std::uint32_t present_ = ~0U;
+    bool period_is_whole_ = false;
+
+    bool has_previous_ = false;
+    Scalar to_boundary_rev_{0};
+    Scalar previous_dt_s_{0};
+    Signals previous_signals_ = Signals::Zero();
+    std::uint32_t previous_present_ = 0;
+};
+
+}  // namespace millforce::estimation

@@ -1,0 +1,22 @@
+// Instantiates every estimator for float, so that the core's compiler flags and warnings see all of it.
+#include "estimation/cut_estimator.hpp"
+#include "estimation/drift_tracker.hpp"
+#include "estimation/encoder_angle.hpp"
+#include "estimation/engagement_solver.hpp"
+#include "estimation/feed_drive.hpp"
+#include "estimation/peak_factors.hpp"
+#include "estimation/spindle_drive.hpp"
+#include "estimation/synchronous_average.hpp"
+
+namespace millforce::estimation {
+
+template class DriftTracker<float>;
+template class EncoderAngle<float>;
+template class SynchronousAverage<float, 7>;
+template class SpindleDrive<float>;
+template class FeedDrive<float>;
+template class EngagementSolver<float>;
+template class ToothPeakTable<float>;
+template class CutEstimator<float>;
+
+}  // namespace millforce::estimation

@@ -1,0 +1,126 @@
+#pragma once
+
+#include "firmware/parameters.hpp"
+
+#include <array>
+#include <limits>
+
+/// One description of every parameter: file, table and key as in TOML, unit, default, range, one sentence.
+/// The TOML reader, the documentation and a target's flash block are made from it, in this order.
+
+namespace millforce::firmware {
+
+enum class ParameterFile : unsigned char { machine, tool };
+
+/// A default of `required` means that there is none: the file must give the value.
+inline constexpr float required = std::numeric_limits<float>::quiet_NaN();
+
+template <typename Scalar>
+struct ParameterRow {
+    ParameterFile file;
+    const char* table;  ///< "axis" stands for each of "x", "y", "z"
+    const char* key;
+    const char* unit;
+    float default_value;
+    float minimum;
+    float maximum;
+    const char* sentence;
+    Scalar& (*field)(Parameters<Scalar>&, std::size_t axis);
+    const char* choices = nullptr;  ///< names for the values 0, 1, … in place of numbers, separated by '|'
+};
+
+inline constexpr std::array<const char*, 3> axis_tables{"x", "y", "z"};
+
+// The rows are data; one row a line keeps them readable as the table that they are.
+// clang-format off
+#define MILLFORCE_FIELD(member) [](Parameters<Scalar>& p, std::size_t) -> Scalar& { return p.member; }
+#define MILLFORCE_AXIS(member) [](Parameters<Scalar>& p, std::size_t axis) -> Scalar& { return p.machine.axes[axis].member; }
+
+template <typename Scalar>
+inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
+    {ParameterFile::machine, "spindle", "K_t1_Nm_per_A", "N·m/A", required, 1e-4F, 1e4F, "Spindle torque per ampere below base speed: the paper's K_t1 times the cutter radius.", MILLFORCE_FIELD(machine.spindle.K_t1_Nm_per_A)},
+    {ParameterFile::machine, "spindle", "K_t2_Nm", "N·m", 0.0F, -1e4F, 1e4F, "Torque at zero current, minus K_t1 times the idle current; re-zeroed in air.", MILLFORCE_FIELD(machine.spindle.K_t2_Nm)},
+    {ParameterFile::machine, "spindle", "idle_torque_slope_Nm_s", "N·m·s/rad", 0.0F, -10.0F, 10.0F, "Growth of the idle torque with speed.", MILLFORCE_FIELD(machine.spindle.idle_torque_slope_Nm_s)},
+    {ParameterFile::machine, "spindle", "inertia_kg_m2", "kg·m²", 0.0F, 0.0F, 100.0F, "Inertia of spindle, rotor and tool.", MILLFORCE_FIELD(machine.spindle.inertia_kg_m2)},
+    {ParameterFile::machine, "spindle", "base_speed_rad_s", "rad/s", 0.0F, 0.0F, 2e4F, "Speed above which the torque constant falls as 1/speed (field weakening); 0: never.", MILLFORCE_FIELD(machine.spindle.base_speed_rad_s)},
+    {ParameterFile::machine, "spindle", "gain_relative_sd", "1", 0.02F, 0.0F, 1.0F, "Relative standard deviation of K_t1 from its calibration.", MILLFORCE_FIELD(machine.spindle.gain_relative_sd)},
+    {ParameterFile::machine, "spindle", "idle_torque_sd_Nm", "N·m", 0.2F, 0.0F, 1e3F, "Standard deviation of the idle torque before the first re-zeroing in air.", MILLFORCE_FIELD(machine.spindle.idle_torque_sd_Nm)},
+    {ParameterFile::machine, "spindle", "idle_walk_Nm_per_sqrt_s", "N·m/√s", 0.01F, 0.0F, 1e2F, "Drift of the idle torque with temperature, as a random walk.", MILLFORCE_FIELD(machine.spindle.idle_walk_Nm_per_sqrt_s)},
+    {ParameterFile::machine, "spindle", "current_sd_A", "A", 0.1F, 0.0F, 1e3F, "Noise of one sample of the spindle current.", MILLFORCE_FIELD(machine.spindle.current_sd_A)},
+    {ParameterFile::machine, "spindle", "rated_current_A", "A", 0.0F, 0.0F, 1e4F, "Rated current, the unit of CiA 402 object 0x6078; 0: not known.", MILLFORCE_FIELD(machine.spindle_rated_current_A)},
+    {ParameterFile::machine, "spindle", "encoder_counts_per_rev", "1", 4096.0F, 16.0F, 1048576.0F, "Counts of the spindle encoder per revolution, after quadrature.", MILLFORCE_FIELD(machine.encoder_counts_per_rev)},
+
+    {ParameterFile::machine, "axis", "K_x1_positive_A_min2_per_m2", "A/(m/min)²", 0.0F, -1e3F, 1e3F, "Friction current travelling in + direction, quadratic term.", MILLFORCE_AXIS(positive.K_x1_A_min2_per_m2)},
+    {ParameterFile::machine, "axis", "K_x2_positive_A_min_per_m", "A/(m/min)", 0.0F, -1e3F, 1e3F, "Friction current travelling in + direction, linear term.", MILLFORCE_AXIS(positive.K_x2_A_min_per_m)},
+    {ParameterFile::machine, "axis", "K_x3_positive_A", "A", 0.0F, -1e3F, 1e3F, "Friction current travelling in + direction, constant term.", MILLFORCE_AXIS(positive.K_x3_A)},
+    {ParameterFile::machine, "axis", "K_x1_negative_A_min2_per_m2", "A/(m/min)²", 0.0F, -1e3F, 1e3F, "Magnitude of the friction current travelling in - direction, quadratic term.", MILLFORCE_AXIS(negative.K_x1_A_min2_per_m2)},
+    {ParameterFile::machine, "axis", "K_x2_negative_A_min_per_m", "A/(m/min)", 0.0F, -1e3F, 1e3F, "Magnitude of the friction current travelling in - direction, linear term.", MILLFORCE_AXIS(negative.K_x2_A_min_per_m)},
+    {ParameterFile::machine, "axis", "K_x3_negative_A", "A", 0.0F, -1e3F, 1e3F, "Magnitude of the friction current travelling in - direction, constant term.", MILLFORCE_AXIS(negative.K_x3_A)},
+    {ParameterFile::machine, "axis", "gravity_A", "A", 0.0F, -1e3F, 1e3F, "Current that holds the axis against its weight.", MILLFORCE_AXIS(gravity_A)},
+    {ParameterFile::machine, "axis", "K_x4_N_per_A", "N/A", 0.0F, 0.0F, 1e5F, "Force per ampere of feed motor current; 0: this axis gives no force.", MILLFORCE_AXIS(K_x4_N_per_A)},
+    {ParameterFile::machine, "axis", "K_x5_N_m_per_min", "N·m/min", 0.0F, -1e5F, 1e5F, "Force term K_x5/w of the feed drive (Kim & Chung Eq. 10).", MILLFORCE_AXIS(K_x5_N_m_per_min)},
+    {ParameterFile::machine, "axis", "mass_kg", "kg", 0.0F, 0.0F, 1e5F, "Moved mass, with the motor's inertia reflected.", MILLFORCE_AXIS(mass_kg)},
+    {ParameterFile::machine, "axis", "velocity_floor_mm_s", "mm/s", 1.0F, 0.01F, 1e3F, "Below it the axis gives no estimate: friction is undefined at rest.", MILLFORCE_AXIS(velocity_floor_mm_s)},
+    {ParameterFile::machine, "axis", "gain_relative_sd", "1", 0.03F, 0.0F, 1.0F, "Relative standard deviation of K_x4 from its calibration.", MILLFORCE_AXIS(gain_relative_sd)},
+    {ParameterFile::machine, "axis", "friction_relative_sd", "1", 0.2F, 0.0F, 2.0F, "Relative standard deviation of the friction before the first re-zeroing in air.", MILLFORCE_AXIS(friction_relative_sd)},
+    {ParameterFile::machine, "axis", "friction_walk_per_sqrt_s", "1/√s", 0.002F, 0.0F, 1.0F, "Drift of the friction, relative, as a random walk.", MILLFORCE_AXIS(friction_walk_per_sqrt_s)},
+    {ParameterFile::machine, "axis", "friction_ripple_A", "A", 0.05F, 0.0F, 1e2F, "Part of the friction that depends on position and that no average removes.", MILLFORCE_AXIS(friction_ripple_A)},
+    {ParameterFile::machine, "axis", "current_sd_A", "A", 0.1F, 0.0F, 1e3F, "Noise of one sample of the motor current.", MILLFORCE_AXIS(current_sd_A)},
+    {ParameterFile::machine, "axis", "rated_current_A", "A", 0.0F, 0.0F, 1e4F, "Rated current, the unit of CiA 402 object 0x6078; 0: not known.", [](Parameters<Scalar>& p, std::size_t axis) -> Scalar& { return p.machine.axis_rated_current_A[axis]; }},
+
+    {ParameterFile::machine, "cnc", "override_min", "1", 0.1F, 0.0F, 1.0F, "Smallest feed override that the controller commands.", MILLFORCE_FIELD(machine.cnc.override_min)},
+    {ParameterFile::machine, "cnc", "override_max", "1", 1.5F, 0.1F, 9.0F, "Largest feed override that the CNC accepts.", MILLFORCE_FIELD(machine.cnc.override_max)},
+    {ParameterFile::machine, "cnc", "override_latency_s", "s", 0.01F, 0.0F, 1.0F, "Time from an override to the first change of the commanded velocity.", MILLFORCE_FIELD(machine.cnc.override_latency_s)},
+    {ParameterFile::machine, "cnc", "acceleration_mm_s2", "mm/s²", 2000.0F, 1.0F, 1e6F, "Acceleration limit of the path velocity.", MILLFORCE_FIELD(machine.cnc.acceleration_mm_s2)},
+    {ParameterFile::machine, "cnc", "stale_s", "s", 0.05F, 0.001F, 10.0F, "Without a drive sample for longer the controller faults and holds the feed.", MILLFORCE_FIELD(machine.cnc.stale_s)},
+    {ParameterFile::machine, "cnc", "sample_rate_hz", "Hz", 1000.0F, 10.0F, 1e5F, "Rate of the drive samples.", MILLFORCE_FIELD(machine.cnc.sample_rate_hz)},
+
+    {ParameterFile::tool, "tool", "teeth", "1", required, 1.0F, 12.0F, "Number of teeth or inserts.", MILLFORCE_FIELD(tool.teeth)},
+    {ParameterFile::tool, "tool", "diameter_mm", "mm", required, 0.1F, 1000.0F, "Cutting diameter.", MILLFORCE_FIELD(tool.diameter_mm)},
+    {ParameterFile::tool, "tool", "helix_deg", "°", 30.0F, 0.0F, 60.0F, "Helix angle of the flutes; 0 for inserts.", MILLFORCE_FIELD(tool.helix_deg)},
+    {ParameterFile::tool, "tool", "flute_length_mm", "mm", required, 0.1F, 300.0F, "Longest axial depth that the tool can cut.", MILLFORCE_FIELD(tool.flute_length_mm)},
+    {ParameterFile::tool, "tool", "runout_um", "µm", 0.0F, 0.0F, 500.0F, "Largest difference between the radii of two teeth.", MILLFORCE_FIELD(tool.runout_um)},
+    {ParameterFile::tool, "tool", "side", "", 3.0F, 0.0F, 3.0F, "Which edge of the cut is fixed while its width varies; unknown: inferred from the forces.", MILLFORCE_FIELD(tool.side), "down|up|centred|unknown"},
+    {ParameterFile::tool, "tool", "centre_offset_mm", "mm", 0.0F, -500.0F, 500.0F, "Offset of the workpiece's centre line from the cutter's axis, for side = \"centred\".", MILLFORCE_FIELD(tool.centre_offset_mm)},
+    {ParameterFile::tool, "tool", "tooth_force_limit_N", "N", required, 0.1F, 1e6F, "F_tooth,max: the largest in-plane force that one tooth may carry.", MILLFORCE_FIELD(tool.tooth_force_limit_N)},
+    {ParameterFile::tool, "tool", "break_share", "1", 1.5F, 1.0F, 10.0F, "A tooth breaks at this multiple of its limit (simulation).", MILLFORCE_FIELD(tool.break_share)},
+
+    {ParameterFile::tool, "cutting", "k_s_N_per_mm2", "N/mm²", required, 1.0F, 1e6F, "K_s at a mean chip thickness of 1 mm: K_s = k_s t_a^p_s.", MILLFORCE_FIELD(tool.law.k_s_N_per_mm2)},
+    {ParameterFile::tool, "cutting", "p_s", "1", 0.0F, -0.95F, 0.5F, "Exponent of K_s over the mean chip thickness.", MILLFORCE_FIELD(tool.law.p_s)},
+    {ParameterFile::tool, "cutting", "k_1", "1", required, 0.0F, 10.0F, "r_1 = F_r/F_t at a mean chip thickness of 1 mm: r_1 = k_1 t_a^p_1.", MILLFORCE_FIELD(tool.law.k_1)},
+    {ParameterFile::tool, "cutting", "p_1", "1", 0.0F, -2.0F, 1.0F, "Exponent of r_1 over the mean chip thickness.", MILLFORCE_FIELD(tool.law.p_1)},
+    {ParameterFile::tool, "cutting", "K_te_N_per_mm", "N/mm", 0.0F, 0.0F, 1e4F, "Tangential edge force per length of edge.", MILLFORCE_FIELD(tool.law.K_te_N_per_mm)},
+    {ParameterFile::tool, "cutting", "K_re_N_per_mm", "N/mm", 0.0F, 0.0F, 1e4F, "Radial edge force per length of edge.", MILLFORCE_FIELD(tool.law.K_re_N_per_mm)},
+    {ParameterFile::tool, "cutting", "K_s_relative_sd", "1", 0.05F, 0.0F, 2.0F, "Standard deviation of ln K_s at the reference chip thickness.", MILLFORCE_FIELD(tool.law.K_s_relative_sd)},
+    {ParameterFile::tool, "cutting", "K_s_exponent_sd", "1", 0.0F, 0.0F, 2.0F, "Its growth per unit of ln(t_a/t_ref).", MILLFORCE_FIELD(tool.law.K_s_exponent_sd)},
+    {ParameterFile::tool, "cutting", "r_1_relative_sd", "1", 0.05F, 0.0F, 2.0F, "Standard deviation of ln r_1 at the reference chip thickness.", MILLFORCE_FIELD(tool.law.r_1_relative_sd)},
+    {ParameterFile::tool, "cutting", "r_1_exponent_sd", "1", 0.0F, 0.0F, 2.0F, "Its growth per unit of ln(t_a/t_ref).", MILLFORCE_FIELD(tool.law.r_1_exponent_sd)},
+    {ParameterFile::tool, "cutting", "reference_chip_thickness_mm", "mm", 0.0F, 0.0F, 10.0F, "Chip thickness at which the calibration knew most; 0: the doubt does not grow.", MILLFORCE_FIELD(tool.law.reference_chip_thickness_mm)},
+    {ParameterFile::tool, "cutting", "minimum_chip_thickness_mm", "mm", 0.0F, 0.0F, 10.0F, "Thinnest mean chip of the calibration cuts.", MILLFORCE_FIELD(tool.law.minimum_chip_thickness_mm)},
+    {ParameterFile::tool, "cutting", "maximum_chip_thickness_mm", "mm", 0.0F, 0.0F, 10.0F, "Thickest mean chip of the calibration cuts; 0: not told.", MILLFORCE_FIELD(tool.law.maximum_chip_thickness_mm)},
+    {ParameterFile::tool, "cutting", "law_relative_sd", "1", 0.02F, 0.0F, 1.0F, "Misfit of the law itself, relative to the tangential force.", MILLFORCE_FIELD(tool.law_relative_sd)},
+
+    {ParameterFile::tool, "control", "entry_feed_per_tooth_mm", "mm", required, 1e-4F, 10.0F, "Feed ceiling from contact until the engagement is known.", MILLFORCE_FIELD(tool.control.entry_feed_per_tooth_mm)},
+    {ParameterFile::tool, "control", "air_feed_per_tooth_mm", "mm", required, 1e-4F, 10.0F, "Feed ceiling in air: the feed at which the tool may meet the workpiece.", MILLFORCE_FIELD(tool.control.air_feed_per_tooth_mm)},
+    {ParameterFile::tool, "control", "max_feed_per_tooth_mm", "mm", required, 1e-4F, 10.0F, "Feed ceiling in cut: what edge and chip space allow.", MILLFORCE_FIELD(tool.control.max_feed_per_tooth_mm)},
+    {ParameterFile::tool, "control", "setpoint_share", "1", 0.92F, 0.1F, 1.0F, "Share of the tooth's limit that steady cutting is held at.", MILLFORCE_FIELD(tool.control.setpoint_share)},
+    {ParameterFile::tool, "control", "recovery_per_rev", "1", 0.25F, 0.001F, 1.0F, "Share of the way up that the override goes in one revolution.", MILLFORCE_FIELD(tool.control.recovery_per_rev)},
+    {ParameterFile::tool, "control", "slew_up_per_s", "1/s", 2.0F, 0.001F, 1e3F, "Largest rise of the override per second.", MILLFORCE_FIELD(tool.control.slew_up_per_s)},
+    {ParameterFile::tool, "control", "slew_down_per_s", "1/s", 40.0F, 0.001F, 1e4F, "Largest fall of the override per second.", MILLFORCE_FIELD(tool.control.slew_down_per_s)},
+    {ParameterFile::tool, "control", "entry_revolutions", "1", 2.0F, 0.0F, 100.0F, "Revolutions after contact before the estimate is trusted to raise the feed.", MILLFORCE_FIELD(tool.control.entry_revolutions)},
+    {ParameterFile::tool, "control", "exit_travel_mm", "mm", 2.0F, 0.0F, 1e3F, "Travel without contact before the tool counts as in air.", MILLFORCE_FIELD(tool.control.exit_travel_mm)},
+    {ParameterFile::tool, "control", "contact_force_N", "N", 40.0F, 0.01F, 1e5F, "Mean tangential force that counts as contact.", MILLFORCE_FIELD(tool.control.contact_force_N)},
+    {ParameterFile::tool, "control", "contact_significance", "1", 4.0F, 0.0F, 100.0F, "… and by how many standard deviations.", MILLFORCE_FIELD(tool.control.contact_significance)},
+    {ParameterFile::tool, "control", "surge_radial_immersion", "1", 0.0F, 0.0F, 2.0F, "Largest immersion that may come without warning; 0: none does.", MILLFORCE_FIELD(tool.control.surge_radial_immersion)},
+    {ParameterFile::tool, "control", "surge_share", "1", 1.05F, 0.1F, 2.0F, "Share of the tooth's limit that such a surge may reach.", MILLFORCE_FIELD(tool.control.surge_share)},
+    {ParameterFile::tool, "control", "overload_share", "1", 1.35F, 1.0F, 10.0F, "Share of the tooth's limit above which the feed is held and the fault latched.", MILLFORCE_FIELD(tool.control.overload_share)},
+    {ParameterFile::tool, "control", "overload_revolutions", "1", 3.0F, 0.0F, 1e3F, "… when it lasts for so many revolutions though the override falls.", MILLFORCE_FIELD(tool.control.overload_revolutions)},
+    {ParameterFile::tool, "control", "no_estimate_hold_s", "s", 0.5F, 0.0F, 60.0F, "In cut without an estimate for longer: state hold.", MILLFORCE_FIELD(tool.control.no_estimate_hold_s)},
+    {ParameterFile::tool, "control", "monitor_only", "", 0.0F, 0.0F, 1.0F, "Estimate and watch, but leave the override to the operator.", MILLFORCE_FIELD(tool.monitor_only), "false|true"},
+});
+
+#undef MILLFORCE_FIELD
+#undef MILLFORCE_AXIS
+// clang-format on
+
+}  // namespace millforce::firmware

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "control/feed_controller.hpp"
+#include "estimation/cut_estimator.hpp"
+
+#include <array>
+#include <cstddef>
+
+/// The parameters of a machine and a tool: plain structures, and the tables that describe each of their fields once.
+/// The tables (parameter_table.hpp) feed the TOML reader, the documentation and, on a target, the flash block.
+
+namespace millforce::firmware {
+
+/// The CNC and its override input.
+template <typename Scalar>
+struct CncParameters {
+    Scalar override_min{0.1F};
+    Scalar override_max{1.5F};
+    Scalar override_latency_s{0.01F};
+    Scalar acceleration_mm_s2{2000};
+    Scalar stale_s{0.05F};
+    Scalar sample_rate_hz{1000};
+};
+
+template <typename Scalar>
+struct MachineParameters {
+    estimation::SpindleDriveParameters<Scalar> spindle{};
+    Scalar spindle_rated_current_A{0};
+    Scalar encoder_counts_per_rev{4096};
+    std::array<estimation::FeedDriveParameters<Scalar>, 3> axes{};
+    std::array<Scalar, 3> axis_rated_current_A{};
+    CncParameters<Scalar> cnc{};
+};
+
+template <typename Scalar>
+struct ToolParameters {
+    Scalar teeth{4};
+    Scalar diameter_mm{10};
+    Scalar helix_deg{30};
+    Scalar flute_length_mm{20};
+    Scalar runout_um{0};
+    Scalar side{0};  ///< index into estimation::CutSide
+    Scalar centre_offset_mm{0};
+    Scalar tooth_force_limit_N{0};
+    Scalar break_share{1.5F};
+    Scalar law_relative_sd{0.02F};
+    estimation::CuttingLaw<Scalar> law{};
+    control::FeedControllerParameters<Scalar> control{};
+    Scalar monitor_only{0};
+};
+
+template <typename Scalar>
+struct Parameters {
+    MachineParameters<Scalar> machine{};
+    ToolParameters<Scalar> tool{};
+};
+
+/// Settings of the estimator, worked out from the parameters.
+template <typename Scalar>
+estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Scalar>& p) {
+    estimation::CutEstimatorSettings<Scalar> s;
+    const Scalar radius_mm = p.tool.diameter_mm * Scalar(0.5F);
+    s.teeth = p.tool.teeth;
+    s.cutter_radius_mm = radius_mm;
+    s.helix_rad = p.tool.helix_deg * estimation::pi<Scalar> / Scalar(180);
+    s.runout_mm = p.tool.runout_um * Scalar(0.001F);
+    s.side = static_cast<estimation::CutSide>(static_cast<unsigned char>(p.tool.side));
+    s.centre_offset_in_radii = p.tool.centre_offset_mm / radius_mm;
+    s.largest_depth_mm = p.tool.flute_length_mm;
+    s.nominal_feed_per_tooth_mm = p.tool.control.entry_feed_per_tooth_mm;
+    s.surge_immersion = p.tool.control.surge_radial_immersion;
+    s.tooth_force_limit_N = p.tool.tooth_force_limit_N;
+    s.law_relative_sd = p.tool.law_relative_sd;
+    s.encoder_counts_per_rev = static_cast<std::uint32_t>(p.machine.encoder_counts_per_rev);
+    return s;
+}
+
+/// Parameters of the controller: the tool's, with the machine's limits.
+template <typename Scalar>
+control::FeedControllerParameters<Scalar> controller_parameters(const Parameters<Scalar>& p) {
+    control::FeedControllerParameters<Scalar> c = p.tool.control;
+    c.tooth_force_limit_N = p.tool.tooth_force_limit_N;
+    c.teeth = p.tool.teeth;
+    c.override_min = p.machine.cnc.override_min;
+    c.override_max = p.machine.cnc.override_max;
+    c.stale_s = p.machine.cnc.stale_s;
+    c.monitor_only = p.tool.monitor_only > Scalar(0.5F);
+    return c;
+}
+
+}  // namespace millforce::firmware

@@ -1,0 +1,155 @@
+#pragma once
+
+#include "control/feed_controller.hpp"
+#include "estimation/cut_estimator.hpp"
+#include "firmware/parameters.hpp"
+#include "hal/drive_sample.hpp"
+#include "hal/feed_override.hpp"
+
+/// The tick: one drive sample in, one feed override out. The same class runs on the drive controller, in the daemon and
+/// in the simulation.
+///
+/// Rezeroing in air is its own: while the controller's state is `air`, the spindle turns evenly and its torque is near
+/// its idle value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows
+/// can so not be taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain.
+
+namespace millforce::firmware {
+
+template <typename Scalar>
+class ForceControlTick {
+  public:
+    explicit ForceControlTick(const Parameters<Scalar>& parameters)
+        : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
+                     parameters.tool.law),
+          controller_(controller_parameters(parameters)),
+          control_parameters_(controller_parameters(parameters)) {}
+
+    /// A new drive sample. Cost: accumulation, and once per tooth period the estimate.
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+        const Scalar dt_s = elapsed_s(sample.time_us);
+        const estimation::DriveSignals<Scalar> signals = taken_from(sample);
+        const bool has_angle = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
+        if (!has_angle) {
+            estimator_.restart();
+        }
+        const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
+                                                       sample.spindle_index_number, signals);
+        if (fresh) {
+            rezero_in_air();
+        }
+        return output_of(controller_.step(control_input(dt_s, signals, program, fresh)));
+    }
+
+    /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
+    hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
+        control::ControlInput<Scalar> input = control_input(Scalar(dt_s), {}, program, false);
+        input.time_since_sample_s = Scalar(silent_s);
+        input.cut.force_valid = false;
+        has_time_ = false;
+        return output_of(controller_.step(input));
+    }
+
+    void reset_fault() { controller_.reset(); }
+
+    [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return estimator_.estimate(); }
+    [[nodiscard]] const estimation::CutEstimator<Scalar>& estimator() const { return estimator_; }
+    [[nodiscard]] const control::ControlOutput<Scalar>& control() const { return control_; }
+
+  private:
+    Scalar elapsed_s(std::uint32_t time_us) {
+        const Scalar dt_s = has_time_ ? static_cast<Scalar>(time_us - last_time_us_) * static_cast<Scalar>(1e-6L)
+                                      : Scalar(0);
+        last_time_us_ = time_us;
+        has_time_ = true;
+        return dt_s;
+    }
+
+    [[nodiscard]] static bool is_finite(float value) { return value - value == 0.0F; }
+
+    static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
+        estimation::DriveSignals<Scalar> signals;
+        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && is_finite(sample.spindle_current_A)) {
+            signals.spindle_current_A = Scalar(sample.spindle_current_A);
+            signals.present |= 1U;
+        }
+        for (std::size_t k = 0; k < hal::axis_count; ++k) {
+            const bool there = (sample.present & hal::axis_mask(k)) != 0 && is_finite(sample.axis_current_A[k]) &&
+                               is_finite(sample.axis_velocity_mm_s[k]);
+            if (there) {
+                signals.axis_current_A[k] = Scalar(sample.axis_current_A[k]);
+                signals.axis_velocity_mm_s[k] = Scalar(sample.axis_velocity_mm_s[k]);
+                signals.present |= 2U << k;
+            }
+        }
+        return signals;
+    }
+
+    void rezero_in_air() {
+        const auto& estimate = estimator_.estimate();
+        const bool in_air = controller_.state() == control::CutState::air;
+        const Scalar half_contact_N = Scalar(0.5F) * control_parameters_.contact_force_N;
+        const bool looks_idle = estimate.tangential_N.valid &&
+                                (!was_rezeroed_ || estimate.tangential_N.value < half_contact_N);
+        air_periods_ = in_air && looks_idle ? air_periods_ + 1 : 0;
+        // The first windows after a change hold a mixture of air and cut.
+        if (air_periods_ > 2 * static_cast<int>(control_parameters_.teeth)) {
+            estimator_.rezero();
+            was_rezeroed_ = true;
+            air_periods_ = 2 * static_cast<int>(control_parameters_.teeth);
+        }
+    }
+
+    control::ControlInput<Scalar> control_input(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals,
+                                                const hal::ProgramStatus& program, bool fresh) const {
+        using std::sqrt;
+        const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+        control::ControlInput<Scalar> input;
+        input.dt_s = dt_s;
+        input.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
+        input.operator_override = Scalar(program.operator_override);
+        input.rapid = program.rapid;
+        input.feed_hold = program.feed_hold;
+        const auto& v = signals.axis_velocity_mm_s;
+        input.path_speed_mm_s = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        control::CutEstimateForControl<Scalar>& cut = input.cut;
+        cut.fresh = fresh;
+        const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
+        cut.spindle_turning = e.window_s > Scalar(0) && estimator_.since_period_s() < period_timeout_s;
+        cut.force_valid = e.tangential_N.valid && cut.spindle_turning;
+        const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
+        const auto& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
+        cut.tangential_N = F_at.value;
+        cut.tangential_sd_N = sqrt(F_at.variance);
+        cut.tooth_force_valid = e.tooth_force_N.valid;
+        cut.tooth_force_N = e.tooth_force_N.valid ? e.tooth_force_N.value + sqrt(e.tooth_force_N.variance)
+                                                  : e.worst_tooth_force_N;
+        cut.surge_ratio = e.surge_ratio;
+        cut.force_feed_exponent = e.force_feed_exponent;
+        cut.feed_mm_s = e.feed_mm_s;
+        cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
+        return input;
+    }
+
+    hal::FeedOverride output_of(const control::ControlOutput<Scalar>& control) {
+        control_ = control;
+        hal::FeedOverride output;
+        output.ratio = static_cast<float>(control.ratio);
+        output.hold = control.hold;
+        output.state = static_cast<std::uint8_t>(control.state);
+        output.fault = static_cast<std::uint8_t>(control.fault);
+        output.heartbeat = ++heartbeat_;
+        return output;
+    }
+
+    estimation::CutEstimator<Scalar> estimator_;
+    control::FeedController<Scalar> controller_;
+    control::FeedControllerParameters<Scalar> control_parameters_;
+    control::ControlOutput<Scalar> control_{};
+    std::uint32_t last_time_us_ = 0;
+    std::uint32_t heartbeat_ = 0;
+    bool has_time_ = false;
+    bool was_rezeroed_ = false;
+    int air_periods_ = 0;
+};
+
+}  // namespace millforce::firmware

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+/// What the machine tells the controller, once per sample. Plain data: a driver fills it, the tick reads it.
+/// Nothing here depends on a bus, a chip or an operating system.
+
+namespace millforce::hal {
+
+inline constexpr std::size_t axis_count = 3;
+
+/// Which quantities of a sample are present. A quantity that is not present, or not finite, is "no measurement".
+enum class Present : std::uint8_t {
+    spindle_count = 1U << 0U,
+    spindle_current = 1U << 1U,
+    x_axis = 1U << 2U,
+    y_axis = 1U << 3U,
+    z_axis = 1U << 4U,
+};
+
+constexpr std::uint8_t mask(Present quantity) { return static_cast<std::uint8_t>(quantity); }
+constexpr std::uint8_t axis_mask(std::size_t axis) {
+    return static_cast<std::uint8_t>(mask(Present::x_axis) << axis);
+}
+inline constexpr std::uint8_t all_present = 0x1F;
+
+struct DriveSample {
+    std::uint32_t time_us = 0;  ///< wraps after 71.6 minutes; only differences are used
+
+    std::uint32_t spindle_count = 0;        ///< encoder count, wraps; increases in the cutting direction (M3)
+    std::uint32_t spindle_index_count = 0;  ///< the count latched at the last index pulse
+    std::uint8_t spindle_index_number = 0;  ///< increases by one at each index pulse, wraps; constant: no index wired
+
+    std::uint8_t present = 0;  ///< mask of Present
+
+    float spindle_current_A = 0.0F;
+    std::array<float, axis_count> axis_current_A{};
+    std::array<float, axis_count> axis_velocity_mm_s{};  ///< of the tool relative to the workpiece
+};
+
+/// What the CNC and the operator tell, whenever it changes.
+struct ProgramStatus {
+    float programmed_feed_mm_s = 0.0F;  ///< F of the block in work; 0: not known
+    float operator_override = 1.0F;     ///< the operator's own override; always wins downwards
+    bool rapid = false;                 ///< a G0 block is in work
+    bool feed_hold = false;             ///< the operator or the CNC holds the feed
+};
+
+}  // namespace millforce::hal

@@ -1,0 +1,25 @@
+#include "calibration/calibration_report.hpp"
+
+#include <fmt/format.h>
+
+namespace millforce::sim {
+
+void print_fitted(std::ostream& out, const FittedValue& fitted) {
+    out << fmt::format("  {:<40} {:>12.6g} ± {:<10.3g} {}\n", fitted.key.name, fitted.value, fitted.standard_error,
+                       fitted.key.unit);
+}
+
+void write_fitted(TomlWriter& toml, const FittedValue& fitted) {
+    toml.key(fitted.key.name, fitted.value);
+    toml.key(std::string(fitted.key.name) + "_se", fitted.standard_error);
+}
+
+std::string list_of_files(const std::vector<std::filesystem::path>& files) {
+    std::string result;
+    for (const auto& file : files) {
+        result += (result.empty() ? "" : ", ") + file.filename().string();
+    }
+    return result;
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "calibration/calibration_keys.hpp"
+#include "files/toml_writer.hpp"
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace millforce::sim {
+
+/// Exit codes of the program's commands; bad input is an InputError, for which the program returns 2.
+inline constexpr int exit_done = 0;
+inline constexpr int exit_bound_broken = 1;
+
+/// A fitted value as it is printed and written.
+struct FittedValue {
+    CalibrationKey key;
+    double value = 0.0;
+    double standard_error = 0.0;
+};
+
+/// Prints one aligned line "name  value ± standard error  unit".
+void print_fitted(std::ostream& out, const FittedValue& fitted);
+
+/// Writes KEY and KEY_se.
+void write_fitted(TomlWriter& toml, const FittedValue& fitted);
+
+/// "a.csv, b.csv" for a TOML comment.
+std::string list_of_files(const std::vector<std::filesystem::path>& files);
+
+}  // namespace millforce::sim

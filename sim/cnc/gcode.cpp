@@ -1,0 +1,413 @@
+#include "cnc/gcode.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <istream>
+#include <numbers>
+#include <optional>
+
+#include "cnc/gcode_words.hpp"
+#include "files/input_error.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+constexpr double arc_tolerance_mm = 0.005;
+constexpr double largest_coordinate_mm = 1e5;
+constexpr double largest_feed_mm_min = 1e6;
+constexpr double largest_spindle_speed_rpm = 1e6;
+constexpr double longest_dwell_s = 3600.0;
+constexpr double mm_per_inch = 25.4;
+constexpr std::size_t largest_text_bytes = std::size_t{256} << 20U;
+
+constexpr std::string_view known_g_codes = "one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G80 G90 G91 G94";
+
+/// Codes of one group exclude each other within a block.
+enum ModalGroup : std::size_t {
+    motion,
+    dwell,
+    plane,
+    units,
+    distance,
+    cutter_compensation,
+    tool_length,
+    coordinate_system,
+    canned_cycle,
+    feed_mode,
+    spindle,
+    stopping,
+    group_count,
+};
+
+/// The words of a block, sorted by what they are; each points into the block.
+struct SortedBlock {
+    std::array<const GcodeWord*, group_count> codes{};
+    std::array<const GcodeWord*, 26> addresses{};
+
+    const GcodeWord* code(ModalGroup group) const { return codes[group]; }
+    const GcodeWord* address(char letter) const { return addresses[static_cast<std::size_t>(letter - 'A')]; }
+    const GcodeWord* first_of(std::string_view letters) const {
+        const GcodeWord* first = nullptr;
+        for (const char letter : letters) {
+            const GcodeWord* word = address(letter);
+            if (word != nullptr && (first == nullptr || word->column < first->column)) {
+                first = word;
+            }
+        }
+        return first;
+    }
+};
+
+class Interpreter {
+  public:
+    Interpreter(std::string_view file_name, const GcodeSettings& settings)
+        : file_name_(file_name), max_moves_(settings.max_moves), position_mm_(settings.start_mm) {}
+
+    void run(const GcodeBlock& block) {
+        line_ = block.line;
+        if (block.is_percent) {
+            ended_ = percent_seen_ || block_seen_;
+            percent_seen_ = true;
+            return;
+        }
+        if (block.words.empty()) {
+            return;
+        }
+        block_seen_ = true;
+        const SortedBlock sorted = sort(block);
+        set_modes(sorted);
+        run_dwell(sorted);
+        run_motion(sorted);
+        ended_ = sorted.code(stopping) != nullptr;
+    }
+
+    bool ended() const { return ended_; }
+    std::vector<Move> take_moves() { return std::move(moves_); }
+
+  private:
+    [[noreturn]] void fail(const GcodeWord& word, std::string_view expected) const {
+        reject({file_name_, line_, word.column}, word.text, expected);
+    }
+
+    ModalGroup group_of_g(const GcodeWord& word) const {
+        const double tenfold = word.value * 10.0;
+        if (!(tenfold >= 0.0 && tenfold <= 9999.0) || std::abs(tenfold - std::round(tenfold)) > 1e-6) {
+            fail(word, known_g_codes);
+        }
+        switch (std::lround(tenfold)) {
+            case 0:
+            case 10:
+            case 20:
+            case 30:
+                return motion;
+            case 40:
+                return dwell;
+            case 170:
+                return plane;
+            case 180:
+            case 190:
+                fail(word, "G17: arcs lie in the xy plane only");
+            case 200:
+            case 210:
+                return units;
+            case 900:
+            case 910:
+                return distance;
+            case 400:
+                return cutter_compensation;
+            case 490:
+                return tool_length;
+            case 540:
+                return coordinate_system;
+            case 800:
+                return canned_cycle;
+            case 940:
+                return feed_mode;
+            default:
+                fail(word, known_g_codes);
+        }
+    }
+
+    ModalGroup group_of_m(const GcodeWord& word) const {
+        if (word.value == 3.0 || word.value == 5.0) {
+            return spindle;
+        }
+        if (word.value == 2.0 || word.value == 30.0) {
+            return stopping;
+        }
+        if (word.value == 4.0) {
+            fail(word, "M3: the cutter is right-handed and cuts clockwise only");
+        }
+        fail(word, "one of M2 M3 M5 M30");
+    }
+
+    SortedBlock sort(const GcodeBlock& block) const {
+        SortedBlock sorted;
+        for (const GcodeWord& word : block.words) {
+            const bool is_code = word.letter == 'G' || word.letter == 'M';
+            if (!is_code && std::string_view("FIJNPRSXYZ").find(word.letter) == std::string_view::npos) {
+                fail(word, "one of the words F G I J M N P R S X Y Z");
+            }
+            const GcodeWord*& slot = word.letter == 'G' ? sorted.codes[group_of_g(word)]
+                                     : word.letter == 'M'
+                                         ? sorted.codes[group_of_m(word)]
+                                         : sorted.addresses[static_cast<std::size_t>(word.letter - 'A')];
+            if (slot != nullptr) {
+                fail(word, fmt::format("no second word of the group of '{}' in one block", slot->text));
+            }
+            slot = &word;
+        }
+        check_block_number(block, sorted);
+        return sorted;
+    }
+
+    void check_block_number(const GcodeBlock& block, const SortedBlock& sorted) const {
+        const GcodeWord* number = sorted.address('N');
+        if (number == nullptr) {
+            return;
+        }
+        if (number != &block.words.front()) {
+            fail(*number, "the block number at the begin of the block");
+        }
+        if (!(number->value >= 0.0 && number->value <= 999'999'999.0) || number->value != std::floor(number->value)) {
+            fail(*number, "a block number from 0 to 999999999");
+        }
+    }
+
+    void set_modes(const SortedBlock& block) {
+        if (const GcodeWord* word = block.code(units)) {
+            mm_per_unit_ = word->value == 20.0 ? mm_per_inch : 1.0;
+        }
+        if (const GcodeWord* word = block.code(distance)) {
+            relative_ = word->value == 91.0;
+        }
+        if (const GcodeWord* word = block.address('F')) {
+            const double feed_mm_min = word->value * mm_per_unit_;
+            if (!(feed_mm_min > 0.0 && feed_mm_min <= largest_feed_mm_min)) {
+                fail(*word, "a feed above 0 and at most 1000000 mm/min");
+            }
+            feed_mm_s_ = feed_mm_min / 60.0;
+        }
+        if (const GcodeWord* word = block.address('S')) {
+            if (!(word->value >= 0.0 && word->value <= largest_spindle_speed_rpm)) {
+                fail(*word, "a spindle speed from 0 to 1000000 rev/min");
+            }
+            spindle_speed_rad_s_ = word->value * 2.0 * std::numbers::pi / 60.0;
+        }
+        if (const GcodeWord* word = block.code(spindle)) {
+            spindle_on_ = word->value == 3.0;
+        }
+        if (const GcodeWord* word = block.code(motion)) {
+            constexpr std::array kinds{MoveKind::rapid, MoveKind::feed_line, MoveKind::arc_cw, MoveKind::arc_ccw};
+            motion_ = kinds[static_cast<std::size_t>(word->value + 0.5)];
+        }
+    }
+
+    void run_dwell(const SortedBlock& block) {
+        const GcodeWord* code = block.code(dwell);
+        const GcodeWord* time = block.address('P');
+        if (code == nullptr) {
+            if (time != nullptr) {
+                fail(*time, "P in a block with G4 only");
+            }
+            return;
+        }
+        if (time == nullptr) {
+            fail(*code, "G4 with P, the dwell in seconds");
+        }
+        if (!(time->value >= 0.0 && time->value <= longest_dwell_s)) {
+            fail(*time, "a dwell from 0 to 3600 s");
+        }
+        if (const GcodeWord* word = block.first_of("XYZIJR")) {
+            fail(*word, "no motion in a block with G4");
+        }
+        if (time->value > 0.0) {
+            Move move = next_move(MoveKind::dwell, position_mm_);
+            move.dwell_s = time->value;
+            append(move, *code);
+        }
+    }
+
+    void run_motion(const SortedBlock& block) {
+        const GcodeWord* word = block.first_of("XYZIJR");
+        if (word == nullptr) {
+            return;
+        }
+        if (!motion_.has_value()) {
+            fail(*word, "G0, G1, G2 or G3 before it");
+        }
+        const GcodeWord& subject = block.code(motion) != nullptr ? *block.code(motion) : *word;
+        const Eigen::Vector3d target_mm = target(block);
+        Move move = next_move(*motion_, target_mm);
+        if (is_arc(move)) {
+            set_centre(move, block, subject);
+        } else if (const GcodeWord* stray = block.first_of("IJR")) {
+            fail(*stray, "I, J and R with an arc (G2, G3) only");
+        }
+        if (move.kind != MoveKind::rapid) {
+            require_cutting_conditions(subject);
+            move.feed_mm_s = feed_mm_s_;
+        }
+        position_mm_ = move.end_mm;
+        if (length_mm(move) > 0.0) {
+            append(move, subject);
+        }
+    }
+
+    void require_cutting_conditions(const GcodeWord& subject) const {
+        if (feed_mm_s_ <= 0.0) {
+            fail(subject, "a feed F before the first feed move");
+        }
+        if (!spindle_on_ || spindle_speed_rad_s_ <= 0.0) {
+            fail(subject, "a turning spindle (M3 and S above 0) before a feed move");
+        }
+    }
+
+    Move next_move(MoveKind kind, const Eigen::Vector3d& target_mm) const {
+        Move move;
+        move.kind = kind;
+        move.start_mm = position_mm_;
+        move.end_mm = target_mm;
+        move.spindle_speed_rad_s = spindle_on_ ? spindle_speed_rad_s_ : 0.0;
+        move.line = line_;
+        return move;
+    }
+
+    Eigen::Vector3d target(const SortedBlock& block) const {
+        Eigen::Vector3d result = position_mm_;
+        constexpr std::string_view axes = "XYZ";
+        for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+            if (const GcodeWord* word = block.address(axes[axis])) {
+                double& coordinate = result[static_cast<Eigen::Index>(axis)];
+                coordinate = word->value * mm_per_unit_ + (relative_ ? coordinate : 0.0);
+                if (!(std::abs(coordinate) <= largest_coordinate_mm)) {
+                    fail(*word, "a position within 100000 mm of the origin");
+                }
+            }
+        }
+        return result;
+    }
+
+    double offset_mm(const GcodeWord* word) const {
+        if (word == nullptr) {
+            return 0.0;
+        }
+        const double value = word->value * mm_per_unit_;
+        if (!(std::abs(value) <= largest_coordinate_mm)) {
+            fail(*word, "an arc's centre or radius within 100000 mm");
+        }
+        return value;
+    }
+
+    void set_centre(Move& move, const SortedBlock& block, const GcodeWord& subject) const {
+        const GcodeWord* radius = block.address('R');
+        const GcodeWord* centre = block.first_of("IJ");
+        if (radius != nullptr && centre != nullptr) {
+            fail(*radius, fmt::format("either a radius R or a centre I, J, not both ('{}')", centre->text));
+        }
+        if (radius == nullptr && centre == nullptr) {
+            fail(subject, "an arc with a centre (I, J) or a radius (R) in the same block");
+        }
+        if (radius != nullptr) {
+            set_centre_from_radius(move, *radius);
+            return;
+        }
+        move.centre_mm =
+            move.start_mm + Eigen::Vector3d(offset_mm(block.address('I')), offset_mm(block.address('J')), 0.0);
+        const double start_radius_mm = (move.start_mm - move.centre_mm).head<2>().norm();
+        const double end_radius_mm = (move.end_mm - move.centre_mm).head<2>().norm();
+        if (!(start_radius_mm > arc_tolerance_mm)) {
+            fail(*centre, "an arc radius above 0.005 mm");
+        }
+        if (!(std::abs(start_radius_mm - end_radius_mm) <= arc_tolerance_mm)) {
+            fail(*centre,
+                 fmt::format("the same radius at the arc's start ({:.4f} mm) and end ({:.4f} mm) within 0.005 mm",
+                             start_radius_mm, end_radius_mm));
+        }
+    }
+
+    void set_centre_from_radius(Move& move, const GcodeWord& word) const {
+        const double signed_radius_mm = offset_mm(&word);
+        const double radius_mm = std::abs(signed_radius_mm);
+        const Eigen::Vector2d chord = (move.end_mm - move.start_mm).head<2>();
+        const double chord_mm = chord.norm();
+        if (!(radius_mm > arc_tolerance_mm)) {
+            fail(word, "an arc radius above 0.005 mm");
+        }
+        if (!(chord_mm > 0.0)) {
+            fail(word, "an end away from the start: a full circle needs its centre as I, J");
+        }
+        if (!(0.5 * chord_mm <= radius_mm + arc_tolerance_mm)) {
+            fail(word, fmt::format("an arc radius of at least half the distance from start to end ({:.4f} mm)",
+                                   0.5 * chord_mm));
+        }
+        const double height_mm = std::sqrt(std::max(0.0, (radius_mm - 0.5 * chord_mm) * (radius_mm + 0.5 * chord_mm)));
+        const bool centre_on_left = (move.kind == MoveKind::arc_ccw) == (signed_radius_mm > 0.0);
+        const Eigen::Vector2d left = Eigen::Vector2d(-chord.y(), chord.x()) / chord_mm;
+        move.centre_mm = move.start_mm;
+        move.centre_mm.head<2>() += 0.5 * chord + (centre_on_left ? height_mm : -height_mm) * left;
+    }
+
+    void append(const Move& move, const GcodeWord& subject) {
+        if (moves_.size() >= max_moves_) {
+            fail(subject, fmt::format("a program of at most {} moves", max_moves_));
+        }
+        moves_.push_back(move);
+    }
+
+    std::string_view file_name_;
+    std::size_t max_moves_;
+    std::vector<Move> moves_;
+    Eigen::Vector3d position_mm_;
+    std::size_t line_ = 0;
+    double mm_per_unit_ = 1.0;
+    double feed_mm_s_ = 0.0;
+    double spindle_speed_rad_s_ = 0.0;
+    std::optional<MoveKind> motion_;
+    bool relative_ = false;
+    bool spindle_on_ = false;
+    bool percent_seen_ = false;
+    bool block_seen_ = false;
+    bool ended_ = false;
+};
+
+}  // namespace
+
+std::vector<Move> parse_gcode(std::string_view text, std::string_view file_name, const GcodeSettings& settings) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) {
+        text.remove_prefix(byte_order_mark.size());
+    }
+    Interpreter interpreter(file_name, settings);
+    std::size_t line = 1;
+    for (std::size_t begin = 0; begin < text.size(); ++line) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        interpreter.run(split_block(text.substr(begin, end - begin), file_name, line));
+        if (interpreter.ended()) {
+            return interpreter.take_moves();
+        }
+        begin = end + 1;
+    }
+    reject({file_name, line, 1}, "", "M2, M30 or a closing % at the end of the program");
+}
+
+std::vector<Move> parse_gcode(std::istream& stream, std::string_view file_name, const GcodeSettings& settings) {
+    std::string text;
+    std::array<char, 65536> chunk{};
+    while (stream.read(chunk.data(), chunk.size()) || stream.gcount() > 0) {
+        text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > largest_text_bytes) {
+            throw InputError(fmt::format("{}: found more than {} bytes, expected a part program of at most 256 MiB",
+                                         file_name, largest_text_bytes));
+        }
+    }
+    if (stream.bad()) {
+        throw InputError(fmt::format("{}: found a read error, expected a readable part program", file_name));
+    }
+    return parse_gcode(text, file_name, settings);
+}
+
+}  // namespace millforce::sim

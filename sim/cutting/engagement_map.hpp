@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+namespace millforce::sim {
+
+/// Where around the cutter there is material, and how high it stands: what the workpiece tells the cutting force.
+///
+/// Bin k covers angles φ in [k, k + 1)·2π/bin_count, φ from the normal to the feed (+y), clockwise, x = feed
+/// direction: a point of the periphery at φ lies at (x, y) = R (sin φ, cos φ). An edge element at angle φ and height z
+/// above the tool's tip is in material where bottom_mm ≤ z < top_mm of the bin. top_mm ≤ bottom_mm: nothing there.
+/// The first and last bin of each interval may be covered in part: `covered` is the share of the bin's angle that
+/// holds material, so that an engagement's width does not jump by whole bins.
+struct EngagementMap {
+    static constexpr std::size_t bin_count = 720;
+    static constexpr double bin_rad = 2.0 * std::numbers::pi / static_cast<double>(bin_count);
+
+    struct Bin {
+        float bottom_mm = 0.0F;
+        float top_mm = 0.0F;
+        float covered = 0.0F;
+    };
+
+    std::array<Bin, bin_count> bins{};
+};
+
+/// Whether the bin holds any material. A NaN anywhere in it counts as none.
+inline bool holds_material(const EngagementMap::Bin& bin) {
+    return bin.covered > 0.0F && bin.top_mm > bin.bottom_mm;
+}
+
+/// Where in a bin its material stands: from `low` to `high`, both 0…1 of the bin's angle, with `weight` of it filled.
+struct CoveredPart {
+    double low = 0.0;
+    double high = 1.0;
+    double weight = 1.0;
+};
+
+/// The part of bin `index` (< bin_count) that `covered` stands for. A bin in part covered that has material on one side
+/// only is the end of an interval, and its material stands on that side: so the entry and exit angles of a cut are
+/// known far better than to one bin. Where the neighbours do not tell (both or none), the material is spread evenly.
+inline CoveredPart covered_part(const EngagementMap& map, std::size_t index) {
+    constexpr std::size_t count = EngagementMap::bin_count;
+    const double covered = static_cast<double>(map.bins[index].covered);
+    if (covered >= 1.0) {
+        return {};
+    }
+    const bool before = holds_material(map.bins[index == 0 ? count - 1 : index - 1]);
+    const bool after = holds_material(map.bins[index == count - 1 ? 0 : index + 1]);
+    if (before == after) {
+        return {.low = 0.0, .high = 1.0, .weight = covered};
+    }
+    return before ? CoveredPart{.low = 0.0, .high = covered, .weight = 1.0}
+                  : CoveredPart{.low = 1.0 - covered, .high = 1.0, .weight = 1.0};
+}
+
+/// The same axial depth from entry to exit angle, as in a straight cut.
+inline EngagementMap uniform_engagement(double entry_rad, double exit_rad, double axial_depth_mm) {
+    EngagementMap map;
+    for (std::size_t k = 0; k < EngagementMap::bin_count; ++k) {
+        const double low = static_cast<double>(k) * EngagementMap::bin_rad;
+        const double high = low + EngagementMap::bin_rad;
+        const double overlap = (exit_rad < high ? exit_rad : high) - (entry_rad > low ? entry_rad : low);
+        if (overlap > 0.0) {
+            map.bins[k] = {0.0F, static_cast<float>(axial_depth_mm),
+                           static_cast<float>(overlap / EngagementMap::bin_rad)};
+        }
+    }
+    return map;
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,103 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "calibration/cutting_calibration.hpp"
+#include "calibration/estimate.hpp"
+#include "calibration/friction_calibration.hpp"
+#include "calibration/spindle_calibration.hpp"
+#include "files/parameter_files.hpp"
+#include "host/commands.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+using estimation::CutSide;
+
+CLI::CheckedTransformer side_names() {
+    return CLI::CheckedTransformer(
+        std::map<std::string, CutSide>{{"down", CutSide::down}, {"up", CutSide::up}, {"unknown", CutSide::unknown}},
+        CLI::ignore_case);
+}
+
+template <typename Options>
+void add_data_and_output(CLI::App* command, Options& options) {
+    command->add_option("data", options.data, "Measured data (CSV)")->required()->type_name("DATA.csv...");
+    command->add_option("-o,--output", options.output, "The fitted parameters")->required()->type_name("FILE.toml");
+}
+
+void add_friction(CLI::App* calibrate, int& exit_code) {
+    auto options = std::make_shared<FrictionCalibrationOptions>();
+    CLI::App* command = calibrate->add_subcommand("friction", "Feed axes: friction by direction, mass, weight");
+    add_data_and_output(command, *options);
+    command->add_option("--axis", options->axis, "Axis of data that holds a single one")
+        ->check(CLI::IsMember({"x", "y", "z"}))
+        ->capture_default_str();
+    command->add_option("--low-pass", options->low_pass_hz, "Zero-phase filter of position and force, Hz")
+        ->check(CLI::Range(0.1, 1e4))
+        ->capture_default_str();
+    command->add_option("--minimum-speed", options->minimum_speed_mm_s, "Slower samples are pre-sliding, mm/s")
+        ->check(CLI::Range(0.001, 1e4))
+        ->capture_default_str();
+    command->callback([options, &exit_code] { exit_code = calibrate_friction(*options, std::cout); });
+}
+
+void add_spindle(CLI::App* calibrate, int& exit_code) {
+    auto options = std::make_shared<SpindleCalibrationOptions>();
+    CLI::App* command = calibrate->add_subcommand("spindle", "Spindle: torque per ampere, idle torque, inertia");
+    add_data_and_output(command, *options);
+    command->add_option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
+        ->check(CLI::Range(0.01, 1e4))
+        ->capture_default_str();
+    command->callback([options, &exit_code] { exit_code = calibrate_spindle(*options, std::cout); });
+}
+
+void add_cutting(CLI::App* calibrate, int& exit_code) {
+    using estimation::CuttingLawForm;
+    auto options = std::make_shared<CuttingCalibrationOptions>();
+    CLI::App* command = calibrate->add_subcommand("cutting", "Material and tool: coefficients from measured cuts");
+    add_data_and_output(command, *options);
+    command->add_option("--side", options->side, "down, up or unknown: from the data")->transform(side_names());
+    command->add_option("--law", options->form, "linear_edge, power or combined")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
+                                                  {"power", CuttingLawForm::power},
+                                                  {"combined", CuttingLawForm::combined}},
+            CLI::ignore_case));
+    command->callback([options, &exit_code] { exit_code = calibrate_cutting(*options, std::cout); });
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, int& exit_code) {
+    CLI::App* calibrate = app.add_subcommand("calibrate", "Fits parameters to measured data, with standard errors");
+    calibrate->require_subcommand(1);
+    add_friction(calibrate, exit_code);
+    add_spindle(calibrate, exit_code);
+    add_cutting(calibrate, exit_code);
+}
+
+void add_estimate(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<EstimateOptions>();
+    CLI::App* command = app.add_subcommand("estimate", "Forces from conditions; depth or width from measured torque");
+    command->add_option("conditions", options->conditions, "Conditions (CSV)")->required()->type_name("CONDITIONS.csv");
+    command->add_option("--tool", options->tool, "Tool with its [cutting] table")->required()->type_name("T.toml");
+    command->add_option("-o,--output", options->output, "The rows with estimates (CSV); default: standard output");
+    command->add_option("--side", options->side, "down, up or unknown: the tool's")->transform(side_names());
+    command->callback([options, &exit_code] { exit_code = estimate(*options, std::cout); });
+}
+
+void add_parameters(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("parameters", "Lists every key of machine.toml and tool.toml (Markdown)");
+    command->callback([&exit_code] {
+        fmt::print("{}", parameter_documentation());
+        exit_code = 0;
+    });
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,159 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "files/atomic_file.hpp"
+#include "files/input_error.hpp"
+#include "files/progress.hpp"
+#include "host/commands.hpp"
+#include "loop/recording.hpp"
+#include "loop/simulation.hpp"
+#include "report/report.hpp"
+#include "report/summary.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+struct SimulateOptions {
+    std::string scenario;
+    std::string controller = "millforce";
+    std::optional<std::uint64_t> seed;
+    std::string out = "out";
+    bool record = false;
+    std::optional<double> cutting_force_scale;
+    std::optional<double> friction_scale;
+    std::optional<double> current_noise_share;
+};
+
+// A simulated peak or time over the limit beyond these is a broken bound: exit code 1.
+constexpr double peak_bound = 1.10;
+
+Scenario scenario_of(const SimulateOptions& options) {
+    Scenario scenario = read_scenario(options.scenario);
+    scenario.seed = options.seed.value_or(scenario.seed);
+    PlantDeviation& deviation = scenario.deviation;
+    deviation.cutting_force_scale = options.cutting_force_scale.value_or(deviation.cutting_force_scale);
+    deviation.friction_scale = options.friction_scale.value_or(deviation.friction_scale);
+    deviation.current_noise_share = options.current_noise_share.value_or(deviation.current_noise_share);
+    return scenario;
+}
+
+ScenarioInfo info_of(const Scenario& scenario, double constant_ratio) {
+    ScenarioInfo info;
+    info.name = scenario.name;
+    info.title = scenario.title;
+    info.description = scenario.description;
+    info.tool = fmt::format("{} teeth, Ø{:g} mm, helix {:g}°", scenario.cutter.teeth, scenario.cutter.diameter_mm,
+                            scenario.cutter.helix_rad * 180.0 / std::numbers::pi);
+    info.material = scenario.material;
+    info.seed = scenario.seed;
+    info.tooth_force_limit_N = static_cast<double>(scenario.parameters.tool.tooth_force_limit_N);
+    info.cutter_diameter_mm = scenario.cutter.diameter_mm;
+    info.spindle_speed_rad_s = scenario.spindle_speed_rad_s;
+    info.constant_feed_mm_s = scenario.feed_mm_s * constant_ratio;
+    info.has_top_view = scenario.has_program();
+    info.stock_min_x_mm = scenario.stock.block.min_x_mm;
+    info.stock_min_y_mm = scenario.stock.block.min_y_mm;
+    info.stock_max_x_mm = scenario.stock.block.max_x_mm;
+    info.stock_max_y_mm = scenario.stock.block.max_y_mm;
+    return info;
+}
+
+std::unique_ptr<OverrideSource> controller_named(const std::string& name, const Scenario& scenario,
+                                                 double constant_ratio) {
+    if (name == "constant") {
+        return std::make_unique<ConstantFeed>(scenario.parameters, constant_ratio);
+    }
+    if (name == "constant_load") {
+        return std::make_unique<ConstantLoad>(scenario.parameters, constant_load_reference_N(scenario.parameters));
+    }
+    return std::make_unique<MillforceController>(scenario.parameters);
+}
+
+RunResult run(const Scenario& scenario, const std::string& name, double constant_ratio, const SimulateOptions& options,
+              const std::filesystem::path& recording) {
+    Progress progress(fmt::format("simulating {}", name), 1);
+    SimulationSettings settings;
+    settings.record = options.record;
+    settings.progress = [&](double share) {
+        progress.update(share);
+        return true;
+    };
+    const auto controller = controller_named(name, scenario, constant_ratio);
+    Simulated simulated = simulate(scenario, *controller, name, settings);
+    if (options.record) {
+        write_recording(recording, simulated.recording);
+    }
+    return std::move(simulated.result);
+}
+
+int simulate_scenario(const SimulateOptions& options) {
+    const Scenario scenario = scenario_of(options);
+    const std::filesystem::path out(options.out);
+    std::error_code error;
+    std::filesystem::create_directories(out, error);
+    if (error) {
+        throw InputError(fmt::format("{}: cannot be made a folder: {}", options.out, error.message()));
+    }
+    double ratio = 0.0;
+    {
+        Progress progress("finding the constant feed that is safe everywhere", 1);
+        SimulationSettings settings;
+        settings.progress = [&](double share) {
+            progress.update(share);
+            return true;
+        };
+        ratio = safe_constant_override(scenario, settings);
+    }
+    std::vector<RunResult> results;
+    results.push_back(run(scenario, options.controller, ratio, options, out / "recording.csv"));
+    if (options.controller != "constant") {
+        SimulateOptions baseline = options;
+        baseline.record = false;
+        results.push_back(run(scenario, "constant", ratio, baseline, {}));
+    }
+    const ScenarioInfo info = info_of(scenario, ratio);
+    fmt::print("{}", summary_table(info, results));
+    const auto files = write_report(out, info, results);
+    fmt::print("\nreport: {}\n", (out / "report.html").string());
+    const RunFigures& figures = results.front().figures;
+    const bool held = figures.finished && figures.teeth_broken == 0 && figures.peak_over_limit <= peak_bound;
+    if (!held) {
+        fmt::print(stderr, "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
+                           "{} teeth broken, {}\n",
+                   100.0 * figures.peak_over_limit, 100.0 * peak_bound, figures.teeth_broken,
+                   figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
+    }
+    return held ? 0 : 1;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<SimulateOptions>();
+    CLI::App* command = app.add_subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
+    command->add_option("scenario", options->scenario, "Scenario (TOML)")->required()->type_name("SCENARIO.toml");
+    command->add_option("--controller", options->controller, "Who sets the override")
+        ->check(CLI::IsMember(controller_names()))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of all noise; default: the scenario's");
+    command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")->capture_default_str();
+    command->add_flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
+    command->add_option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
+        ->check(CLI::Range(0.1, 10.0));
+    command->add_option("--friction-scale", options->friction_scale, "True friction over the machine's")
+        ->check(CLI::Range(0.0, 10.0));
+    command->add_option("--current-noise", options->current_noise_share, "Noise of a current sample over rated current")
+        ->check(CLI::Range(0.0, 0.5));
+    command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
+}
+
+}  // namespace millforce::sim

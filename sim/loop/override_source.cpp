@@ -1,0 +1,98 @@
+#include "loop/override_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millforce::sim {
+
+namespace {
+
+firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
+    parameters.tool.monitor_only = 1.0F;
+    return parameters;
+}
+
+double value_or_none(const estimation::Measurement<float>& measurement) {
+    return measurement.valid ? static_cast<double>(measurement.value) : no_estimate;
+}
+
+}  // namespace
+
+hal::FeedOverride MillforceController::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    return tick_.step(sample, program);
+}
+
+void MillforceController::describe(TracePoint& point) const {
+    const estimation::CutEstimate<float>& e = tick_.estimate();
+    const bool in_contact =
+        tick_.control().state != control::CutState::air && tick_.control().state != control::CutState::exit;
+    point.state = static_cast<std::uint8_t>(tick_.control().state);
+    point.limit = static_cast<std::uint8_t>(tick_.control().limit);
+    point.fault = static_cast<std::uint8_t>(tick_.control().fault);
+    point.tangential_force_N = value_or_none(e.tangential_N);
+    point.feed_force_N = value_or_none(e.feed_N);
+    if (!in_contact) {
+        return;
+    }
+    if (e.engagement.immersion_valid) {
+        point.radial_immersion = static_cast<double>(e.engagement.radial_immersion);
+        point.radial_immersion_sd = static_cast<double>(e.engagement.radial_immersion_sd);
+    }
+    if (e.engagement.depth_valid) {
+        point.axial_depth_mm = static_cast<double>(e.engagement.axial_depth_mm);
+        point.axial_depth_sd_mm = static_cast<double>(e.engagement.axial_depth_sd_mm);
+    }
+    point.tooth_force_N = value_or_none(e.tooth_force_N);
+    if (e.tooth_force_N.valid) {
+        const auto total = tick_.estimator().total_force();
+        point.peak_force_N = static_cast<double>(total.peak_N);
+        point.force_limit_N = static_cast<double>(total.limit_N);
+    }
+}
+
+ConstantFeed::ConstantFeed(const firmware::Parameters<float>& parameters, double ratio)
+    : monitor_(monitoring(parameters)), ratio_(static_cast<float>(ratio)) {}
+
+hal::FeedOverride ConstantFeed::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    hal::FeedOverride output = monitor_.step(sample, program);
+    output.ratio = program.rapid ? 1.0F : ratio_;
+    output.hold = false;
+    return output;
+}
+
+ConstantLoad::ConstantLoad(const firmware::Parameters<float>& parameters, double reference_tangential_N)
+    : cnc_(parameters.machine.cnc),
+      monitor_(monitoring(parameters)),
+      reference_N_(static_cast<float>(reference_tangential_N)),
+      ratio_(1.0F) {}
+
+hal::FeedOverride ConstantLoad::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    hal::FeedOverride output = monitor_.step(sample, program);
+    const auto& e = monitor_.estimate();
+    // 200 ms of smoothing and an integrator of 1 s per full-scale error: figures that such products' manuals name.
+    const float dt_s = 1.0F / cnc_.sample_rate_hz;
+    if (e.tangential_N.valid) {
+        filtered_N_ += (e.tangential_N.value - filtered_N_) * std::min(1.0F, dt_s / 0.2F);
+    }
+    const float error = (reference_N_ - filtered_N_) / reference_N_;
+    ratio_ = std::clamp(ratio_ + error * dt_s, cnc_.override_min, std::min(cnc_.override_max, 1.5F));
+    output.ratio = program.rapid ? 1.0F : ratio_;
+    output.hold = false;
+    return output;
+}
+
+double constant_load_reference_N(const firmware::Parameters<float>& parameters) {
+    const auto settings = firmware::estimator_settings(parameters);
+    estimation::PeakFactorSettings<float> peak;
+    peak.teeth = settings.teeth;
+    peak.cutter_radius_mm = settings.cutter_radius_mm;
+    peak.helix_rad = settings.helix_rad;
+    peak.nominal_feed_per_tooth_mm = settings.nominal_feed_per_tooth_mm;
+    const auto factors =
+        estimation::peak_factors(parameters.tool.law, peak, 2.0F, 0.25F * parameters.tool.flute_length_mm);
+    return static_cast<double>(parameters.tool.tooth_force_limit_N / factors.tooth);
+}
+
+std::vector<std::string> controller_names() { return {"millforce", "constant", "constant_load"}; }
+
+}  // namespace millforce::sim

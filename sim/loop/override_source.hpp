@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/tick.hpp"
+#include "hal/drive_sample.hpp"
+#include "hal/feed_override.hpp"
+#include "report/run_result.hpp"
+
+namespace millforce::sim {
+
+/// Who sets the feed override: the project's own tick, or a baseline to compare it with. It sees what a controller on
+/// the machine sees, drive samples and the program's status, and nothing of the plant.
+class OverrideSource {
+  public:
+    virtual ~OverrideSource() = default;
+    virtual hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) = 0;
+    /// Writes the estimates of this moment into a trace point.
+    virtual void describe(TracePoint& point) const = 0;
+};
+
+/// The real tick, the same class that runs on a drive controller.
+class MillforceController : public OverrideSource {
+  public:
+    explicit MillforceController(const firmware::Parameters<float>& parameters) : tick_(parameters) {}
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
+    void describe(TracePoint& point) const override;
+    [[nodiscard]] const estimation::CutEstimate<float>& estimate() const { return tick_.estimate(); }
+
+  private:
+    firmware::ForceControlTick<float> tick_;
+};
+
+/// The feed as programmed, times a constant: what is done today, with a feed that is safe everywhere. It estimates all
+/// the same, in monitor mode, so that its report shows what it met.
+class ConstantFeed : public OverrideSource {
+  public:
+    ConstantFeed(const firmware::Parameters<float>& parameters, double ratio);
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
+    void describe(TracePoint& point) const override { monitor_.describe(point); }
+
+  private:
+    MillforceController monitor_;
+    float ratio_;
+};
+
+/// The habit of today's adaptive controls: hold the spindle load at one reference per tool, learnt by teach-in, with a
+/// fixed gain; the engagement is not known. The reference here is the mean load at which the tooth's limit is reached
+/// in a slot, so that the tool is safe in the worst engagement.
+class ConstantLoad : public OverrideSource {
+  public:
+    ConstantLoad(const firmware::Parameters<float>& parameters, double reference_tangential_N);
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
+    void describe(TracePoint& point) const override { monitor_.describe(point); }
+
+  private:
+    firmware::CncParameters<float> cnc_;
+    MillforceController monitor_;
+    float reference_N_;
+    float ratio_;
+    float filtered_N_ = 0.0F;
+};
+
+/// The load that a teach-in would set for a tool: the mean tangential force at which the tooth's limit is reached in a
+/// slot at the entry feed, at a quarter of the flute length.
+double constant_load_reference_N(const firmware::Parameters<float>& parameters);
+
+/// The controllers by name: "millforce", "constant", "constant_load".
+std::vector<std::string> controller_names();
+
+}  // namespace millforce::sim

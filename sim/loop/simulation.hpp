@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+
+#include "loop/override_source.hpp"
+#include "loop/scenario.hpp"
+#include "report/run_result.hpp"
+
+namespace millforce::sim {
+
+struct SimulationSettings {
+    double plant_step_s = 0.25e-3;
+    double trace_interval_s = 0.02;  ///< one revolution where that is longer
+    double longest_run_s = 3600.0;   ///< a program that has not ended by then is an error of the run, not of the user
+    bool record = false;             ///< keep every drive sample
+    /// Called about every simulated second with the share of the path done; false stops the run.
+    std::function<bool(double share)> progress;
+};
+
+struct RecordedSample {
+    hal::DriveSample sample;
+    double spindle_angle_rad = 0.0;
+    double override_ratio = 0.0;
+};
+
+struct Simulated {
+    RunResult result;
+    std::vector<RecordedSample> recording;
+    bool interrupted = false;
+};
+
+/// Runs a scenario against a controller, in closed loop: CNC → drives → tool and workpiece → cutting force → drives →
+/// samples → controller → override → CNC. Deterministic: the same scenario, deviation and seed give the same bits.
+Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,
+                   const SimulationSettings& settings = {});
+
+/// The largest constant override with which no tooth of this very plant (its true K_s, runout, geometry) exceeds its
+/// limit anywhere on the part: the best that a programmer who knew everything but could not vary the feed would choose.
+double safe_constant_override(const Scenario& scenario, const SimulationSettings& settings = {});
+
+}  // namespace millforce::sim

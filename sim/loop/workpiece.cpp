@@ -1,0 +1,81 @@
+#include "loop/workpiece.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/cut_geometry.hpp"
+
+namespace millforce::sim {
+
+void Workpiece::set(const EngagementMap& map) {
+    map_ = map;
+    truth_ = summarise(map);
+}
+
+StockWorkpiece::StockWorkpiece(const StockSettings& settings, const Cutter& cutter)
+    : cutter_(cutter),
+      map_(settings.block.min_x_mm, settings.block.min_y_mm, settings.block.max_x_mm, settings.block.max_y_mm,
+           settings.cell_mm, settings.block.top_start_mm) {
+    const auto set_box = [&](const StockBox& box) {
+        map_.set_box(box.min_x_mm, box.min_y_mm, box.max_x_mm, box.max_y_mm, box.top_start_mm, box.top_end_mm);
+    };
+    set_box(settings.block);
+    for (const StockBox& box : settings.boxes) {
+        set_box(box);
+    }
+    for (const StockCylinder& hole : settings.drilled) {
+        map_.set_cylinder(hole.x_mm, hole.y_mm, hole.diameter_mm, hole.top_mm);
+    }
+}
+
+bool StockWorkpiece::move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double) {
+    const double step_mm = 0.35 * map_.cell_mm();
+    const bool turned = (direction - last_direction_).squaredNorm() > 1e-4;
+    if (last_tip_mm_ && !turned && (tip_mm - *last_tip_mm_).norm() < step_mm) {
+        return false;
+    }
+    if (last_tip_mm_) {
+        map_.remove(cutter_, *last_tip_mm_, tip_mm);
+    }
+    set(engagement_at(map_, cutter_, tip_mm, direction));
+    last_tip_mm_ = tip_mm;
+    last_direction_ = direction;
+    return true;
+}
+
+ProfileWorkpiece::ProfileWorkpiece(const ProfileSettings& settings, const Cutter& cutter, estimation::CutSide side,
+                                   double centre_offset_mm)
+    : settings_(settings), cutter_(cutter), side_(side), centre_offset_mm_(centre_offset_mm) {}
+
+ProfilePoint ProfileWorkpiece::at(double path_mm) const {
+    const auto& points = settings_.points;
+    const auto after = std::upper_bound(points.begin(), points.end(), path_mm,
+                                        [](double s, const ProfilePoint& point) { return s < point.path_mm; });
+    if (after == points.begin()) {
+        return {path_mm, 0.0, 0.0};
+    }
+    const ProfilePoint& low = *(after - 1);
+    if (!settings_.linear || after == points.end()) {
+        return low;
+    }
+    const double share = (path_mm - low.path_mm) / (after->path_mm - low.path_mm);
+    return {path_mm, low.axial_depth_mm + (after->axial_depth_mm - low.axial_depth_mm) * share,
+            low.radial_width_mm + (after->radial_width_mm - low.radial_width_mm) * share};
+}
+
+bool ProfileWorkpiece::move_to(const Eigen::Vector3d&, const Eigen::Vector3d&, double path_mm) {
+    constexpr double step_mm = 0.02;
+    if (last_path_mm_ >= 0.0 && std::abs(path_mm - last_path_mm_) < step_mm) {
+        return false;
+    }
+    last_path_mm_ = path_mm;
+    const ProfilePoint now = at(path_mm);
+    const double radius = 0.5 * cutter_.diameter_mm;
+    const auto angles =
+        estimation::engagement_angles(side_, now.radial_width_mm / radius, centre_offset_mm_ / radius);
+    set(now.axial_depth_mm > 0.0 ? uniform_engagement(angles.entry_rad, angles.exit_rad, now.axial_depth_mm)
+                                 : EngagementMap{});
+    return true;
+}
+
+}  // namespace millforce::sim

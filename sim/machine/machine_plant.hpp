@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "hal/drive_sample.hpp"
+#include "machine/drive_plant.hpp"
+
+namespace millforce::sim {
+
+/// The machine as a whole: one spindle, three feed axes, and what their sensors tell.
+struct MachinePlantSettings {
+    SpindlePlantSettings spindle{};
+    std::array<FeedPlantSettings, 3> axes = standard_axes();
+    CurrentChannel current_channel = CurrentChannel::per_mille_int16;
+    double current_noise_share = 0.01;        ///< of rated current, per sample
+    double velocity_resolution_mm_s = 0.001;  ///< of the drive's velocity object
+    std::uint32_t encoder_counts_per_rev = 8192;
+    double index_offset_rad = 1.0;            ///< the index stands anywhere beside tooth 0
+    std::uint64_t seed = 1;
+
+    /// A table that weighs 250 kg in x, 320 kg in y, and a head of 180 kg in z that a weight pulls down.
+    static std::array<FeedPlantSettings, 3> standard_axes();
+};
+
+class MachinePlant {
+  public:
+    explicit MachinePlant(const MachinePlantSettings& settings);
+
+    void start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s);
+
+    struct Command {
+        Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+        Eigen::Vector3d velocity_mm_s = Eigen::Vector3d::Zero();
+        double spindle_speed_rad_s = 0.0;
+    };
+    struct Load {
+        Eigen::Vector3d force_on_workpiece_N = Eigen::Vector3d::Zero();  ///< in machine axes
+        double spindle_torque_Nm = 0.0;
+    };
+    void advance(double dt_s, const Command& command, const Load& load);
+
+    /// What the drives report now. The time is the machine's own, in µs.
+    [[nodiscard]] hal::DriveSample sample();
+
+    [[nodiscard]] Eigen::Vector3d position_mm() const;
+    [[nodiscard]] Eigen::Vector3d velocity_mm_s() const;
+    [[nodiscard]] double spindle_angle_rad() const { return spindle_.angle_rad(); }
+    [[nodiscard]] double spindle_speed_rad_s() const { return spindle_.speed_rad_s(); }
+    [[nodiscard]] double time_s() const { return time_s_; }
+
+  private:
+    MachinePlantSettings settings_;
+    SpindlePlant spindle_;
+    std::array<FeedPlant, 3> axes_;
+    CurrentSensor spindle_sensor_;
+    std::array<CurrentSensor, 3> axis_sensors_;
+    EncoderSensor encoder_;
+    double time_s_ = 0.0;
+};
+
+}  // namespace millforce::sim

@@ -1,0 +1,138 @@
+#include "estimation/feed_drive.hpp"
+#include "estimation/spindle_drive.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+
+using namespace millforce::estimation;
+
+namespace {
+
+SpindleDriveParameters<double> paper_spindle() {
+    SpindleDriveParameters<double> p;
+    p.K_t1_Nm_per_A = 196.61 * 0.004;  // Kim & Chung Eq. 8 at R = 4 mm
+    p.K_t2_Nm = -1911.0 * 0.004;
+    return p;
+}
+
+SpindleDrive<double>::Average at_current(double current_A, double speed_rad_s = 131.9) {
+    return {.current_A = current_A, .speed_rad_s = speed_rad_s, .samples = 40.0, .present = true};
+}
+
+FeedDriveParameters<double> paper_axis() {
+    FeedDriveParameters<double> p;
+    p.positive = {3.5788, -7.2469, 19.7252};
+    p.negative = {3.5788, -7.2469, 21.0};
+    p.gravity_A = -5.39;
+    p.K_x4_N_per_A = 100.0;
+    p.velocity_floor_mm_s = 0.5;
+    return p;
+}
+
+FeedDrive<double>::Average moving(double velocity_mm_s, double current_A) {
+    return {.current_A = current_A, .velocity_mm_s = velocity_mm_s, .duration_s = 0.05, .samples = 50.0,
+            .present = true};
+}
+
+}  // namespace
+
+TEST_GROUP(SpindleDrive){};
+
+TEST(SpindleDrive, gives_the_papers_force_and_none_at_its_idle_current) {
+    const SpindleDrive<double> drive(paper_spindle());
+    DOUBLES_EQUAL(196.61 * 15.0 - 1911.0, drive.tangential_force_N(at_current(15.0), 4.0).value, 1e-6);
+    DOUBLES_EQUAL(0.0, drive.tangential_force_N(at_current(9.7197), 4.0).value, 0.05);
+}
+
+TEST(SpindleDrive, takes_the_rotors_inertia_out) {
+    auto p = paper_spindle();
+    p.inertia_kg_m2 = 0.01;
+    const SpindleDrive<double> drive(p);
+    auto braking = at_current(12.0);
+    braking.acceleration_rad_s2 = -20.0;  // the rotor gives 0.2 N·m to the cut
+    DOUBLES_EQUAL(0.2 / 0.004, drive.tangential_force_N(braking, 4.0).value -
+                                   drive.tangential_force_N(at_current(12.0), 4.0).value, 1e-6);
+}
+
+TEST(SpindleDrive, gives_less_torque_per_ampere_in_field_weakening) {
+    auto p = paper_spindle();
+    p.K_t2_Nm = 0.0;
+    p.base_speed_rad_s = 200.0;
+    const SpindleDrive<double> drive(p);
+    const double below = drive.tangential_force_N(at_current(10.0, 150.0), 4.0).value;
+    const double above = drive.tangential_force_N(at_current(10.0, 400.0), 4.0).value;
+    DOUBLES_EQUAL(0.5, above / below, 1e-9);
+}
+
+TEST(SpindleDrive, learns_its_idle_torque_in_air_and_doubts_it_again_with_time) {
+    SpindleDrive<double> drive(paper_spindle());
+    const double before = drive.tangential_force_N(at_current(9.0), 4.0).variance;
+    for (int k = 0; k < 50; ++k) {
+        drive.rezero(at_current(9.0));
+    }
+    const auto rezeroed = drive.tangential_force_N(at_current(9.0), 4.0);
+    DOUBLES_EQUAL(0.0, rezeroed.value, 10.0);
+    CHECK(rezeroed.variance < before);
+    drive.predict(100.0);
+    CHECK(drive.tangential_force_N(at_current(9.0), 4.0).variance > rezeroed.variance);
+}
+
+TEST(SpindleDrive, has_no_estimate_without_current_or_rotation) {
+    const SpindleDrive<double> drive(paper_spindle());
+    auto absent = at_current(12.0);
+    absent.present = false;
+    CHECK_FALSE(drive.tangential_force_N(absent, 4.0).valid);
+    CHECK_FALSE(drive.tangential_force_N(at_current(12.0, 0.0), 4.0).valid);
+}
+
+TEST_GROUP(FeedDrive){};
+
+TEST(FeedDrive, subtracts_the_papers_friction_in_each_direction_and_the_weight) {
+    const FeedDrive<double> axis(paper_axis());
+    const double w = 0.3;  // m/min, 5 mm/s
+    const double friction = 3.5788 * w * w - 7.2469 * w + 19.7252;
+    DOUBLES_EQUAL(250.0, axis.force_N(moving(5.0, friction - 5.39 + 2.5)).value, 1e-6);
+    const double back = 3.5788 * w * w - 7.2469 * w + 21.0;
+    DOUBLES_EQUAL(-250.0, axis.force_N(moving(-5.0, -back - 5.39 - 2.5)).value, 1e-6);
+}
+
+TEST(FeedDrive, adds_the_term_over_feedrate_with_the_sign_of_travel) {
+    auto p = paper_axis();
+    p.K_x5_N_m_per_min = 12.0;
+    const FeedDrive<double> with(p);
+    const FeedDrive<double> without(paper_axis());
+    DOUBLES_EQUAL(40.0, with.force_N(moving(5.0, 20.0)).value - without.force_N(moving(5.0, 20.0)).value, 1e-9);
+    DOUBLES_EQUAL(-40.0, with.force_N(moving(-5.0, 20.0)).value - without.force_N(moving(-5.0, 20.0)).value, 1e-9);
+}
+
+TEST(FeedDrive, has_no_estimate_at_rest_or_where_it_turned_round) {
+    const FeedDrive<double> axis(paper_axis());
+    CHECK_FALSE(axis.force_N(moving(0.0, 3.0)).valid);
+    CHECK_FALSE(axis.force_N(moving(0.4, 3.0)).valid);
+    auto turning = moving(2.0, 3.0);
+    turning.acceleration_mm_s2 = -120.0;  // 3 mm/s less within half of the 50 ms
+    CHECK_FALSE(axis.force_N(turning).valid);
+    CHECK(axis.force_N(moving(2.0, 3.0)).valid);
+}
+
+TEST(FeedDrive, learns_twenty_percent_more_friction_in_air_for_each_direction) {
+    FeedDrive<double> axis(paper_axis());
+    const double w = 0.6;
+    const double friction = 3.5788 * w * w - 7.2469 * w + 19.7252;
+    for (int k = 0; k < 100; ++k) {
+        axis.rezero(moving(10.0, 1.2 * friction - 5.39));
+    }
+    DOUBLES_EQUAL(1.2, axis.friction_scale(true), 0.002);
+    DOUBLES_EQUAL(1.0, axis.friction_scale(false), 1e-12);
+    DOUBLES_EQUAL(0.0, axis.force_N(moving(10.0, 1.2 * friction - 5.39)).value, 3.0);
+}
+
+TEST(FeedDrive, takes_the_moved_mass_out) {
+    auto p = paper_axis();
+    p.mass_kg = 200.0;
+    const FeedDrive<double> axis(p);
+    auto accelerating = moving(10.0, 18.0);
+    accelerating.acceleration_mm_s2 = 100.0;
+    DOUBLES_EQUAL(-20.0, axis.force_N(accelerating).value - axis.force_N(moving(10.0, 18.0)).value, 1e-9);
+}

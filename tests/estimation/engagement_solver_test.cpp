@@ -1,0 +1,171 @@
+#include "estimation/engagement_solver.hpp"
+
+#include "laws.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+#include <random>
+
+using namespace millforce::estimation;
+using millforce::tests::carbide_in_SM45C;
+
+namespace {
+
+struct Cut {
+    CutSide side = CutSide::down;
+    double immersion = 0.5;
+    double depth_mm = 6.0;
+    double feed_per_tooth_mm = 0.05;
+    double direction_rad = 0.0;
+    bool y_moves = false;
+};
+
+AverageForces<double> true_forces(const Cut& cut, const CuttingLaw<double>& law) {
+    return average_forces(law, {cut.feed_per_tooth_mm, cut.depth_mm, engagement_angles(cut.side, cut.immersion), 4.0});
+}
+
+/// What the drives show of a cut, with noise of the given deviation on each force.
+AverageForceMeasurement<double> measured(const Cut& cut, double sd_N, std::mt19937* random = nullptr) {
+    const auto forces = true_forces(cut, carbide_in_SM45C<double>());
+    std::normal_distribution<double> normal(0.0, sd_N);
+    const auto noisy = [&](double value) { return value + (random != nullptr ? normal(*random) : 0.0); };
+    AverageForceMeasurement<double> m;
+    m.feed_direction_x = std::cos(cut.direction_rad);
+    m.feed_direction_y = std::sin(cut.direction_rad);
+    const double x = m.feed_direction_x * forces.feed_N - m.feed_direction_y * forces.normal_N;
+    const double y = m.feed_direction_y * forces.feed_N + m.feed_direction_x * forces.normal_N;
+    m.tangential_N = {true, noisy(forces.tangential_N), sd_N * sd_N};
+    m.x_N = {true, noisy(x), sd_N * sd_N};
+    m.y_N = {cut.y_moves, noisy(y), sd_N * sd_N};
+    return m;
+}
+
+EngagementSolver<double> solver(double law_relative_sd = 0.0) {
+    EngagementSolverSettings<double> settings;
+    settings.law_relative_sd = law_relative_sd;
+    return {carbide_in_SM45C<double>(), settings};
+}
+
+double force_ratio(CutSide side, double immersion) {
+    const auto f = true_forces({.side = side, .immersion = immersion, .feed_per_tooth_mm = 0.0496},
+                               carbide_in_SM45C<double>());
+    return f.feed_N / f.tangential_N;
+}
+
+}  // namespace
+
+TEST_GROUP(EngagementSolver){};
+
+TEST(EngagementSolver, works_on_the_published_force_ratios) {
+    // Down milling is monotone, up milling has a flat maximum near 0.2.
+    const double down[][2] = {{0.05, -0.876}, {0.2, -0.725}, {0.5, -0.504}, {1.0, -0.200}, {1.5, 0.066}, {2.0, 0.300}};
+    for (const auto& row : down) {
+        DOUBLES_EQUAL(row[1], force_ratio(CutSide::down, row[0]), 0.0006);
+    }
+    const double up[][2] = {{0.05, 1.0743}, {0.2, 1.0747}, {0.5, 0.996}, {1.0, 0.800}, {2.0, 0.300}};
+    for (const auto& row : up) {
+        DOUBLES_EQUAL(row[1], force_ratio(CutSide::up, row[0]), 0.0006);
+    }
+}
+
+TEST(EngagementSolver, finds_immersion_and_depth_of_down_milling_from_spindle_and_feed_axis_alone) {
+    for (double immersion = 0.05; immersion <= 1.95; immersion += 0.05) {
+        for (const double depth : {1.0, 12.0}) {
+            for (const double feed : {0.02, 0.1}) {
+                const Cut cut{.immersion = immersion, .depth_mm = depth, .feed_per_tooth_mm = feed};
+                const auto e = solver().solve(measured(cut, 0.02), feed, CutSide::down);
+                CHECK(e.immersion_valid);
+                DOUBLES_EQUAL(immersion, e.radial_immersion, 0.003);
+                DOUBLES_EQUAL(1.0, e.axial_depth_mm / depth, 0.005);
+            }
+        }
+    }
+}
+
+TEST(EngagementSolver, shows_in_its_variance_that_up_milling_hides_small_immersions) {
+    const auto small = solver().solve(measured({.side = CutSide::up, .immersion = 0.15}, 10.0), 0.05, CutSide::up);
+    CHECK(small.radial_immersion_sd > 0.1);
+    const auto large = solver().solve(measured({.side = CutSide::up, .immersion = 1.2}, 10.0), 0.05, CutSide::up);
+    CHECK(large.immersion_valid);
+    CHECK(large.radial_immersion_sd < 0.06);
+    DOUBLES_EQUAL(1.2, large.radial_immersion, 0.02);
+}
+
+TEST(EngagementSolver, knows_small_immersions_in_up_milling_once_the_y_drive_moves) {
+    const Cut cut{.side = CutSide::up, .immersion = 0.15, .direction_rad = 0.6, .y_moves = true};
+    const auto e = solver().solve(measured(cut, 5.0), 0.05, CutSide::up);
+    CHECK(e.immersion_valid);
+    DOUBLES_EQUAL(0.15, e.radial_immersion, 0.01);
+    CHECK(e.radial_immersion_sd < 0.08);
+}
+
+TEST(EngagementSolver, gives_the_same_answer_in_every_direction_of_feed) {
+    for (double direction = -3.0; direction <= 3.0; direction += 0.25) {
+        const Cut cut{.immersion = 0.7, .direction_rad = direction, .y_moves = true};
+        const auto e = solver().solve(measured(cut, 2.0), 0.05, CutSide::down);
+        DOUBLES_EQUAL(0.7, e.radial_immersion, 0.003);
+        DOUBLES_EQUAL(6.0, e.axial_depth_mm, 0.03);
+    }
+}
+
+TEST(EngagementSolver, infers_the_side_from_the_sign_of_the_feed_force) {
+    for (const double immersion : {0.4, 0.8, 1.2}) {
+        for (const CutSide side : {CutSide::down, CutSide::up}) {
+            const Cut cut{.side = side, .immersion = immersion, .direction_rad = 0.5, .y_moves = true};
+            const auto e = solver().solve(measured(cut, 5.0), 0.05, CutSide::unknown);
+            CHECK(e.side == side);
+            DOUBLES_EQUAL(immersion, e.radial_immersion, 0.02);
+        }
+    }
+}
+
+TEST(EngagementSolver, calls_a_slot_a_slot_whichever_side_is_told) {
+    for (const CutSide side : {CutSide::down, CutSide::up, CutSide::unknown}) {
+        const auto e = solver().solve(measured({.immersion = 2.0}, 3.0), 0.05, side);
+        CHECK(e.immersion_valid);
+        DOUBLES_EQUAL(2.0, e.radial_immersion, 0.02);
+    }
+}
+
+TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_force) {
+    auto standing = measured({}, 2.0);
+    standing.x_N.valid = false;
+    CHECK_FALSE(solver().solve(standing, 0.05, CutSide::down).immersion_valid);
+    const auto faint = measured({.depth_mm = 0.05}, 10.0);
+    CHECK_FALSE(solver().solve(faint, 0.05, CutSide::down).immersion_valid);
+    CHECK_FALSE(solver().solve(measured({}, 2.0), 0.0, CutSide::down).immersion_valid);
+    auto broken = measured({}, 2.0);
+    broken.tangential_N.value = std::nan("");
+    CHECK_FALSE(solver().solve(broken, 0.05, CutSide::down).immersion_valid);
+}
+
+TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_it_says) {
+    std::mt19937 random(20261121);
+    std::uniform_real_distribution<double> immersion(0.3, 1.8);
+    std::uniform_real_distribution<double> depth(3.0, 12.0);
+    int in_immersion_band = 0;
+    int in_depth_band = 0;
+    constexpr int cuts = 4000;
+    for (int k = 0; k < cuts; ++k) {
+        const Cut cut{.immersion = immersion(random), .depth_mm = depth(random), .direction_rad = 0.4 * (k % 3),
+                      .y_moves = k % 3 != 0};
+        const auto e = solver().solve(measured(cut, 12.0, &random), 0.05, CutSide::down);
+        CHECK(e.immersion_valid);
+        in_immersion_band +=
+            std::abs(e.radial_immersion - cut.immersion) < 1.96 * e.radial_immersion_sd ? 1 : 0;
+        in_depth_band += std::abs(e.axial_depth_mm - cut.depth_mm) < 1.96 * e.axial_depth_sd_mm ? 1 : 0;
+    }
+    const double immersion_coverage = static_cast<double>(in_immersion_band) / cuts;
+    const double depth_coverage = static_cast<double>(in_depth_band) / cuts;
+    CHECK(immersion_coverage > 0.93 && immersion_coverage < 0.97);
+    CHECK(depth_coverage > 0.93 && depth_coverage < 0.97);
+}
+
+TEST(EngagementSolver, doubts_the_depth_by_the_doubt_in_K_s) {
+    auto law = carbide_in_SM45C<double>();
+    law.K_s_relative_sd = 0.1;
+    const EngagementSolver<double> doubtful(law, {});
+    const auto e = doubtful.solve(measured({}, 1.0), 0.05, CutSide::down);
+    DOUBLES_EQUAL(0.1, e.axial_depth_sd_mm / e.axial_depth_mm, 0.02);
+}

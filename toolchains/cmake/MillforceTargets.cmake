@@ -1,0 +1,48 @@
+# Two kinds of targets. Core targets (hal, estimation, control, the tick) run on the drive controller: no exceptions,
+# no RTTI, and a build-time search for the words that the core must not contain. Host targets may use all of C++20.
+# An include path is a permission: a target sees its own folder and what it links, nothing else.
+
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+
+set(MILLFORCE_WARNINGS
+    -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Wold-style-cast
+    -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Werror)
+
+# One rounding per operation on every processor, so that golden vectors compare bit for bit.
+add_compile_options(-ffp-contract=off)
+
+if(MILLFORCE_SANITIZE)
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=address,undefined)
+endif()
+
+if(MILLFORCE_TIDY)
+    find_program(CLANG_TIDY_EXECUTABLE NAMES clang-tidy REQUIRED)
+    set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY_EXECUTABLE} --quiet)
+endif()
+
+add_custom_target(core_rules ALL
+    COMMAND ${CMAKE_COMMAND}
+            -DSOURCE_DIR=${CMAKE_SOURCE_DIR}
+            -P ${CMAKE_SOURCE_DIR}/toolchains/cmake/CoreRules.cmake
+    COMMENT "Searching the core for heap, exceptions, RTTI and double"
+    VERBATIM)
+
+function(millforce_target_warnings target)
+    target_compile_options(${target} PRIVATE
+        ${MILLFORCE_WARNINGS}
+        # Eigen's products inline into bounds that GCC 12 cannot see; the sanitizer build checks them for real.
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>)
+endfunction()
+
+# millforce_core(<folder> SOURCES ... LINKS ...)
+function(millforce_core target)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+    add_library(${target} STATIC ${ARG_SOURCES})
+    add_library(millforce::${target} ALIAS ${target})
+    target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno)
+    target_link_libraries(${target} PUBLIC ${ARG_LINKS})
+    millforce_target_warnings(${target})
+    add_dependencies(${target} core_rules)
+endfunction()
