@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <limits>
 
 namespace millforce::sim {
 
@@ -28,26 +30,26 @@ void check_even_spacing(const CsvReader& csv, const std::vector<double>& time_s,
     }
 }
 
-/// Collects stretches of steady velocity.
+/// Collects stretches of steady velocity, without their beginning (the drive settles) and their end (it begins to
+/// brake).
 class SteadyFeedFinder {
   public:
     explicit SteadyFeedFinder(double minimum_speed_mm_s) : minimum_speed_mm_s_(minimum_speed_mm_s) {}
 
     void add(double time_s, double velocity_mm_s, double current_A) {
-        constexpr double settling_s = 0.1;
         const double tolerance = std::max(0.03 * std::abs(mean_velocity_), 0.3);
-        if (samples_ == 0 || std::abs(velocity_mm_s - mean_velocity_) > tolerance || !(time_s >= last_s_)) {
+        if (samples_ == 0 || std::abs(velocity_mm_s - mean_velocity_) > tolerance) {
             close();
             start_s_ = time_s;
         }
-        last_s_ = time_s;
         ++samples_;
         mean_velocity_ += (velocity_mm_s - mean_velocity_) / static_cast<double>(samples_);
         if (time_s - start_s_ >= settling_s) {
-            settled_s_ = settled_ == 0 ? time_s : settled_s_;
-            ++settled_;
-            settled_velocity_ += (velocity_mm_s - settled_velocity_) / static_cast<double>(settled_);
-            settled_current_ += (current_A - settled_current_) / static_cast<double>(settled_);
+            pending_.push_back({time_s, velocity_mm_s, current_A});
+        }
+        while (!pending_.empty() && time_s - pending_.front().time_s >= braking_s) {
+            settle(pending_.front());
+            pending_.pop_front();
         }
     }
 
@@ -57,24 +59,43 @@ class SteadyFeedFinder {
     }
 
     void close() {
-        constexpr double shortest_s = 0.2;
         constexpr double m_per_min = 0.06;  // in 1 mm/s
-        const double duration = last_s_ - settled_s_;
+        const double duration = last_settled_s_ - first_settled_s_;
         if (settled_ > 2 && duration >= shortest_s && std::abs(settled_velocity_) > minimum_speed_mm_s_) {
             found_.push_back({settled_velocity_ * m_per_min, settled_current_, duration});
         }
+        pending_.clear();
         samples_ = settled_ = 0;
         mean_velocity_ = settled_velocity_ = settled_current_ = 0.0;
     }
 
   private:
+    static constexpr double settling_s = 0.1;
+    static constexpr double braking_s = 0.05;
+    static constexpr double shortest_s = 0.2;
+
+    struct Pending {
+        double time_s;
+        double velocity_mm_s;
+        double current_A;
+    };
+
+    void settle(const Pending& sample) {
+        first_settled_s_ = settled_ == 0 ? sample.time_s : first_settled_s_;
+        last_settled_s_ = sample.time_s;
+        ++settled_;
+        settled_velocity_ += (sample.velocity_mm_s - settled_velocity_) / static_cast<double>(settled_);
+        settled_current_ += (sample.current_A - settled_current_) / static_cast<double>(settled_);
+    }
+
     double minimum_speed_mm_s_;
     std::vector<SteadyFeed> found_;
+    std::deque<Pending> pending_;
     long samples_ = 0;
     long settled_ = 0;
     double start_s_ = 0.0;
-    double last_s_ = 0.0;
-    double settled_s_ = 0.0;
+    double first_settled_s_ = 0.0;
+    double last_settled_s_ = 0.0;
     double mean_velocity_ = 0.0;
     double settled_velocity_ = 0.0;
     double settled_current_ = 0.0;

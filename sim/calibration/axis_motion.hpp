@@ -25,7 +25,7 @@ struct SteadyFeed {
 };
 
 /// Steady stretches of one axis of a recording. The velocity stays within 3 % (or 0.3 mm/s) of its mean for at least
-/// 0.2 s, not counting the first 0.1 s.
+/// 0.2 s, not counting the first 0.1 s and the last 0.05 s.
 std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, char axis, double minimum_speed_mm_s);
 
 /// Whether the file has the columns of a single axis (position_m), and not those of a recording.

@@ -1,8 +1,9 @@
 #include "cnc/cnc.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "files/input_error.hpp"
 
@@ -10,76 +11,90 @@ namespace millforce::sim {
 
 namespace {
 
-constexpr std::size_t blocks_ahead = 256;
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr int feed_changes_ahead = 256;
+constexpr double arrived_mm = 1e-9;
 
-/// Sonny Jeon's junction deviation: the speed on the circle that touches both blocks and stays within the deviation.
-double junction_speed(const Move& before, const Move& after, double acceleration, double deviation_mm) {
-    const Eigen::Vector3d in = direction_at(before, length_mm(before));
-    const Eigen::Vector3d out = direction_at(after, 0.0);
-    const double cosine = std::clamp(-in.dot(out), -1.0, 1.0);
-    const double sine_half = std::sqrt(0.5 * (1.0 - cosine));
-    if (sine_half > 1.0 - 1e-9) {
-        return no_limit;
+void require(const char* name, double value, double least, double most) {
+    if (!(value >= least && value <= most)) {
+        throw InputError(fmt::format("cnc.{}: {}, expected {} to {}", name, value, least, most));
     }
-    return std::sqrt(acceleration * deviation_mm * sine_half / (1.0 - sine_half));
+}
+
+const CncSettings& validated(const CncSettings& settings) {
+    require("servo_period_s", settings.servo_period_s, 1e-6, 0.1);
+    require("acceleration_mm_s2", settings.acceleration_mm_s2, 1.0, 1e6);
+    require("override_latency_s", settings.override_latency_s, 0.0, 10.0);
+    require("rapid_feed_mm_s", settings.rapid_feed_mm_s, 0.1, 1e5);
+    require("junction_deviation_mm", settings.junction_deviation_mm, 1e-6, 10.0);
+    require("spindle_wait_s", settings.spindle_wait_s, 0.0, 60.0);
+    return settings;
+}
+
+std::vector<Move> validated(std::vector<Move> moves) {
+    if (moves.empty()) {
+        throw InputError("part program: no moves, expected at least one");
+    }
+    return moves;
 }
 
 }  // namespace
 
-Cnc::Cnc(const CncSettings& settings, std::vector<Move> moves) : settings_(settings), moves_(std::move(moves)) {
-    if (moves_.empty()) {
-        throw InputError("part program: no moves, expected at least one");
-    }
+Cnc::Cnc(const CncSettings& settings, std::vector<Move> moves)
+    : settings_(validated(settings)),
+      moves_(validated(std::move(moves))),
+      limits_(settings_, moves_),
+      velocity_step_mm_s_(settings_.acceleration_mm_s2 * settings_.servo_period_s) {
     const double periods = std::round(settings_.override_latency_s / settings_.servo_period_s);
-    override_line_.assign(static_cast<std::size_t>(std::max(0.0, periods)) + 1, 0.0);
-    prepare();
-    wait_s_ = moves_.front().dwell_s;
+    override_line_.assign(static_cast<std::size_t>(periods) + 1, 0.0);
+    wait(moves_.front().dwell_s);
 }
 
-void Cnc::prepare() {
-    for (std::size_t k = 0; k < moves_.size(); ++k) {
-        const Move& move = moves_[k];
-        Block block{};
-        block.length_mm = length_mm(move);
-        block.limit_mm_s = move.kind == MoveKind::rapid ? settings_.rapid_feed_mm_s : move.feed_mm_s;
-        const bool stops = move.kind == MoveKind::dwell || k + 1 == moves_.size() ||
-                           moves_[k + 1].kind == MoveKind::dwell ||
-                           std::abs(moves_[k + 1].spindle_speed_rad_s - move.spindle_speed_rad_s) > 1e-9;
-        block.junction_mm_s =
-            stops ? 0.0
-                  : junction_speed(move, moves_[k + 1], settings_.acceleration_mm_s2, settings_.junction_deviation_mm);
-        total_mm_ += block.length_mm;
-        blocks_.push_back(block);
-    }
-}
-
-double Cnc::block_limit(std::size_t index, double override_ratio) const {
+double Cnc::feed_limit(std::size_t index, double override_ratio) const {
     const Move& move = moves_[index];
-    const double ratio = move.kind == MoveKind::rapid ? std::min(1.0, override_ratio) : override_ratio;
-    double limit = blocks_[index].limit_mm_s * ratio;
-    if (is_arc(move)) {
-        limit = std::min(limit, std::sqrt(settings_.acceleration_mm_s2 * arc_radius_mm(move)));
+    const double wanted = move.kind == MoveKind::rapid ? settings_.rapid_feed_mm_s * std::min(1.0, override_ratio)
+                                                       : move.feed_mm_s * override_ratio;
+    return std::min(wanted, limits_[index].most_mm_s);
+}
+
+// The largest velocity of this period from which full braking meets a limit that begins at a distance: either slow
+// enough already, or √(v_l² + 2 a d) is kept at the period's end. The last way to a stop is gone in one period.
+double Cnc::approach(double limit_mm_s, double distance_mm) const {
+    const double step = velocity_step_mm_s_;
+    const double room = limit_mm_s * limit_mm_s + 2.0 * settings_.acceleration_mm_s2 * distance_mm;
+    const double braking = room / (std::sqrt(step * step + room) + step);
+    const double at_once = limit_mm_s > 0.0 ? limit_mm_s : std::min(step, distance_mm / settings_.servo_period_s);
+    return std::max(at_once, braking);
+}
+
+double Cnc::limit_by_geometry(double limit_mm_s) const {
+    double limit = limit_mm_s;
+    double distance = limits_[index_].length_mm - along_mm_;
+    for (std::size_t k = index_; k < limits_.size(); ++k) {
+        if (k != index_) {
+            distance += limits_[k].length_mm;
+        }
+        limit = std::min(limit, approach(limits_[k].exit_mm_s, distance));
+        if (limits_[k].exit_mm_s <= 0.0 || limit * settings_.servo_period_s <= distance) {
+            break;  // the period ends in this block, and its exit speaks for all that follows
+        }
     }
     return limit;
 }
 
-double Cnc::velocity_limit(double override_ratio) const {
-    const double a = settings_.acceleration_mm_s2;
-    const double a_dt = a * settings_.servo_period_s;
-    double limit = block_limit(index_, override_ratio);
-    double distance = blocks_[index_].length_mm - along_mm_;
-    const double reach = velocity_mm_s_ * velocity_mm_s_ / (2.0 * a) + 2.0 * velocity_mm_s_ * settings_.servo_period_s;
-    for (std::size_t k = index_; k < moves_.size(); ++k) {
-        const bool last_seen = k - index_ >= blocks_ahead;
-        const double next = k + 1 < moves_.size() && !last_seen ? block_limit(k + 1, override_ratio) : 0.0;
-        const double through = std::min(blocks_[k].junction_mm_s, next);
-        // The discrete form of √(v² + 2 a d): one more period at full speed still leaves room to brake.
-        limit = std::min(limit, std::sqrt(a_dt * a_dt + through * through + 2.0 * a * std::max(distance, 0.0)) - a_dt);
-        if (distance > reach || last_seen || k + 1 >= moves_.size()) {
+double Cnc::limit_by_feeds(double limit_mm_s, double override_ratio) const {
+    double limit = limit_mm_s;
+    const double here = limits_[index_].end_mm - (limits_[index_].length_mm - along_mm_);
+    std::size_t next = limits_[index_].next_feed;
+    for (int changes = 0; next < limits_.size(); ++changes) {
+        const double distance = std::max(0.0, limits_[next - 1].end_mm - here);
+        if (approach(0.0, distance) >= limit) {
             break;
         }
-        distance += blocks_[k + 1].length_mm;
+        if (changes == feed_changes_ahead) {
+            return std::min(limit, approach(0.0, distance));
+        }
+        limit = std::min(limit, approach(feed_limit(next, override_ratio), distance));
+        next = limits_[next].next_feed;
     }
     return limit;
 }
@@ -93,50 +108,52 @@ double Cnc::delayed(double override_ratio) {
 void Cnc::step(double override_ratio, bool feed_hold) {
     const bool usable = std::isfinite(override_ratio) && override_ratio > 0.0 && !feed_hold;
     const double ratio = delayed(usable ? override_ratio : 0.0);
-    if (finished()) {
+    if (finished() || wait_periods_ > 0) {
         velocity_mm_s_ = 0.0;
-        return;
-    }
-    if (wait_s_ > 0.0) {
-        wait_s_ -= settings_.servo_period_s;
-        velocity_mm_s_ = 0.0;
-        if (wait_s_ <= 0.0 && moves_[index_].kind == MoveKind::dwell) {
-            ++index_;
+        if (wait_periods_ > 0 && --wait_periods_ == 0 && move().kind == MoveKind::dwell) {
+            enter_next_block();
         }
         return;
     }
-    const double most = settings_.acceleration_mm_s2 * settings_.servo_period_s;
-    const double wanted = velocity_limit(ratio);
-    velocity_mm_s_ = std::max(0.0, std::clamp(wanted, velocity_mm_s_ - most, velocity_mm_s_ + most));
-    // A rounding error short of a stop must not last for ever.
-    const double creep = 1e-6;
-    advance(std::max(velocity_mm_s_ * settings_.servo_period_s, ratio > 0.0 ? creep : 0.0));
+    const double least = std::max(0.0, velocity_mm_s_ - velocity_step_mm_s_);
+    const double most = std::min(velocity_mm_s_ + velocity_step_mm_s_, feed_limit(index_, ratio));
+    velocity_mm_s_ = std::max(least, limit_by_feeds(limit_by_geometry(most), ratio));
+    advance(velocity_mm_s_ * settings_.servo_period_s);
 }
 
 void Cnc::advance(double distance_mm) {
     double left = distance_mm;
-    while (index_ < moves_.size()) {
-        const double rest = blocks_[index_].length_mm - along_mm_;
-        if (left < rest) {
+    while (!finished()) {
+        const PathLimits::Block& block = limits_[index_];
+        const bool stops = block.exit_mm_s <= 0.0;
+        const double rest = block.length_mm - along_mm_;
+        if (left < rest - (stops ? arrived_mm : 0.0)) {
             along_mm_ += left;
-            path_mm_ += left;
+            path_mm_ = block.end_mm - block.length_mm + along_mm_;
             return;
         }
-        path_mm_ += rest;
+        path_mm_ = block.end_mm;
         left -= rest;
-        const bool stops = blocks_[index_].junction_mm_s <= 0.0;
-        const double speed_before = moves_[index_].spindle_speed_rad_s;
-        ++index_;
-        along_mm_ = 0.0;
-        if (stops || index_ >= moves_.size()) {
+        enter_next_block();
+        if (stops) {
             velocity_mm_s_ = 0.0;
-            if (index_ < moves_.size()) {
-                const bool other_speed = std::abs(moves_[index_].spindle_speed_rad_s - speed_before) > 1e-9;
-                wait_s_ = std::max(moves_[index_].dwell_s, other_speed ? settings_.spindle_wait_s : 0.0);
-            }
             return;
         }
     }
+}
+
+void Cnc::enter_next_block() {
+    const double speed_before = moves_[index_].spindle_speed_rad_s;
+    ++index_;
+    along_mm_ = 0.0;
+    if (!finished()) {
+        const bool other_speed = move().spindle_speed_rad_s != speed_before;
+        wait(std::max(move().dwell_s, other_speed ? settings_.spindle_wait_s : 0.0));
+    }
+}
+
+void Cnc::wait(double time_s) {
+    wait_periods_ = std::lround(std::ceil(time_s / settings_.servo_period_s - 1e-6));
 }
 
 Eigen::Vector3d Cnc::position_mm() const {
@@ -151,10 +168,16 @@ double Cnc::programmed_feed_mm_s() const {
     return is_rapid() ? settings_.rapid_feed_mm_s : move().feed_mm_s;
 }
 
-bool Cnc::is_rapid() const { return !finished() && move().kind == MoveKind::rapid; }
+bool Cnc::is_rapid() const {
+    return !finished() && move().kind == MoveKind::rapid;
+}
 
-double Cnc::spindle_speed_rad_s() const { return move().spindle_speed_rad_s; }
+double Cnc::spindle_speed_rad_s() const {
+    return move().spindle_speed_rad_s;
+}
 
-std::size_t Cnc::line() const { return move().line; }
+std::size_t Cnc::line() const {
+    return move().line;
+}
 
 }  // namespace millforce::sim

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <istream>
@@ -16,6 +17,7 @@ namespace millforce::sim {
 namespace {
 
 constexpr double arc_tolerance_mm = 0.005;
+constexpr double coincident_mm = 1e-7;
 constexpr double largest_coordinate_mm = 1e5;
 constexpr double largest_feed_mm_min = 1e6;
 constexpr double largest_spindle_speed_rpm = 1e6;
@@ -317,6 +319,9 @@ class Interpreter {
         }
         move.centre_mm =
             move.start_mm + Eigen::Vector3d(offset_mm(block.address('I')), offset_mm(block.address('J')), 0.0);
+        if ((move.end_mm - move.start_mm).head<2>().norm() < coincident_mm) {
+            move.end_mm.head<2>() = move.start_mm.head<2>();  // a full circle, whatever relative sums round to
+        }
         const double start_radius_mm = (move.start_mm - move.centre_mm).head<2>().norm();
         const double end_radius_mm = (move.end_mm - move.centre_mm).head<2>().norm();
         if (!(start_radius_mm > arc_tolerance_mm)) {

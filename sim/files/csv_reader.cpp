@@ -211,6 +211,7 @@ double CsvReader::number(CsvColumn column) const {
         return no_estimate;
     }
     const std::string_view whole = cell;
+    const bool signed_twice = cell.starts_with("+-");
     if (cell.starts_with('+')) {
         cell.remove_prefix(1);
     }
@@ -218,7 +219,7 @@ double CsvReader::number(CsvColumn column) const {
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error == std::errc::result_out_of_range && end == cell.data() + cell.size()) {
         value = std::strtod(std::string(cell).c_str(), nullptr);  // tells underflow from overflow
-    } else if (error != std::errc{} || end != cell.data() + cell.size() || cell.starts_with("+")) {
+    } else if (error != std::errc{} || end != cell.data() + cell.size() || signed_twice) {
         fail(column, fmt::format("'{}' is not a number; expected a number with a decimal point, or an empty cell",
                                  shown(whole)));
     }

@@ -138,9 +138,11 @@ class Loop {
         const Eigen::Vector3d velocity = machine_.velocity_mm_s();
         path_mm_ += velocity.norm() * dt_s;
         history_.add(path_mm_);
+        // The tool goes where the axes go; the command's direction serves while they hardly move.
+        const Eigen::Vector3d travel = velocity.norm() > 0.5 ? velocity.normalized() : direction;
         if (!cnc_.is_rapid() || !scenario_.has_program()) {
-            workpiece_->move_to(machine_.position_mm(), direction, cnc_.path_mm());
-            cut(direction);
+            workpiece_->move_to(machine_.position_mm(), travel, cnc_.path_mm());
+            cut(travel);
         } else {
             workpiece_->move_to(machine_.position_mm(), Eigen::Vector3d::UnitZ(), cnc_.path_mm());
             load_ = {};

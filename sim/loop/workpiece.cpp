@@ -30,7 +30,7 @@ StockWorkpiece::StockWorkpiece(const StockSettings& settings, const Cutter& cutt
 
 bool StockWorkpiece::move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double) {
     const double step_mm = 0.35 * map_.cell_mm();
-    const bool turned = (direction - last_direction_).squaredNorm() > 1e-4;
+    const bool turned = (direction - last_direction_).squaredNorm() > 4e-4;  // 1.1°
     if (last_tip_mm_ && !turned && (tip_mm - *last_tip_mm_).norm() < step_mm) {
         return false;
     }

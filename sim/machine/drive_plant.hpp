@@ -65,8 +65,8 @@ struct FeedPlantSettings {
     double ripple_share = 0.02;       ///< of the Coulomb friction, over the screw's pitch
     double screw_pitch_mm = 10.0;
     double weight_N = 0.0;
-    double position_gain_per_s = 40.0;
-    double velocity_loop_bandwidth_hz = 35.0;
+    double position_gain_per_s = 80.0;
+    double velocity_loop_bandwidth_hz = 60.0;
     double current_loop_time_s = 0.5e-3;
     double friction_scale = 1.0;      ///< perturbation: ±20 % in the robustness runs
 };

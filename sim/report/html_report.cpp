@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -45,11 +46,12 @@ std::string_view without_source_map(std::string_view text) {
     return mark == std::string_view::npos ? text : text.substr(0, mark - 2);
 }
 
-std::string readable_time(double time_s) {
+/// Times that are compared are written alike: in minutes where the longest of them is.
+std::string readable_time(double time_s, double longest_s) {
     if (!std::isfinite(time_s)) {
         return "–";
     }
-    if (time_s < 120.0) {
+    if (!(longest_s >= 120.0)) {
         return fmt::format("{:.1f} s", time_s);
     }
     const double minutes = std::floor(std::round(time_s) / 60.0);
@@ -65,7 +67,9 @@ std::string facts_html(const ScenarioInfo& info) {
     const double speed_rpm = info.spindle_speed_rad_s * 30.0 / std::numbers::pi;
     std::string out = fact("Tool", info.tool) + fact("Material", info.material);
     out += fact("Force limit of one tooth", fmt::format("{:.0f} N", info.tooth_force_limit_N));
-    out += fact("Spindle", fmt::format("{:.0f} rpm", speed_rpm));
+    if (speed_rpm > 0.0) {
+        out += fact("Spindle", fmt::format("{:.0f} rpm", speed_rpm));
+    }
     if (info.constant_feed_mm_s > 0.0) {
         out += fact("Constant feed, safe everywhere", fmt::format("{:.0f} mm/min", 60.0 * info.constant_feed_mm_s));
     }
@@ -86,13 +90,15 @@ std::string headline_html(std::span<const RunResult> runs) {
     const RunFigures& figures = runs.front().figures;
     const RunResult* constant = constant_feed_run(runs);
     const std::optional<double> saved = time_saved_percent(runs.front(), runs);
-    const std::string time = readable_time(figures.time_s);
+    const double constant_s = constant == nullptr ? 0.0 : constant->figures.time_s;
+    const double longest_s = saved ? std::max(figures.time_s, constant_s) : figures.time_s;
+    const std::string time = readable_time(figures.time_s, longest_s);
     std::string out;
     if (saved) {
         out += stat(limit_held(figures) ? "hero held" : "hero", fmt::format("{:.1f} %", std::abs(*saved)),
                     *saved < 0.0 ? "more machining time than a constant feed that is safe everywhere"
                                  : "less machining time than a constant feed that is safe everywhere");
-        out += stat("", time, fmt::format("instead of {}", readable_time(constant->figures.time_s)));
+        out += stat("", time, fmt::format("instead of {}", readable_time(constant_s, longest_s)));
     } else {
         out += stat("hero", time, figures.finished ? "machining time" : "until the run stopped");
     }

@@ -35,8 +35,8 @@
   function runSeries(axis, column, format) {
     const series = [];
     if (state.baseline > 0) {
-      series.push({ label: data.runs[state.baseline].name, values: axis.runs[state.baseline][column], colour: "compared",
-        width: 1.2, format });
+      series.push({ label: data.runs[state.baseline].name, values: axis.runs[state.baseline][column],
+        colour: "compared", width: 1.2, format });
     }
     series.push({ label: data.runs[0].name, values: axis.runs[0][column], colour: "controlled", width: 1.4, format });
     return series;
@@ -64,9 +64,11 @@
       series: (axis) => {
         const run = axis.runs[0];
         return [
-          { label: "estimated", values: run.estimated_peak_force_N, colour: "estimated-force", width: 1.1, format: force },
+          { label: "estimated", values: run.estimated_peak_force_N, colour: "estimated-force", width: 1.1,
+            format: force },
           { label: "true", values: run.peak_force_N, colour: "controlled", width: 1.3, format: force },
-          { label: "limit here", perBucket: run.force_limit_N, colour: "truth", width: 1.6, dash: [7, 4], format: force },
+          { label: "limit here", perBucket: run.force_limit_N, colour: "truth", width: 1.6, dash: [7, 4],
+            format: force },
         ];
       },
       top: (series) => 1.08 * largest(series),
@@ -90,7 +92,8 @@
     const choice = host.insertBefore(element("div", "choice"), host.querySelector(".how").nextSibling);
     choice.setAttribute("role", "group");
     choice.setAttribute("aria-label", "Feed shown as");
-    makeChoice(choice, [["override_percent", "Override, %"], ["feed_mm_min", "Feed, mm/min"]], state.feedAs, (value) => {
+    const options = [["override_percent", "Override, %"], ["feed_mm_min", "Feed, mm/min"]];
+    makeChoice(choice, options, state.feedAs, (value) => {
       state.feedAs = value;
       redraw();
     });
@@ -119,8 +122,8 @@
       host: byId(id),
       unit,
       series: (axis) => [
-        { label: "estimated, with its 95 % band", values: axis.runs[0][columns.estimate], colour: "estimate", width: 1.4,
-          banded: true, format },
+        { label: "estimated, with its 95 % band", values: axis.runs[0][columns.estimate], colour: "estimate",
+          width: 1.4, banded: true, format },
         { label: "true", values: axis.runs[0][columns.truth], colour: "truth", width: 1.3, format },
       ],
       top: (series) => Math.min(roof, 1.4 * largest(series)) || roof,
@@ -173,8 +176,8 @@
     };
     forceCharts(linked);
     feedChart(linked, redraw);
-    estimateChart(linked, "immersion", "a<sub>e</sub>/R", { estimate: "radial_immersion", truth: "true_radial_immersion",
-      low: "radial_immersion_low", high: "radial_immersion_high" }, 2.1);
+    estimateChart(linked, "immersion", "a<sub>e</sub>/R", { estimate: "radial_immersion",
+      truth: "true_radial_immersion", low: "radial_immersion_low", high: "radial_immersion_high" }, 2.1);
     estimateChart(linked, "depth", "mm", { estimate: "axial_depth_mm", truth: "true_axial_depth_mm",
       low: "axial_depth_low_mm", high: "axial_depth_high_mm" }, Infinity);
     makeChoice(byId("axis-choice"), [["path", "Over path"], ["time", "Over time"]], "path", (name) => {

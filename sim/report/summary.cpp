@@ -136,8 +136,11 @@ std::string summary_table(const ScenarioInfo& info, std::span<const RunResult> r
     const std::vector<FigureRow> rows = figure_rows(runs);
     const double speed_rpm = info.spindle_speed_rad_s * 30.0 / std::numbers::pi;
     std::string out = fmt::format("{}\n", info.title.empty() ? info.name : info.title);
-    out += fmt::format("{}; {}; {:.0f} rpm; tooth force limit {:.0f} N\n", info.tool, info.material, speed_rpm,
-                       info.tooth_force_limit_N);
+    out += fmt::format("{}; {}; ", info.tool, info.material);
+    if (speed_rpm > 0.0) {
+        out += fmt::format("{:.0f} rpm; ", speed_rpm);
+    }
+    out += fmt::format("tooth force limit {:.0f} N\n", info.tooth_force_limit_N);
     for (std::size_t first = 0; first < runs.size(); first += runs_per_block) {
         out += '\n';
         append_block(out, runs, rows, first, std::min(runs_per_block, runs.size() - first));

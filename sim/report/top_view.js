@@ -87,8 +87,9 @@ const topViews = (() => {
       this.level = level;
       this.caption.textContent = name;
       const worst = run.share.reduce((a, b) => Math.max(a, b), 0);
-      this.caption.append(" ", element("small", "", `peak ${(100 * worst).toFixed(0)} % of the limit`));
-      this.canvas.setAttribute("aria-label", `Path of ${name} from above, peak force ${(100 * worst).toFixed(0)} % of the limit`);
+      const peak = `peak ${(100 * worst).toFixed(0)} % of the limit`;
+      this.caption.append(" ", element("small", "", peak));
+      this.canvas.setAttribute("aria-label", `Path of ${name} from above, ${peak}`);
       this.draw();
     }
 

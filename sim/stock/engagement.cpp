@@ -28,8 +28,11 @@ const std::array<Direction, EngagementMap::bin_count>& bin_directions() {
 EngagementMap::Bin flat_bin(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& point) {
     const HeightMap::Material material = map.material_above(point.z(), point.x(), point.y());
     EngagementMap::Bin bin;
-    if (material.share > 0.0F) {
-        bin.covered = material.share;
+    // The share of material passes one half where the wall is: a ramp about that point, narrower than a cell, neither
+    // widens nor narrows the cut, and a clean wall beside the tool stays out of it.
+    const float covered = std::clamp((material.share - 0.5F) * 3.0F + 0.5F, 0.0F, 1.0F);
+    if (covered > 0.0F) {
+        bin.covered = covered;
         bin.top_mm = std::min(material.top_mm - static_cast<float>(point.z()),
                               static_cast<float>(cutter.flute_length_mm));
     }
@@ -73,6 +76,10 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
     const Eigen::Vector2d n(-t.y(), t.x());
     const double radius = 0.5 * cutter.diameter_mm;
     const double epsilon = 0.5 * map.cell_mm();
+    const double margin = 0.8 * map.cell_mm();
+    const double furthest = 6.0 * map.cell_mm();
+    const double rise = std::max(0.0, (2.0 * radius * margin + margin * margin - furthest * furthest) / (2.0 * furthest));
+    const double widest = std::sqrt(std::max(0.0, radius * radius - rise * rise));
     const Eigen::Vector3d ahead = tip_mm + Eigen::Vector3d(t.x(), t.y(), 0.0) * epsilon;
     for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
         const Direction& u = bin_directions()[k];
@@ -80,7 +87,11 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
         if (cutter.type == CutterType::ball_end_mill) {
             result.bins[k] = ball_bin(map, cutter, ahead, outward);
         } else {
-            const Eigen::Vector2d point = ahead.head<2>() + outward * radius;
+            // At the same height beside the axis, on a circle that clears the removed one by most of a cell; at the
+            // very sides, where that would look far ahead, at the height where it looks `furthest` ahead.
+            const double beside = std::clamp(radius * u.cosine, -widest, widest);
+            const double in_front = std::sqrt((radius + margin) * (radius + margin) - beside * beside);
+            const Eigen::Vector2d point = tip_mm.head<2>() + t * in_front + n * beside;
             result.bins[k] = flat_bin(map, cutter, {point.x(), point.y(), tip_mm.z()});
         }
     }

@@ -11,9 +11,11 @@ namespace millforce::sim {
 /// Where a tool that stands with its tip at `tip_mm` and moves along `direction` (unit vector in machine axes) meets the
 /// workpiece, in the feed frame.
 ///
-/// A point of the leading periphery moved ahead by a fraction of a cell, c + R u(φ) + ε t, is what the tool is about to
-/// remove: it lies outside what was removed so far and within the width that the tool will sweep. So no wall beside
-/// the tool is taken for material in front of it. The map must hold the state before the removal at this position.
+/// For each angle φ the point is looked at that stands as far beside the axis as the periphery does, y = R cos φ, and so
+/// far ahead that it clears the circle removed so far by most of a cell: x = √((R + m)² − y²), m = 0.8 cells. It is what
+/// the tool is about to remove: within the width that it will sweep, so that no wall beside the tool is taken for
+/// material in front of it, and not yet gnawed at by the removal at this position. At the sides of the cutter, where
+/// chips are thin, it looks six cells ahead at the most.
 /// A move along the axis alone engages no flank: plunge into drilled holes. A ball end is looked at in 24 heights.
 EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& tip_mm,
                             const Eigen::Vector3d& direction);

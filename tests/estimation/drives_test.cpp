@@ -116,7 +116,7 @@ TEST(FeedDrive, has_no_estimate_at_rest_or_where_it_turned_round) {
     CHECK(axis.force_N(moving(2.0, 3.0)).valid);
 }
 
-TEST(FeedDrive, learns_twenty_percent_more_friction_in_air_for_each_direction) {
+TEST(FeedDrive, learns_twenty_percent_more_friction_in_air_and_nearly_so_much_for_the_other_direction) {
     FeedDrive<double> axis(paper_axis());
     const double w = 0.6;
     const double friction = 3.5788 * w * w - 7.2469 * w + 19.7252;
@@ -124,7 +124,8 @@ TEST(FeedDrive, learns_twenty_percent_more_friction_in_air_for_each_direction) {
         axis.rezero(moving(10.0, 1.2 * friction - 5.39));
     }
     DOUBLES_EQUAL(1.2, axis.friction_scale(true), 0.002);
-    DOUBLES_EQUAL(1.0, axis.friction_scale(false), 1e-12);
+    // The other direction was not travelled: it follows as far as the two belong together.
+    DOUBLES_EQUAL(1.19, axis.friction_scale(false), 0.003);
     DOUBLES_EQUAL(0.0, axis.force_N(moving(10.0, 1.2 * friction - 5.39)).value, 3.0);
 }
 

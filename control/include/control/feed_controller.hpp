@@ -32,6 +32,7 @@ struct FeedControllerParameters {
     Scalar slew_down_per_s{40};            ///< largest fall
     Scalar entry_feed_per_tooth_mm{static_cast<Scalar>(0.05L)}; ///< ceiling from contact until the estimate stands
     Scalar air_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};   ///< ceiling in air: the feed at which the tool may meet the workpiece
+    Scalar highest_programmed_feed_mm_s{0};///< highest F of the program; 0: learnt as blocks come
     Scalar max_feed_per_tooth_mm{static_cast<Scalar>(0.2L)};    ///< what the tool's edge and chip space allow
     Scalar entry_revolutions{2};
     Scalar exit_travel_mm{2};              ///< without contact before `exit` becomes `air`
@@ -71,6 +72,7 @@ struct ControlInput {
     Scalar path_speed_mm_s{0};
     Scalar time_since_sample_s{0};
     bool rapid = false;
+    bool plunging = false;  ///< the way goes mainly along the tool's axis
     bool feed_hold = false;
     CutEstimateForControl<Scalar> cut{};
 };
@@ -88,7 +90,9 @@ template <typename Scalar>
 class FeedController {
   public:
     explicit FeedController(const FeedControllerParameters<Scalar>& parameters = {})
-        : parameters_(parameters), ratio_(parameters.override_min) {
+        : parameters_(parameters),
+          ratio_(parameters.override_min),
+          highest_feed_mm_s_(parameters.highest_programmed_feed_mm_s) {
         if (!configuration_is_sound()) {
             fault_ = Fault::bad_configuration;
             state_ = CutState::fault;
@@ -282,6 +286,9 @@ class FeedController {
         if (!feed_is_known && !input.rapid) {
             wish.cap(ratio_, Limit::no_estimate);
         }
+        if (feed_is_known && !input.rapid && input.programmed_feed_mm_s > highest_feed_mm_s_) {
+            highest_feed_mm_s_ = input.programmed_feed_mm_s;
+        }
         if (feed_is_known && input.cut.spindle_speed_rad_s > Scalar(0)) {
             cap_by_state(wish, input);
             wish.cap(ratio_of_feed_per_tooth(parameters_.max_feed_per_tooth_mm, input), Limit::feed_per_tooth);
@@ -304,8 +311,15 @@ class FeedController {
     }
 
     void cap_by_state(Wish& wish, const ControlInput<Scalar>& input) const {
+        // Before contact the ceilings hold for the highest F that may come: the next block's F acts at once, the
+        // override on it only after the latency.
+        const Scalar before_contact = input.programmed_feed_mm_s / highest_feed_mm_s_;
+        const Scalar air = before_contact * ratio_of_feed_per_tooth(parameters_.air_feed_per_tooth_mm, input);
         if (state_ == CutState::air) {
-            wish.cap(ratio_of_feed_per_tooth(parameters_.air_feed_per_tooth_mm, input), Limit::air_feed);
+            wish.cap(air, Limit::air_feed);
+        }
+        if (input.plunging) {  // not what the law describes
+            wish.cap(air < Scalar(1) ? air : Scalar(1), Limit::entry_feed);
         }
         if (state_ == CutState::entry) {
             const Scalar ceiling = ratio_at_entry_ >= Scalar(0)
@@ -372,6 +386,7 @@ class FeedController {
     CutState state_ = CutState::air;
     Fault fault_ = Fault::none;
     Scalar ratio_{0};
+    Scalar highest_feed_mm_s_{0};
     Scalar ratio_at_entry_{-1};
     Scalar demand_{0};
     Limit demand_limit_ = Limit::force;

@@ -55,6 +55,8 @@ struct CutEstimate {
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; not valid without an immersion
     Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
+    Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
+    Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
     Scalar force_feed_exponent{0.75F};  ///< d ln F/d ln f
     Scalar surge_ratio{1};
     Scalar feed_mm_s{0};  ///< path speed over the window
@@ -289,6 +291,12 @@ class CutEstimator {
         const Measurement<Scalar>& tooth = estimate_.tooth_tangential_N;
         const bool has_risen = tooth.valid && tooth.value - window.value > Scalar(2) * sqrt(tooth.variance);
         const Scalar newest = has_risen ? tooth.value : window.value;
+        estimate_.newest_tangential_N = newest;
+        const Scalar half_window_s = Scalar(0.5F) * window_.duration_s;
+        if (has_risen && half_window_s > Scalar(0)) {
+            // The window's middle is half a window old, the last tooth's nearly now.
+            estimate_.tangential_growth_N_per_s = (tooth.value - window.value) / half_window_s;
+        }
         const Scalar runout = runout_factor();
         estimate_.worst_tooth_force_N = newest * factor * runout;
         if (e.immersion_valid) {

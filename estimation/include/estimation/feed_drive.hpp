@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimation/drift_tracker.hpp"
+#include "estimation/measurement.hpp"
 
 #include <array>
 #include <cstddef>
@@ -17,6 +17,59 @@ struct FrictionCurrent {
     [[nodiscard]] Scalar at(Scalar speed_m_per_min) const {
         return (K_x1_A_min2_per_m2 * speed_m_per_min + K_x2_A_min_per_m) * speed_m_per_min + K_x3_A;
     }
+};
+
+/// The friction of both directions of travel, relative to its calibration, tracked while the tool is in air.
+///
+/// Temperature and lubrication act on both directions alike: the two scales are two states with correlated errors,
+/// and travel in air in one direction teaches about the other as well. Kalman filter with two states:
+///   P ← P + q dt [1 ρ; ρ 1],   k = P e_d/(P_dd + R),   κ ← κ + k (z − κ_d),   P ← P − k e_dᵀ P
+template <typename Scalar>
+class FrictionScale {
+  public:
+    static constexpr Scalar correlation = static_cast<Scalar>(0.95L);
+
+    FrictionScale() = default;
+    FrictionScale(Scalar relative_sd, Scalar walk_per_sqrt_s)
+        : own_{square(relative_sd), square(relative_sd)},
+          shared_(correlation * square(relative_sd)),
+          limit_(square(relative_sd)),
+          walk_per_s_(square(walk_per_sqrt_s)) {}
+
+    void predict(Scalar dt_s) {
+        const Scalar growth = walk_per_s_ * dt_s;
+        if (own_[0] + growth < limit_ && own_[1] + growth < limit_) {
+            own_[0] += growth;
+            own_[1] += growth;
+            shared_ += correlation * growth;
+        }
+    }
+
+    void correct(std::size_t direction, Measurement<Scalar> seen) {
+        const std::size_t other = 1U - direction;
+        const Scalar total = own_[direction] + seen.variance;
+        if (!seen.valid || !(total > Scalar(0))) {
+            return;
+        }
+        const Scalar gain = own_[direction] / total;
+        const Scalar gain_of_other = shared_ / total;
+        const Scalar surprise = seen.value - value_[direction];
+        value_[direction] += gain * surprise;
+        value_[other] += gain_of_other * surprise;
+        own_[other] -= gain_of_other * shared_;
+        shared_ -= gain * shared_;
+        own_[direction] -= gain * own_[direction];
+    }
+
+    [[nodiscard]] Scalar value(std::size_t direction) const { return value_[direction]; }
+    [[nodiscard]] Scalar variance(std::size_t direction) const { return own_[direction]; }
+
+  private:
+    std::array<Scalar, 2> value_{Scalar(1), Scalar(1)};
+    std::array<Scalar, 2> own_{};
+    Scalar shared_{0};
+    Scalar limit_{0};
+    Scalar walk_per_s_{0};
 };
 
 template <typename Scalar>
@@ -39,17 +92,15 @@ struct FeedDriveParameters {
 ///
 ///   F_ax = K_x4 (I − I_g − σ κ I_f(|w|)) + K_x5/w − M dv/dt,   σ = sign of w      Kim & Chung Eqs. 9, 10
 ///
-/// positive in the axis' + direction, as a force on the workpiece. κ scales the friction and is re-zeroed in air for
-/// each direction. An axis below its velocity floor, or one that turned round within the average, gives no estimate:
+/// positive in the axis' + direction, as a force on the workpiece. κ scales the friction and is re-zeroed in air
+/// (FrictionScale). An axis below its velocity floor, or one that turned round within the average, gives no estimate:
 /// at rest the force hides in static friction, and K_x5/w is singular there. Not thread-safe.
 template <typename Scalar>
 class FeedDrive {
   public:
-    explicit FeedDrive(const FeedDriveParameters<Scalar>& parameters = {}) : parameters_(parameters) {
-        const DriftTracker<Scalar> start(Scalar(1), square(parameters.friction_relative_sd),
-                                         square(parameters.friction_walk_per_sqrt_s));
-        friction_scale_ = {start, start};
-    }
+    explicit FeedDrive(const FeedDriveParameters<Scalar>& parameters = {})
+        : parameters_(parameters),
+          friction_scale_(parameters.friction_relative_sd, parameters.friction_walk_per_sqrt_s) {}
 
     struct Average {
         Scalar current_A{0};
@@ -64,23 +115,18 @@ class FeedDrive {
         if (!is_moving(average)) {
             return {};
         }
-        const DriftTracker<Scalar>& scale = friction_scale_[direction(average)];
         const Scalar friction_A = signed_friction_A(average);
-        const Scalar cut_A = average.current_A - parameters_.gravity_A - scale.value() * friction_A;
+        const Scalar cut_A = average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
         const Scalar force = parameters_.K_x4_N_per_A * cut_A +
                              parameters_.K_x5_N_m_per_min / velocity_m_per_min(average) - inertial_force_N(average);
         const Scalar current_variance =
-            current_variance_A2(average) + square(friction_A) * scale.variance();
+            current_variance_A2(average) + square(friction_A) * friction_scale_.variance(direction(average));
         return {true, force,
                 square(parameters_.K_x4_N_per_A) * current_variance + square(parameters_.gain_relative_sd * force)};
     }
 
     /// Time passes: the friction may have moved.
-    void predict(Scalar dt_s) {
-        for (DriftTracker<Scalar>& scale : friction_scale_) {
-            scale.predict(dt_s);
-        }
-    }
+    void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 
     /// The tool is known to be in air: the current is friction, weight and inertia alone.
     void rezero(const Average& average) {
@@ -92,12 +138,12 @@ class FeedDrive {
                                (inertial_force_N(average) -
                                 parameters_.K_x5_N_m_per_min / velocity_m_per_min(average)) /
                                    parameters_.K_x4_N_per_A;
-        friction_scale_[direction(average)].correct({true, (average.current_A - other_A) / friction_A,
+        friction_scale_.correct(direction(average), {true, (average.current_A - other_A) / friction_A,
                                                      current_variance_A2(average) / square(friction_A)});
     }
 
     [[nodiscard]] Scalar friction_scale(bool positive_direction) const {
-        return friction_scale_[positive_direction ? 1 : 0].value();
+        return friction_scale_.value(positive_direction ? 1U : 0U);
     }
 
     [[nodiscard]] bool is_moving(const Average& average) const {
@@ -129,7 +175,7 @@ class FeedDrive {
     }
 
     FeedDriveParameters<Scalar> parameters_;
-    std::array<DriftTracker<Scalar>, 2> friction_scale_{};  // [0]: − direction, [1]: + direction
+    FrictionScale<Scalar> friction_scale_;  // [0]: − direction, [1]: + direction
 };
 
 }  // namespace millforce::estimation

@@ -22,7 +22,8 @@ class ForceControlTick {
         : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
                      parameters.tool.law),
           controller_(controller_parameters(parameters)),
-          control_parameters_(controller_parameters(parameters)) {}
+          control_parameters_(controller_parameters(parameters)),
+          reaction_s_(parameters.machine.cnc.override_latency_s) {}
 
     /// A new drive sample. Cost: accumulation, and once per tooth period the estimate.
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
@@ -111,6 +112,7 @@ class ForceControlTick {
         input.feed_hold = program.feed_hold;
         const auto& v = signals.axis_velocity_mm_s;
         input.path_speed_mm_s = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        input.plunging = v[2] * v[2] > v[0] * v[0] + v[1] * v[1] && v[2] * v[2] > Scalar(0.25F);
         control::CutEstimateForControl<Scalar>& cut = input.cut;
         cut.fresh = fresh;
         const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
@@ -123,6 +125,11 @@ class ForceControlTick {
         cut.tooth_force_valid = e.tooth_force_N.valid;
         cut.tooth_force_N = e.tooth_force_N.valid ? e.tooth_force_N.value + sqrt(e.tooth_force_N.variance)
                                                   : e.worst_tooth_force_N;
+        // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
+        if (e.newest_tangential_N > Scalar(0)) {
+            const Scalar lead_s = reaction_s_ + Scalar(0.5F) * e.window_s;
+            cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
+        }
         cut.surge_ratio = e.surge_ratio;
         cut.force_feed_exponent = e.force_feed_exponent;
         cut.feed_mm_s = e.feed_mm_s;
@@ -144,6 +151,7 @@ class ForceControlTick {
     estimation::CutEstimator<Scalar> estimator_;
     control::FeedController<Scalar> controller_;
     control::FeedControllerParameters<Scalar> control_parameters_;
+    Scalar reaction_s_;
     control::ControlOutput<Scalar> control_{};
     std::uint32_t last_time_us_ = 0;
     std::uint32_t heartbeat_ = 0;

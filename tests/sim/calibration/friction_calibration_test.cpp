@@ -4,8 +4,9 @@
 #include "files/input_error.hpp"
 #include "sim/files/temporary_folder.hpp"
 
+#include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
+
 #include <CppUTest/TestHarness.h>
-#include <toml++/toml.h>
 
 #include <cmath>
 #include <random>

@@ -105,7 +105,10 @@ class JsonCheck {
             return false;
         }
         if (take("e") || take("E")) {
-            return (take("+") || take("-") || true) && digits();
+            if (!take("+")) {
+                take("-");
+            }
+            return digits();
         }
         return true;
     }

@@ -31,7 +31,8 @@ void append_level(std::vector<Segment>& path, double z_mm) {
     path.push_back({0.0, 0.0, z_mm + level_depth_mm, 0.0, false});
     path.push_back({15.0, 0.0, z_mm, 2.0, false});
     path.push_back({-15.0, 0.0, z_mm, 2.0, false});
-    for (double offset_mm = 4.0; offset_mm < 21.0; offset_mm += 4.0) {
+    for (int pass = 1; pass <= 5; ++pass) {
+        const double offset_mm = 4.0 * pass;
         const std::array<std::array<double, 2>, 5> corners = {{{-15.0 - offset_mm, -offset_mm},
                                                                {15.0 + offset_mm, -offset_mm},
                                                                {15.0 + offset_mm, offset_mm},

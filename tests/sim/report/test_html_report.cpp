@@ -76,7 +76,7 @@ TEST(HtmlReport, TheHeadlineIsTheTimeSavedAndThePeakOverTheLimit) {
     runs[0].figures.peak_over_limit = 0.984;
     const std::string html = report_html(info, runs);
     CHECK(html.find("<strong>60.0 %</strong><span>less machining time") != std::string::npos);
-    CHECK(html.find("instead of 2 min 30 s") != std::string::npos);
+    CHECK(html.find("<strong>1 min 0 s</strong><span>instead of 2 min 30 s") != std::string::npos);
     CHECK(html.find("<div class=\"stat held\"><strong>98 %</strong>") != std::string::npos);
     CHECK(html.find("No tooth went over its limit; none broke.") != std::string::npos);
 }

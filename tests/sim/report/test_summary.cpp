@@ -101,6 +101,11 @@ TEST(Summary, TheTableHoldsTheFiguresOfEveryController) {
     CHECK(contains(table, "tooth force limit 400 N"));
 }
 
+TEST(Summary, ASpindleSpeedThatNobodyGaveIsNotShownAsZero) {
+    info.spindle_speed_rad_s = 0.0;
+    CHECK_FALSE(contains(summary_table(info, runs), "rpm"));
+}
+
 TEST(Summary, WithoutAnEstimateTheTableShowsADash) {
     const std::string line = line_with(summary_table(info, runs), "depth rms error");
     CHECK(line.ends_with(" -"));
