@@ -1,6 +1,10 @@
 #include "calibration/calibration_report.hpp"
 
+#include "files/input_error.hpp"
+
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace millforce::sim {
 
@@ -10,6 +14,11 @@ void print_fitted(std::ostream& out, const FittedValue& fitted) {
 }
 
 void write_fitted(TomlWriter& toml, const FittedValue& fitted) {
+    const auto [low, high] = std::pair(fitted.key.minimum, fitted.key.maximum);
+    if (!(fitted.value >= static_cast<double>(low) && fitted.value <= static_cast<double>(high))) {
+        throw InputError(fmt::format("the data give '{}' = {:.6g} {}; expected a value from {} to {}", fitted.key.name,
+                                     fitted.value, fitted.key.unit, low, high));
+    }
     toml.key(fitted.key.name, fitted.value);
     toml.key(std::string(fitted.key.name) + "_se", fitted.standard_error);
 }

@@ -24,7 +24,8 @@ struct FittedValue {
 /// Prints one aligned line "name  value ± standard error  unit".
 void print_fitted(std::ostream& out, const FittedValue& fitted);
 
-/// Writes KEY and KEY_se.
+/// Writes KEY and KEY_se. Throws InputError where the value lies outside of what the parameter files allow: such a fit
+/// is of data that are no machine's, and a file that cannot be read back is of no use.
 void write_fitted(TomlWriter& toml, const FittedValue& fitted);
 
 /// "a.csv, b.csv" for a TOML comment.

@@ -223,7 +223,7 @@ void write_fit(const CuttingCalibrationOptions& options, const CuttingFit<double
     for (std::size_t j = 0; j < doubts.size(); ++j) {
         toml.key(cutting_doubt_keys[j].name, doubts[j]);
     }
-    toml.key(cut_side_key, side == CutSide::up ? "up" : "down");
+    toml.key(cut_side_key.name, side == CutSide::up ? "up" : "down");
     file.commit();
 }
 

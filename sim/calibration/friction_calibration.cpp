@@ -145,7 +145,7 @@ int calibrate_motion(const FrictionCalibrationOptions& options, std::ostream& ou
     report(symmetric_friction_keys, result.symmetric, result.symmetric_correlation);
     out << "by direction:\n";
     report(directional_friction_keys, result.directional, result.directional_correlation);
-    toml.key("residual_rms_N", result.directional.residual_rms);
+    toml.key(friction_force_residual_key.name, result.directional.residual_rms);
     file.commit();
 
     const double bound_N = 1.5 * result.directional.residual_rms;
@@ -185,13 +185,13 @@ std::string what_the_axis_lacks(char axis, const std::vector<SteadyFeed>& feeds)
         const char sign = direction > 0.0 ? '+' : '-';
         if (count == 0) {
             return fmt::format(
-                "'{}.gravity_A' cannot be told from friction_K_x3_A: no steady travel in air in {}{}; "
+                "'{}.gravity_A' cannot be told from K_x3_A: no steady travel in air in {}{}; "
                 "expected at least three different feeds in each direction",
                 axis, sign, axis);
         }
         if (count < 3) {
             return fmt::format(
-                "'{}.friction_{}_K_x1_A_min2_per_m2' cannot be determined: {} steady feed(s) in air in "
+                "'{}.K_x1_{}_A_min2_per_m2' cannot be determined: {} steady feed(s) in air in "
                 "{}{}; expected at least three different ones",
                 axis, direction > 0.0 ? "positive" : "negative", count, sign, axis);
         }
@@ -217,7 +217,7 @@ void fit_axis(char axis, const std::vector<SteadyFeed>& feeds, TomlWriter& toml,
         print_fitted(out, fitted);
         write_fitted(toml, fitted);
     }
-    toml.key("friction_residual_rms_A", solution.residual_rms);
+    toml.key(friction_current_residual_key.name, solution.residual_rms);
     out << fmt::format("  residual {:.4g} A rms\n", solution.residual_rms);
 }
 

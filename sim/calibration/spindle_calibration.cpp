@@ -224,7 +224,7 @@ int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& ou
             print_fitted(out, fitted);
         }
     }
-    toml.key("torque_residual_rms_Nm", fit.solution.residual_rms);
+    toml.key(torque_residual_key.name, fit.solution.residual_rms);
     file.commit();
     out << fmt::format("  residual {:.4g} N·m rms\n", fit.solution.residual_rms);
     if (!terms.idle_slope) {

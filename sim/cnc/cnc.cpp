@@ -57,13 +57,16 @@ double Cnc::feed_limit(std::size_t index, double override_ratio) const {
 }
 
 // The largest velocity of this period from which full braking meets a limit that begins at a distance: either slow
-// enough already, or √(v_l² + 2 a d) is kept at the period's end. The last way to a stop is gone in one period.
+// enough already, or √(v_l² + 2 a d) is kept at the period's end. The last way to a stop is gone in one period, and
+// only from a velocity that may end in the same period.
 double Cnc::approach(double limit_mm_s, double distance_mm) const {
     const double step = velocity_step_mm_s_;
     const double room = limit_mm_s * limit_mm_s + 2.0 * settings_.acceleration_mm_s2 * distance_mm;
     const double braking = room / (std::sqrt(step * step + room) + step);
-    const double at_once = limit_mm_s > 0.0 ? limit_mm_s : std::min(step, distance_mm / settings_.servo_period_s);
-    return std::max(at_once, braking);
+    if (limit_mm_s > 0.0 || velocity_mm_s_ > step) {
+        return std::max(limit_mm_s, braking);
+    }
+    return std::max(braking, std::min(step, distance_mm / settings_.servo_period_s));
 }
 
 double Cnc::limit_by_geometry(double limit_mm_s) const {

@@ -33,7 +33,7 @@ struct CncSettings {
 /// An override that is not finite, or negative, counts as 0; so does a feed hold. A dwell and a spindle's wait run on
 /// during a hold. Moves end exactly where they should; with an override that stays above 0 every program ends.
 ///
-/// Cost: one pass over the moves at the start (100 bytes each beside the moves themselves); a step looks at the blocks
+/// Cost: one pass over the moves at the start (40 bytes each beside the moves themselves); a step looks at the blocks
 /// that it passes and at most 256 changes of the programmed feed within the braking distance (beyond them it is ready
 /// to stop). Not for several threads at once.
 class Cnc {

@@ -63,6 +63,11 @@ struct SortedBlock {
     }
 };
 
+/// A G code in tenths: 17 is 170. Codes carry at most one decimal, and rounding keeps G20 and G20.0 the same.
+long tenths(const GcodeWord& word) {
+    return std::lround(word.value * 10.0);
+}
+
 class Interpreter {
   public:
     Interpreter(std::string_view file_name, const GcodeSettings& settings)
@@ -99,7 +104,7 @@ class Interpreter {
         if (!(tenfold >= 0.0 && tenfold <= 9999.0) || std::abs(tenfold - std::round(tenfold)) > 1e-6) {
             fail(word, known_g_codes);
         }
-        switch (std::lround(tenfold)) {
+        switch (tenths(word)) {
             case 0:
             case 10:
             case 20:
@@ -181,10 +186,10 @@ class Interpreter {
 
     void set_modes(const SortedBlock& block) {
         if (const GcodeWord* word = block.code(units)) {
-            mm_per_unit_ = word->value == 20.0 ? mm_per_inch : 1.0;
+            mm_per_unit_ = tenths(*word) == 200 ? mm_per_inch : 1.0;
         }
         if (const GcodeWord* word = block.code(distance)) {
-            relative_ = word->value == 91.0;
+            relative_ = tenths(*word) == 910;
         }
         if (const GcodeWord* word = block.address('F')) {
             const double feed_mm_min = word->value * mm_per_unit_;
@@ -204,7 +209,7 @@ class Interpreter {
         }
         if (const GcodeWord* word = block.code(motion)) {
             constexpr std::array kinds{MoveKind::rapid, MoveKind::feed_line, MoveKind::arc_cw, MoveKind::arc_ccw};
-            motion_ = kinds[static_cast<std::size_t>(word->value + 0.5)];
+            motion_ = kinds[static_cast<std::size_t>(tenths(*word) / 10)];
         }
     }
 

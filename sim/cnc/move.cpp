@@ -68,7 +68,7 @@ Eigen::Vector3d position_at(const Move& move, double s_mm) {
     if (!is_arc(move)) {
         const double length = length_mm(move);
         const double share = length > 0.0 ? std::clamp(s_mm / length, 0.0, 1.0) : 1.0;
-        return move.start_mm + share * (move.end_mm - move.start_mm);
+        return share < 1.0 ? move.start_mm + share * (move.end_mm - move.start_mm) : move.end_mm;
     }
     const PolarArc arc = polar_arc(move);
     const double share = arc.length_mm > 0.0 ? std::clamp(s_mm / arc.length_mm, 0.0, 1.0) : 1.0;

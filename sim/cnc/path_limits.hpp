@@ -23,9 +23,9 @@ class PathLimits {
   public:
     struct Block {
         double length_mm = 0.0;
-        double end_mm = 0.0;      ///< path from the program's start to the block's end
-        double most_mm_s = 0.0;   ///< on the block: arc radius, machine's largest feed
-        double exit_mm_s = 0.0;   ///< at its end, so that all that follows can be met; 0: the tool stops there
+        double end_mm = 0.0;        ///< path from the program's start to the block's end
+        double most_mm_s = 0.0;     ///< on the block: arc radius, machine's largest feed
+        double exit_mm_s = 0.0;     ///< at its end, so that all that follows can be met; 0: the tool stops there
         std::size_t next_feed = 0;  ///< the next block whose programmed feed is another
     };
 

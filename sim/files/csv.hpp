@@ -99,8 +99,9 @@ class CsvWriter {
     /// One row; as many values as there are columns.
     void row(std::span<const double> values);
 
-    /// The cell for a number.
+    /// The cell for a number: the shortest text that reads back as the same double, or float.
     static std::string cell(double value);
+    static std::string cell(float value);
 
   private:
     std::ostream& out_;

@@ -12,6 +12,10 @@ std::string CsvWriter::cell(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
+std::string CsvWriter::cell(float value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
 CsvWriter::CsvWriter(std::ostream& out, std::span<const std::string_view> column_names)
     : out_(out), columns_(column_names.size()) {
     for (std::size_t k = 0; k < columns_; ++k) {

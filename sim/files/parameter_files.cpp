@@ -1,102 +1,142 @@
 #include "files/parameter_files.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "files/input_error.hpp"
+#include "files/parameter_choices.hpp"
 #include "files/toml_reader.hpp"
 
 namespace millforce::sim {
 
 namespace {
 
-using Row = firmware::ParameterRow<float>;
+using firmware::InformationRow;
+using firmware::ParameterFile;
 
-std::vector<std::string> words_of(const char* choices) {
-    std::vector<std::string> words{""};
-    for (const char* c = choices; *c != '\0'; ++c) {
-        if (*c == '|') {
-            words.emplace_back();
-        } else {
-            words.back() += *c;
-        }
+template <typename Scalar>
+void read_row(const firmware::ParameterRow<Scalar>& row, TomlFile::Table& table, std::size_t axis,
+              firmware::Parameters<Scalar>& parameters) {
+    const std::optional<double> fallback =
+        std::isnan(row.default_value) ? std::nullopt : std::optional(decimal(row.default_value));
+    Scalar& field = row.field(parameters, axis);
+    if (row.choices != nullptr) {
+        const auto choice = fallback ? std::optional(static_cast<std::size_t>(*fallback)) : std::nullopt;
+        field = static_cast<Scalar>(table.choice(row.key, words_of(row.choices), choice));
+    } else {
+        field = static_cast<Scalar>(table.number(row.key, decimal(row.minimum), decimal(row.maximum), fallback));
     }
-    return words;
 }
 
-void read_row(const Row& row, TomlFile::Table& table, std::size_t axis, firmware::Parameters<float>& parameters) {
-    const bool has_default = !std::isnan(row.default_value);
-    if (row.choices != nullptr) {
-        const std::optional<std::size_t> fallback =
-            has_default ? std::optional<std::size_t>(static_cast<std::size_t>(row.default_value)) : std::nullopt;
-        row.field(parameters, axis) = static_cast<float>(table.choice(row.key, words_of(row.choices), fallback));
+// Far beyond any physical value, to keep infinity out.
+constexpr double largest_information = 1e12;
+
+void check_standard_error(const std::string& key, TomlFile::Table& table) {
+    if (const std::string companion = key + "_se"; table.has(companion)) {
+        table.number(companion, 0.0, largest_information);
+    }
+}
+
+void check_information(const InformationRow& row, TomlFile::Table& table) {
+    if (!table.has(row.key)) {
         return;
     }
-    const std::optional<double> fallback =
-        has_default ? std::optional<double>(static_cast<double>(row.default_value)) : std::nullopt;
-    row.field(parameters, axis) = static_cast<float>(
-        table.number(row.key, static_cast<double>(row.minimum), static_cast<double>(row.maximum), fallback));
+    if (row.choices != nullptr) {
+        table.choice(row.key, words_of(row.choices));
+    } else {
+        table.number(row.key, -largest_information, largest_information);
+    }
 }
 
-/// Free text that belongs to the file but to no algorithm.
-void accept_description(TomlFile::Table& root) {
-    root.text("name", "");
-    root.text("description", "");
-}
+/// Reads the rows of one file into `parameters`, or those of one of its tables.
+template <typename Scalar>
+class TableReader {
+  public:
+    TableReader(ParameterFile file, TomlFile::Table& root, firmware::Parameters<Scalar>& parameters)
+        : file_(file), root_(root), parameters_(parameters) {}
 
-void read_file(firmware::ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
-    TomlFile toml = TomlFile::open(path);
-    TomlFile::Table root = toml.root();
-    accept_description(root);
-    std::map<std::string, TomlFile::Table> tables;
-    const auto table_named = [&](const std::string& name) -> TomlFile::Table& {
-        const auto found = tables.find(name);
-        return found != tables.end() ? found->second : tables.emplace(name, root.table(name)).first->second;
-    };
-    for (const Row& row : firmware::parameter_table<float>) {
-        if (row.file != file) {
-            continue;
+    void read(std::string_view only_table = {}) {
+        const auto is_asked = [&](const auto& row) {
+            return row.file == file_ && (only_table.empty() || only_table == row.table);
+        };
+        for (const auto& row : firmware::parameter_table<Scalar>) {
+            if (is_asked(row)) {
+                for_each_table(row, [&](std::size_t axis, TomlFile::Table& table) {
+                    read_row(row, table, axis, parameters_);
+                    if (row.choices == nullptr) {
+                        check_standard_error(row.key, table);
+                    }
+                });
+            }
         }
+        for (const InformationRow& row : firmware::information_table) {
+            if (is_asked(row)) {
+                for_each_table(row, [&](std::size_t, TomlFile::Table& table) {
+                    check_information(row, table);
+                    check_standard_error(row.key, table);
+                });
+            }
+        }
+        for (const auto& [name, table] : tables_) {
+            table.reject_unknown_keys();
+        }
+    }
+
+    TomlFile::Table& table(const std::string& name) {
+        const auto found = tables_.find(name);
+        return found != tables_.end() ? found->second : tables_.emplace(name, root_.table(name)).first->second;
+    }
+
+  private:
+    template <typename Row, typename Act>
+    void for_each_table(const Row& row, Act act) {
         const bool is_axis = std::string_view(row.table) == "axis";
         for (std::size_t axis = 0; axis < (is_axis ? firmware::axis_tables.size() : 1); ++axis) {
-            read_row(row, table_named(is_axis ? firmware::axis_tables[axis] : row.table), axis, parameters);
+            act(axis, table(is_axis ? firmware::axis_tables[axis] : row.table));
         }
     }
+
+    ParameterFile file_;
+    TomlFile::Table& root_;
+    firmware::Parameters<Scalar>& parameters_;
+    std::map<std::string, TomlFile::Table> tables_;
+};
+
+void read_file(ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
+    TomlFile toml = TomlFile::open(path);
+    TomlFile::Table root = toml.root();
+    root.text("name", "");  // free text: it belongs to the file, but to no algorithm
+    root.text("description", "");
+    TableReader<float>(file, root, parameters).read();
     root.reject_unknown_keys();
-    for (const auto& [name, table] : tables) {
-        table.reject_unknown_keys();
-    }
 }
 
 }  // namespace
 
 firmware::Parameters<float> read_parameters(const std::string& machine_path, const std::string& tool_path) {
     firmware::Parameters<float> parameters;
-    read_file(firmware::ParameterFile::machine, machine_path, parameters);
-    read_file(firmware::ParameterFile::tool, tool_path, parameters);
+    read_file(ParameterFile::machine, machine_path, parameters);
+    read_file(ParameterFile::tool, tool_path, parameters);
     return parameters;
 }
 
-std::string parameter_documentation() {
-    std::string text = "| file | key | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
-    for (const Row& row : firmware::parameter_table<float>) {
-        const std::string table = std::string_view(row.table) == "axis" ? "x, y, z" : row.table;
-        std::string fallback = std::isnan(row.default_value) ? "required" : fmt::format("{}", row.default_value);
-        std::string range = fmt::format("{}…{}", row.minimum, row.maximum);
-        if (row.choices != nullptr) {
-            const std::vector<std::string> words = words_of(row.choices);
-            range.clear();
-            for (const std::string& word : words) {
-                range += (range.empty() ? "" : ", ") + word;
-            }
-            fallback = words[static_cast<std::size_t>(row.default_value)];
-        }
-        text += fmt::format("| {}.toml | [{}] {} | {} | {} | {} | {} |\n",
-                            row.file == firmware::ParameterFile::machine ? "machine" : "tool", table, row.key,
-                            row.unit, fallback, range, row.sentence);
+CuttingTable read_cutting_table(const std::string& tool_path) {
+    TomlFile toml = TomlFile::open(tool_path);
+    TomlFile::Table root = toml.root();
+    if (!root.has("cutting")) {
+        throw InputError(tool_path + ": no table [cutting]; expected the output of 'millforce calibrate cutting'");
     }
-    return text;
+    firmware::Parameters<double> parameters;
+    TableReader<double> reader(ParameterFile::tool, root, parameters);
+    reader.read("cutting");
+    CuttingTable result{parameters.tool.law, std::nullopt};
+    if (TomlFile::Table& table = reader.table("cutting"); table.has("cut_side")) {
+        result.side = table.choice("cut_side", {"down", "up"}) == 1 ? estimation::CutSide::up : estimation::CutSide::down;
+    }
+    return result;
 }
 
 }  // namespace millforce::sim

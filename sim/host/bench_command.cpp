@@ -15,6 +15,7 @@
 
 #include "firmware/tick.hpp"
 #include "host/commands.hpp"
+#include "loop/recording.hpp"
 #include "loop/simulation.hpp"
 
 namespace millforce::sim {
@@ -59,17 +60,15 @@ struct TickCost {
 };
 
 template <typename Read>
-TickCost tick_cost(const Scenario& scenario, const std::vector<RecordedSample>& recording, Read read) {
+TickCost tick_cost(const Scenario& scenario, const std::vector<RecordedStep>& recording, Read read) {
     firmware::ForceControlTick<float> tick(scenario.parameters);
-    hal::ProgramStatus program;
-    program.programmed_feed_mm_s = static_cast<float>(scenario.feed_mm_s);
     std::vector<std::uint64_t> plain;
     std::vector<std::uint64_t> estimating;
     std::uint64_t sum = 0;
-    for (const RecordedSample& recorded : recording) {
+    for (const RecordedStep& recorded : recording) {
         const float before_s = static_cast<float>(tick.estimator().since_period_s());
         const std::uint64_t start = read();
-        tick.step(recorded.sample, program);
+        tick.step(recorded.sample, recorded.program);
         const std::uint64_t cost = read() - start;
         sum += cost;
         const bool new_period = static_cast<float>(tick.estimator().since_period_s()) < before_s;
@@ -94,9 +93,9 @@ void print_cost(const char* unit, const TickCost& cost) {
 int bench(const std::string& path) {
     const Scenario scenario = read_scenario(path);
     MillforceController controller(scenario.parameters);
-    SimulationSettings settings;
-    settings.record = true;
-    const Simulated run = simulate(scenario, controller, "millforce", settings);
+    std::vector<RecordedStep> recording;
+    Recorder recorder(controller, [&](const RecordedStep& step) { recording.push_back(step); });
+    const Simulated run = simulate(scenario, recorder, "millforce");
     fmt::print("simulation of {}: {:.1f} s in {:.2f} s, {:.0f} × real time\n\n", scenario.name,
                run.result.figures.time_s, run.result.figures.time_s / run.result.figures.real_time_factor,
                run.result.figures.real_time_factor);
@@ -104,10 +103,10 @@ int bench(const std::string& path) {
     const auto nanoseconds = [] {
         return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
     };
-    print_cost("ns", tick_cost(scenario, run.recording, nanoseconds));
+    print_cost("ns", tick_cost(scenario, recording, nanoseconds));
     const InstructionCounter counter;
     if (counter.works()) {
-        print_cost("instructions", tick_cost(scenario, run.recording, [&] { return counter.read_count(); }));
+        print_cost("instructions", tick_cost(scenario, recording, [&] { return counter.read_count(); }));
     } else {
         fmt::print("instructions          not counted: this kernel gives no hardware counters; "
                    "tests/run counts them with valgrind\n");
@@ -121,7 +120,7 @@ int bench(const std::string& path) {
 void add_bench(CLI::App& app, int& exit_code) {
     auto scenario = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("bench", "The performance tables");
-    command->add_option("scenario", *scenario, "Scenario to run (TOML)")->required()->type_name("SCENARIO.toml");
+    command->add_option("scenario", *scenario, "Scenario to run")->required()->type_name("SCENARIO.toml");
     command->callback([scenario, &exit_code] { exit_code = bench(*scenario); });
 }
 

@@ -34,6 +34,10 @@ void add_data_and_output(CLI::App* command, Options& options) {
 void add_friction(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<FrictionCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("friction", "Feed axes: friction by direction, mass, weight");
+    command->footer(
+        "Data: a recording of air cuts (time_s, AXIS_velocity_mm_s, AXIS_current_A; at least three steady feeds in each\n"
+        "direction), or one axis in motion (time_s, position_m, motor_force_N). The tables go into machine.toml as they\n"
+        "are. Exit code 1: the friction changed within the data.");
     add_data_and_output(command, *options);
     command->add_option("--axis", options->axis, "Axis of data that holds a single one")
         ->check(CLI::IsMember({"x", "y", "z"}))
@@ -50,6 +54,9 @@ void add_friction(CLI::App* calibrate, int& exit_code) {
 void add_spindle(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<SpindleCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("spindle", "Spindle: torque per ampere, idle torque, inertia");
+    command->footer(
+        "Data: spindle_current_A and spindle_torque_Nm, with spindle_speed_rad_s or with time_s and spindle_angle_rad.\n"
+        "The table goes into machine.toml as it is.");
     add_data_and_output(command, *options);
     command->add_option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
         ->check(CLI::Range(0.01, 1e4))
@@ -61,6 +68,10 @@ void add_cutting(CLI::App* calibrate, int& exit_code) {
     using estimation::CuttingLawForm;
     auto options = std::make_shared<CuttingCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("cutting", "Material and tool: coefficients from measured cuts");
+    command->footer(
+        "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s, spindle_torque_Nm and\n"
+        "normal_force_N or feed_force_N; cuts at two feeds and several widths. The table goes into tool.toml as it is.\n"
+        "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
     add_data_and_output(command, *options);
     command->add_option("--side", options->side, "down, up or unknown: from the data")->transform(side_names());
     command->add_option("--law", options->form, "linear_edge, power or combined")
@@ -85,15 +96,21 @@ void add_calibrate(CLI::App& app, int& exit_code) {
 void add_estimate(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<EstimateOptions>();
     CLI::App* command = app.add_subcommand("estimate", "Forces from conditions; depth or width from measured torque");
-    command->add_option("conditions", options->conditions, "Conditions (CSV)")->required()->type_name("CONDITIONS.csv");
+    command->footer(
+        "Conditions: tool_diameter_mm, flutes, spindle_rad_s, feed_mm_s, and axial_depth_mm, radial_width_mm and\n"
+        "spindle_torque_Nm as far as they are known. An empty cell is \"no estimate\".");
+    command->add_option("conditions", options->conditions, "One straight cut a row")
+        ->required()
+        ->type_name("CONDITIONS.csv");
     command->add_option("--tool", options->tool, "Tool with its [cutting] table")->required()->type_name("T.toml");
-    command->add_option("-o,--output", options->output, "The rows with estimates (CSV); default: standard output");
+    command->add_option("-o,--output", options->output, "The rows with estimates; default: standard output")
+        ->type_name("OUT.csv");
     command->add_option("--side", options->side, "down, up or unknown: the tool's")->transform(side_names());
     command->callback([options, &exit_code] { exit_code = estimate(*options, std::cout); });
 }
 
 void add_parameters(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("parameters", "Lists every key of machine.toml and tool.toml (Markdown)");
+    CLI::App* command = app.add_subcommand("parameters", "Every key of machine.toml and tool.toml, as Markdown");
     command->callback([&exit_code] {
         fmt::print("{}", parameter_documentation());
         exit_code = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -7,12 +9,20 @@ class App;
 namespace millforce::sim {
 
 /// The subcommands of millforce. Each adds itself to the program and, when chosen, runs and sets the exit code:
-/// 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input (also by throwing InputError).
+/// 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input (by throwing InputError).
 void add_simulate(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_estimate(CLI::App& app, int& exit_code);
+void add_cut_table(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_parameters(CLI::App& app, int& exit_code);
+
+/// `--version` for the program and every subcommand, and the rules that all of them share.
+void set_common_rules(CLI::App& app, const std::string& version);
+
+/// The one line that says what is wrong with the command line: the message of CLI11, with the nearest name of an
+/// unknown command or option.
+std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message);
 
 }  // namespace millforce::sim

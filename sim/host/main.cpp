@@ -6,32 +6,35 @@
 #include <exception>
 
 #include "files/atomic_file.hpp"
-#include "files/input_error.hpp"
 #include "host/commands.hpp"
 
 int main(int argc, char** argv) {
     using namespace millforce::sim;
     remove_unfinished_files_on_interrupt();
-    CLI::App app{"millforce - sensorless force control for milling"};
-    app.set_version_flag("--version", "millforce " MILLFORCE_VERSION);
+    CLI::App app{"Sensorless force control for milling", "millforce"};
     app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input.\n"
+        "'millforce COMMAND --help' tells more about a command.");
     int exit_code = 0;
     add_simulate(app, exit_code);
     add_replay(app, exit_code);
     add_calibrate(app, exit_code);
     add_estimate(app, exit_code);
+    add_cut_table(app, exit_code);
     add_bench(app, exit_code);
     add_parameters(app, exit_code);
+    set_common_rules(app, "millforce " MILLFORCE_VERSION);
     try {
         app.parse(argc, argv);
         return exit_code;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const InputError& error) {
-        fmt::print(stderr, "millforce: {}\n", error.what());
-        return 2;
+        if (error.get_exit_code() == 0) {
+            return app.exit(error);
+        }
+        fmt::print(stderr, "millforce: {}\n", usage_error(app, argc, argv, error.what()));
     } catch (const std::exception& error) {
         fmt::print(stderr, "millforce: {}\n", error.what());
-        return 2;
     }
+    return 2;
 }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "control/cut_state.hpp"
 #include "files/atomic_file.hpp"
@@ -27,7 +27,8 @@ struct ReplayOptions {
     std::string machine;
     std::string tool;
     std::string output;
-    double programmed_feed_mm_min = 0.0;
+    std::optional<double> programmed_feed_mm_min;
+    double interval_s = 0.02;
 };
 
 constexpr std::string_view header =
@@ -35,21 +36,28 @@ constexpr std::string_view header =
     "axial_depth_sd_mm,peak_force_N,force_limit_N,override\n";
 
 void write_row(std::ostream& out, double time_s, const TracePoint& p, float ratio) {
-    const double columns[] = {p.tangential_force_N, p.feed_force_N,      p.radial_immersion,
-                              p.radial_immersion_sd, p.axial_depth_mm,   p.axial_depth_sd_mm,
-                              p.peak_force_N,       p.force_limit_N,     static_cast<double>(ratio)};
     std::string line = CsvWriter::cell(time_s);
     line += ',';
     line += control::name(static_cast<control::CutState>(p.state));
-    for (const double value : columns) {
+    for (const double estimate : {p.tangential_force_N, p.feed_force_N, p.radial_immersion, p.radial_immersion_sd,
+                                  p.axial_depth_mm, p.axial_depth_sd_mm, p.peak_force_N, p.force_limit_N}) {
         line += ',';
-        line += CsvWriter::cell(static_cast<double>(static_cast<float>(value)));
+        line += CsvWriter::cell(static_cast<float>(estimate));
     }
-    out << line << '\n';
+    out << line << ',' << CsvWriter::cell(ratio) << '\n';
+}
+
+/// The program's status of each row: the recording's own, with F from the command line where it was given.
+hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOptions& options) {
+    hal::ProgramStatus program = recording.program();
+    if (options.programmed_feed_mm_min) {
+        program.programmed_feed_mm_s = static_cast<float>(*options.programmed_feed_mm_min / 60.0);
+    }
+    return program;
 }
 
 /// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
-/// come out, one row per tooth period.
+/// come out.
 int replay(const ReplayOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     RecordingReader recording(options.log, static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
@@ -58,20 +66,21 @@ int replay(const ReplayOptions& options) {
     if (!options.output.empty()) {
         file.emplace(options.output);
     }
-    std::ostream& out = file ? file->stream() : std::cout;
+    // Without a file, an error in the last row must not leave half a table behind: rows go out when all are good.
+    std::ostringstream held_back;
+    std::ostream& out = file ? file->stream() : held_back;
     out << header;
     Progress progress("replaying");
     std::size_t rows = 0;
-    double next_row_s = -1e18;
+    double next_row_s = -std::numeric_limits<double>::infinity();
     while (recording.next()) {
-        hal::ProgramStatus program;
-        program.programmed_feed_mm_s = static_cast<float>(options.programmed_feed_mm_min / 60.0);
-        const hal::FeedOverride output = controller.step(recording.sample(), program);
+        progress.update(recording.fraction_read());
+        const hal::FeedOverride output = controller.step(recording.sample(), program_of(recording, options));
         if (recording.time_s() >= next_row_s) {
             TracePoint point;
             controller.describe(point);
             write_row(out, recording.time_s(), point, output.ratio);
-            next_row_s = recording.time_s() + 0.02;
+            next_row_s = recording.time_s() + options.interval_s;
             ++rows;
         }
     }
@@ -81,6 +90,8 @@ int replay(const ReplayOptions& options) {
     if (file) {
         file->commit();
         fmt::print("{}: {} rows\n", options.output, rows);
+    } else {
+        std::cout << held_back.str();
     }
     return 0;
 }
@@ -90,13 +101,21 @@ int replay(const ReplayOptions& options) {
 void add_replay(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = app.add_subcommand("replay", "Estimation and control (open loop) on a recording");
-    command->add_option("log", options->log, "Recording (CSV)")->required()->type_name("LOG.csv");
+    command->footer(
+        "Columns of the recording: time_s, spindle_angle_rad, spindle_current_A, and AXIS_current_A and\n"
+        "AXIS_velocity_mm_s for x, y, z as they are there. A recording of 'simulate --record' holds besides the index\n"
+        "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
+        "An empty cell of the estimates is \"no estimate\".");
+    command->add_option("log", options->log, "Recording")->required()->type_name("LOG.csv");
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
-    command->add_option("-o,--output", options->output, "Estimates (CSV); default: standard output");
+    command->add_option("-o,--output", options->output, "Estimates; default: standard output")->type_name("OUT.csv");
     command->add_option("--programmed-feed", options->programmed_feed_mm_min,
-                        "F of the program in mm/min, for the override; 0: not known")
+                        "F of the program in mm/min, for the override; default: the recording's, else not known")
         ->check(CLI::Range(0.0, 1e6));
+    command->add_option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
     command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

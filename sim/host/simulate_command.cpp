@@ -36,6 +36,8 @@ struct SimulateOptions {
 // A simulated peak or time over the limit beyond these is a broken bound: exit code 1.
 constexpr double peak_bound = 1.10;
 
+constexpr const char* baseline = "constant";
+
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
     scenario.seed = options.seed.value_or(scenario.seed);
@@ -69,7 +71,7 @@ ScenarioInfo info_of(const Scenario& scenario, double constant_ratio) {
 
 std::unique_ptr<OverrideSource> controller_named(const std::string& name, const Scenario& scenario,
                                                  double constant_ratio) {
-    if (name == "constant") {
+    if (name == baseline) {
         return std::make_unique<ConstantFeed>(scenario.parameters, constant_ratio);
     }
     if (name == "constant_load") {
@@ -78,61 +80,80 @@ std::unique_ptr<OverrideSource> controller_named(const std::string& name, const 
     return std::make_unique<MillforceController>(scenario.parameters);
 }
 
-RunResult run(const Scenario& scenario, const std::string& name, double constant_ratio, const SimulateOptions& options,
-              const std::filesystem::path& recording) {
-    Progress progress(fmt::format("simulating {}", name), 1);
+SimulationSettings settings_with(Progress& progress) {
     SimulationSettings settings;
-    settings.record = options.record;
-    settings.progress = [&](double share) {
+    settings.progress = [&progress](double share) {
         progress.update(share);
         return true;
     };
+    return settings;
+}
+
+/// Runs the scenario; with a name for it, every step at the controller's border goes into a recording.
+RunResult run(const Scenario& scenario, const std::string& name, double constant_ratio,
+              const std::optional<std::filesystem::path>& recording) {
+    Progress progress(fmt::format("simulating {}", name), 1);
     const auto controller = controller_named(name, scenario, constant_ratio);
-    Simulated simulated = simulate(scenario, *controller, name, settings);
-    if (options.record) {
-        write_recording(recording, simulated.recording);
+    if (!recording) {
+        return simulate(scenario, *controller, name, settings_with(progress)).result;
     }
+    RecordingWriter writer(*recording, scenario.machine.encoder_counts_per_rev);
+    Recorder recorder(*controller, [&](const RecordedStep& step) { writer.add(step); });
+    Simulated simulated = simulate(scenario, recorder, name, settings_with(progress));
+    writer.commit();
     return std::move(simulated.result);
+}
+
+double safe_override_of(const Scenario& scenario) {
+    Progress progress("finding the constant feed that is safe everywhere", 1);
+    return safe_constant_override(scenario, settings_with(progress));
+}
+
+/// The folder for the results, made where it is missing. An error is told now, and not after a long run.
+std::filesystem::path results_folder(const std::string& name) {
+    const std::filesystem::path folder(name);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw InputError(fmt::format("{}: cannot be made a folder: {}", name, error.message()));
+    }
+    const AtomicFile can_be_written(folder / "summary.json");
+    return folder;
+}
+
+bool held(const RunFigures& figures) {
+    return figures.finished && figures.teeth_broken == 0 && figures.peak_over_limit <= peak_bound;
+}
+
+void print_broken_bound(const RunFigures& figures) {
+    fmt::print(stderr,
+               "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
+               "{} teeth broken, {}\n",
+               100.0 * figures.peak_over_limit, 100.0 * peak_bound, figures.teeth_broken,
+               figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
 }
 
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
-    const std::filesystem::path out(options.out);
-    std::error_code error;
-    std::filesystem::create_directories(out, error);
-    if (error) {
-        throw InputError(fmt::format("{}: cannot be made a folder: {}", options.out, error.message()));
-    }
-    double ratio = 0.0;
-    {
-        Progress progress("finding the constant feed that is safe everywhere", 1);
-        SimulationSettings settings;
-        settings.progress = [&](double share) {
-            progress.update(share);
-            return true;
-        };
-        ratio = safe_constant_override(scenario, settings);
-    }
+    const std::filesystem::path out = results_folder(options.out);
+    const auto recording = options.record ? std::optional(out / "recording.csv") : std::nullopt;
+    const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;
-    results.push_back(run(scenario, options.controller, ratio, options, out / "recording.csv"));
-    if (options.controller != "constant") {
-        SimulateOptions baseline = options;
-        baseline.record = false;
-        results.push_back(run(scenario, "constant", ratio, baseline, {}));
+    if (!is_baseline) {
+        results.push_back(run(scenario, options.controller, 0.0, recording));
     }
+    const double ratio = safe_override_of(scenario);
+    results.push_back(run(scenario, baseline, ratio, is_baseline ? recording : std::nullopt));
     const ScenarioInfo info = info_of(scenario, ratio);
     fmt::print("{}", summary_table(info, results));
-    const auto files = write_report(out, info, results);
+    write_report(out, info, results);
     fmt::print("\nreport: {}\n", (out / "report.html").string());
     const RunFigures& figures = results.front().figures;
-    const bool held = figures.finished && figures.teeth_broken == 0 && figures.peak_over_limit <= peak_bound;
-    if (!held) {
-        fmt::print(stderr, "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
-                           "{} teeth broken, {}\n",
-                   100.0 * figures.peak_over_limit, 100.0 * peak_bound, figures.teeth_broken,
-                   figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
+    if (!held(figures)) {
+        print_broken_bound(figures);
+        return 1;
     }
-    return held ? 0 : 1;
+    return 0;
 }
 
 }  // namespace
@@ -140,12 +161,17 @@ int simulate_scenario(const SimulateOptions& options) {
 void add_simulate(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SimulateOptions>();
     CLI::App* command = app.add_subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
-    command->add_option("scenario", options->scenario, "Scenario (TOML)")->required()->type_name("SCENARIO.toml");
+    command->footer(
+        "The baseline beside it is the best constant feed: the largest one with which no tooth exceeds its limit.\n"
+        "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit, or the program did not finish.");
+    command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
     command->add_option("--controller", options->controller, "Who sets the override")
         ->check(CLI::IsMember(controller_names()))
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Seed of all noise; default: the scenario's");
-    command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")->capture_default_str();
+    command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
+        ->type_name("DIR")
+        ->capture_default_str();
     command->add_flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
     command->add_option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
         ->check(CLI::Range(0.1, 10.0));

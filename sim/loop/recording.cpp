@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
@@ -14,32 +13,70 @@ namespace millforce::sim {
 namespace {
 
 constexpr double revolution = 2.0 * std::numbers::pi;
-constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
+constexpr std::array<std::string_view, hal::axis_count> axis_names{"x", "y", "z"};
+
+constexpr std::string_view header =
+    "time_s,spindle_angle_rad,spindle_current_A,x_current_A,y_current_A,z_current_A,x_velocity_mm_s,y_velocity_mm_s,"
+    "z_velocity_mm_s,override,spindle_index_angle_rad,programmed_feed_mm_s,rapid\n";
+
+bool has(const hal::DriveSample& sample, std::uint8_t mask) {
+    return (sample.present & mask) != 0;
+}
 
 }  // namespace
 
-void write_recording(const std::filesystem::path& file, const std::vector<RecordedSample>& samples) {
-    constexpr std::array<std::string_view, 10> columns{
-        "time_s",          "spindle_angle_rad", "spindle_current_A", "x_current_A",     "y_current_A",
-        "z_current_A",     "x_velocity_mm_s",   "y_velocity_mm_s",   "z_velocity_mm_s", "override"};
-    AtomicFile target(file);
-    CsvWriter csv(target.stream(), columns);
-    for (const RecordedSample& recorded : samples) {
-        const hal::DriveSample& s = recorded.sample;
-        const auto rounded = [](float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; };
-        const std::array<double, 10> row{static_cast<double>(s.time_us) * 1e-6,
-                                         recorded.spindle_angle_rad,
-                                         rounded(s.spindle_current_A),
-                                         rounded(s.axis_current_A[0]),
-                                         rounded(s.axis_current_A[1]),
-                                         rounded(s.axis_current_A[2]),
-                                         rounded(s.axis_velocity_mm_s[0]),
-                                         rounded(s.axis_velocity_mm_s[1]),
-                                         rounded(s.axis_velocity_mm_s[2]),
-                                         recorded.override_ratio};
-        csv.row(row);
+hal::FeedOverride Recorder::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    const hal::FeedOverride output = controller_.step(sample, program);
+    keep_({sample, program, output.ratio});
+    return output;
+}
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev)
+    : file_(file), counts_per_rev_(static_cast<double>(encoder_counts_per_rev)) {
+    file_.stream() << header;
+}
+
+double RecordingWriter::angle_rad(std::int64_t count) const {
+    return static_cast<double>(count) / counts_per_rev_ * revolution;
+}
+
+/// Time and count of the sample wrap at 2³²; those of the file go on.
+void RecordingWriter::follow(const hal::DriveSample& sample) {
+    time_us_ += static_cast<std::int32_t>(sample.time_us - last_time_us_);
+    last_time_us_ = sample.time_us;
+    if (has(sample, hal::mask(hal::Present::spindle_count))) {
+        count_ += static_cast<std::int32_t>(sample.spindle_count - last_count_);
+        last_count_ = sample.spindle_count;
     }
-    target.commit();
+}
+
+template <typename Value>
+void RecordingWriter::cell(Value value, bool present) {
+    line_ += ',';
+    if (present) {
+        line_ += CsvWriter::cell(value);
+    }
+}
+
+void RecordingWriter::add(const RecordedStep& step) {
+    const hal::DriveSample& s = step.sample;
+    follow(s);
+    const bool has_count = has(s, hal::mask(hal::Present::spindle_count));
+    line_ = CsvWriter::cell(static_cast<double>(time_us_) / 1e6);
+    cell(angle_rad(count_), has_count);
+    cell(s.spindle_current_A, has(s, hal::mask(hal::Present::spindle_current)));
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        cell(s.axis_current_A[k], has(s, hal::axis_mask(k)));
+    }
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        cell(s.axis_velocity_mm_s[k], has(s, hal::axis_mask(k)));
+    }
+    cell(step.override_ratio);
+    cell(angle_rad(count_ + static_cast<std::int32_t>(s.spindle_index_count - s.spindle_count)),
+         has_count && s.spindle_index_number != 0);
+    cell(step.program.programmed_feed_mm_s);
+    line_ += step.program.rapid ? ",1\n" : ",0\n";
+    file_.stream() << line_;
 }
 
 RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev)
@@ -48,7 +85,9 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_
       time_(csv_.require("time_s")),
       angle_(csv_.require("spindle_angle_rad", "averages are taken over the spindle's angle")),
       spindle_current_(csv_.require("spindle_current_A", "the tangential force comes from it")),
-      override_(csv_.find("override")) {
+      index_angle_(csv_.find("spindle_index_angle_rad")),
+      programmed_feed_(csv_.find("programmed_feed_mm_s")),
+      rapid_(csv_.find("rapid")) {
     bool any = false;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         axes_[k].current = csv_.find(fmt::format("{}_current_A", axis_names[k]));
@@ -73,32 +112,62 @@ bool RecordingReader::next() {
     time_s_ = time_s;
     sample_ = {};
     sample_.time_us = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::llround((time_s + 1e9) * 1e6)));
-    const double angle = csv_.number(angle_);
-    if (std::isfinite(angle)) {
-        if (std::abs(angle) > 1e7) {
-            csv_.fail(angle_, fmt::format("{}, expected an angle within ±1e7 rad", angle));
-        }
-        sample_.spindle_count = static_cast<std::uint32_t>(
-            static_cast<std::int64_t>(std::floor(angle / revolution * static_cast<double>(counts_per_rev_) + 1e-6)));
+    read_spindle();
+    read_axes();
+    read_program();
+    return true;
+}
+
+/// The encoder's count at an angle; the tolerance is for the angle's last digit.
+std::optional<std::uint32_t> RecordingReader::count_at(std::optional<CsvColumn> column) const {
+    const double angle = csv_.number(column);
+    if (std::isnan(angle)) {
+        return std::nullopt;
+    }
+    if (std::abs(angle) > 1e7) {
+        csv_.fail(*column, fmt::format("{}, expected an angle within ±1e7 rad", angle));
+    }
+    return static_cast<std::uint32_t>(
+        static_cast<std::int64_t>(std::floor(angle / revolution * static_cast<double>(counts_per_rev_) + 1e-6)));
+}
+
+void RecordingReader::read_spindle() {
+    if (const auto count = count_at(angle_)) {
+        sample_.spindle_count = *count;
         sample_.present |= hal::mask(hal::Present::spindle_count);
     }
+    if (const auto index = count_at(index_angle_); index && (index_number_ == 0 || *index != index_count_)) {
+        index_count_ = *index;
+        index_number_ = static_cast<std::uint8_t>(index_number_ == 255 ? 1 : index_number_ + 1);
+    }
+    sample_.spindle_index_count = index_count_;
+    sample_.spindle_index_number = index_number_;
     const double current = csv_.number(spindle_current_);
     if (std::isfinite(current)) {
         sample_.spindle_current_A = static_cast<float>(current);
         sample_.present |= hal::mask(hal::Present::spindle_current);
     }
+}
+
+void RecordingReader::read_axes() {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
-        const double axis_current = csv_.number(axes_[k].current);
+        const double current = csv_.number(axes_[k].current);
         const double velocity = csv_.number(axes_[k].velocity);
-        if (std::isfinite(axis_current) && std::isfinite(velocity)) {
-            sample_.axis_current_A[k] = static_cast<float>(axis_current);
+        if (std::isfinite(current) && std::isfinite(velocity)) {
+            sample_.axis_current_A[k] = static_cast<float>(current);
             sample_.axis_velocity_mm_s[k] = static_cast<float>(velocity);
             sample_.present |= hal::axis_mask(k);
         }
     }
-    return true;
 }
 
-double RecordingReader::override_ratio() const { return csv_.number(override_); }
+void RecordingReader::read_program() {
+    const double feed_mm_s = csv_.number(programmed_feed_);
+    if (feed_mm_s < 0.0 || feed_mm_s > 1e5) {
+        csv_.fail(*programmed_feed_, fmt::format("{}, expected a feed from 0 to 1e5 mm/s", feed_mm_s));
+    }
+    program_.programmed_feed_mm_s = std::isnan(feed_mm_s) ? 0.0F : static_cast<float>(feed_mm_s);
+    program_.rapid = csv_.number(rapid_) > 0.5;
+}
 
 }  // namespace millforce::sim

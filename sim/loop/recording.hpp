@@ -1,46 +1,100 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <functional>
+#include <string>
 
+#include "files/atomic_file.hpp"
 #include "files/csv.hpp"
-#include "firmware/parameters.hpp"
-#include "loop/simulation.hpp"
+#include "hal/drive_sample.hpp"
+#include "loop/override_source.hpp"
 
 namespace millforce::sim {
 
-/// Writes drive samples as a recording: time_s, spindle_angle_rad, spindle_current_A, x_current_A … z_velocity_mm_s,
-/// override. The angle is the encoder's: whole counts.
-void write_recording(const std::filesystem::path& file, const std::vector<RecordedSample>& samples);
+/// One step at the controller's border: what went in, and the override that came out.
+struct RecordedStep {
+    hal::DriveSample sample;
+    hal::ProgramStatus program;
+    float override_ratio = 1.0F;
+};
+
+/// Stands before a controller and gives each of its steps to `keep`.
+class Recorder : public OverrideSource {
+  public:
+    Recorder(OverrideSource& controller, std::function<void(const RecordedStep&)> keep)
+        : controller_(controller), keep_(std::move(keep)) {}
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
+    void describe(TracePoint& point) const override { controller_.describe(point); }
+
+  private:
+    OverrideSource& controller_;
+    std::function<void(const RecordedStep&)> keep_;
+};
+
+/// Writes a recording step by step: time_s, spindle_angle_rad, spindle_current_A, x_current_A … z_velocity_mm_s,
+/// override, and three columns that make a replay exact: spindle_index_angle_rad (where the encoder's last index pulse
+/// came; empty before the first), programmed_feed_mm_s and rapid (0 or 1). The angles are the encoder's whole counts.
+/// What is not present is an empty cell. Appears as a whole with commit(). Steps must be less than 2³¹ µs and 2³¹
+/// counts apart.
+class RecordingWriter {
+  public:
+    RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
+    void add(const RecordedStep& step);
+    void commit() { file_.commit(); }
+
+  private:
+    void follow(const hal::DriveSample& sample);
+    [[nodiscard]] double angle_rad(std::int64_t count) const;
+    template <typename Value>
+    void cell(Value value, bool present = true);
+
+    AtomicFile file_;
+    double counts_per_rev_;
+    std::string line_;
+    std::int64_t time_us_ = 0;
+    std::int64_t count_ = 0;
+    std::uint32_t last_time_us_ = 0;
+    std::uint32_t last_count_ = 0;
+};
 
 /// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as a
 /// column or in a row, is "not present" in the sample. Required: time_s, spindle_angle_rad, spindle_current_A, and one
-/// axis with current and velocity. Throws InputError: time that does not grow, angles beyond 1e7 rad, and all that
-/// CsvReader rejects.
+/// axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError: time
+/// that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
 
     bool next();
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
+    [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
     [[nodiscard]] double time_s() const { return time_s_; }
-    /// The recorded override; NaN where there is none.
-    [[nodiscard]] double override_ratio() const;
+    [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
 
   private:
     struct Axis {
         std::optional<CsvColumn> current;
         std::optional<CsvColumn> velocity;
     };
+    void read_spindle();
+    void read_axes();
+    void read_program();
+    [[nodiscard]] std::optional<std::uint32_t> count_at(std::optional<CsvColumn> angle) const;
+
     CsvReader csv_;
     std::uint32_t counts_per_rev_;
     CsvColumn time_;
     CsvColumn angle_;
     CsvColumn spindle_current_;
-    std::array<Axis, 3> axes_;
-    std::optional<CsvColumn> override_;
+    std::array<Axis, hal::axis_count> axes_;
+    std::optional<CsvColumn> index_angle_;
+    std::optional<CsvColumn> programmed_feed_;
+    std::optional<CsvColumn> rapid_;
     hal::DriveSample sample_{};
+    hal::ProgramStatus program_{};
     double time_s_ = no_estimate;
+    std::uint32_t index_count_ = 0;
+    std::uint8_t index_number_ = 0;
 };
 
 }  // namespace millforce::sim

@@ -104,22 +104,23 @@ TrueEngagement summarise(const EngagementMap& map) {
     bool inside = false;
     for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
         const EngagementMap::Bin& bin = map.bins[k];
-        const double depth = static_cast<double>(bin.top_mm - bin.bottom_mm);
-        const bool engaged = bin.covered > 0.0F && depth > 0.0;
-        if (!engaged) {
+        if (!holds_material(bin)) {
             inside = false;
             continue;
         }
-        const double low = static_cast<double>(k) * EngagementMap::bin_rad;
-        const double high = low + EngagementMap::bin_rad;
-        const double width = (std::cos(low) - std::cos(high)) * static_cast<double>(bin.covered);
+        const CoveredPart part = covered_part(map, k);
+        const double begin_rad = static_cast<double>(k) * EngagementMap::bin_rad;
+        const double low = begin_rad + part.low * EngagementMap::bin_rad;
+        const double high = begin_rad + part.high * EngagementMap::bin_rad;
+        // cos φ_st − cos φ_ex as a product: the bins are narrow.
+        const double width = std::sin(0.5 * (low + high)) * (high - low) * part.weight;
         truth.entry_rad = truth.cutting ? truth.entry_rad : low;
         truth.exit_rad = high;
         truth.cutting = true;
         truth.intervals += inside ? 0 : 1;
         inside = true;
         truth.radial_immersion += width;
-        weighted_depth += width * depth;
+        weighted_depth += width * static_cast<double>(bin.top_mm - bin.bottom_mm);
     }
     truth.axial_depth_mm = truth.radial_immersion > 0.0 ? weighted_depth / truth.radial_immersion : 0.0;
     return truth;

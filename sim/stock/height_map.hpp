@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,9 +11,17 @@
 
 namespace millforce::sim {
 
+class SweptDisc;
+
 /// The workpiece as the height of its material over each cell of a grid in x and y: what a three-axis tool can cut has
-/// no undercut. Cells are squares of `cell_mm`; a cell belongs to the tool when its centre does.
-/// Memory: 4 bytes a cell, at most 64 million cells. Throws InputError where the block is empty or too large.
+/// no undercut. Cells are squares of `cell_mm`.
+///
+/// A cell through which an edge runs holds two heights and the share of its area that stands at the lower one, to 1/255:
+/// so a wall stands where it was cut, and not where the cells end. Seen by `material_above`, a straight wall lies within
+/// 0.15 cells of its place at each point and within 0.02 cells on average along it. A third height in one cell (walls of
+/// two levels less than a cell apart) is merged into the lower one.
+///
+/// Memory: 9 bytes a cell, at most 64 million cells. Throws InputError where the block is empty, not finite or too large.
 class HeightMap {
   public:
     /// Outside the block there is air: height `nothing_mm`.
@@ -24,15 +34,17 @@ class HeightMap {
                  double top_at_max_x_mm);
     void set_cylinder(double x_mm, double y_mm, double diameter_mm, double top_mm);
 
-    /// Takes away what the cutter's body covers on a straight way from one tip position to another.
-    /// Steps of half a cell along the way; cost about 2R/cell rows of 2R/cell cells a step.
+    /// Takes away what the cutter's body covers on a straight way from one tip position to another, both included. A
+    /// level way is exact; on a slope the bottom is a staircase with steps of half a cell, at or below the true one.
+    /// Where the way goes on from the end of the last one, only the crescent that is new is looked at: some 2R/cell
+    /// rows of a few cells. Positions that are not finite remove nothing.
     void remove(const Cutter& cutter, const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm);
 
-    /// Height of the cell that holds a point.
+    /// Height of the cell that holds a point; of the larger part, where an edge runs through.
     [[nodiscard]] float height_mm(double x_mm, double y_mm) const;
 
     /// How a point lies between four cells: what share of them stands above z (bilinear), and how high those stand on
-    /// average. A straight wall so comes out where it is and not where its cells are.
+    /// average. The share is one half where a wall is.
     struct Material {
         float share = 0.0F;
         float top_mm = nothing_mm;
@@ -45,16 +57,39 @@ class HeightMap {
     [[nodiscard]] std::span<const float> heights_mm() const { return heights_; }
 
   private:
-    void stamp_flat(double x_mm, double y_mm, double radius_mm, float z_mm);
-    void stamp_ball(double x_mm, double y_mm, double radius_mm, double z_mm);
-    [[nodiscard]] float at(std::ptrdiff_t column, std::ptrdiff_t row) const;
+    /// What a row of cells needs to know of the cutter, in cells; the bottom's height in mm.
+    struct CutterShape {
+        double radius;
+        bool ball;
+        double z_mm;
+    };
+
+    /// Where a cutter was left: what it covers there is gone already.
+    struct Standing {
+        Eigen::Vector3d tip_mm;
+        double radius_mm;
+        bool ball;
+    };
+
+    [[nodiscard]] bool all_alike(std::size_t index) const;
+    [[nodiscard]] bool goes_on(const Cutter& cutter, const Eigen::Vector3d& from_mm) const;
+    void sweep(const Cutter& cutter, const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm, bool goes_on);
+    void sweep_row(const SweptDisc& disc, const CutterShape& shape, double y, bool goes_on);
+    void cut_edge(const SweptDisc& disc, const CutterShape& shape, std::size_t row, std::size_t column, double y);
+    void set_cell(std::size_t index, float top_mm, double share);
+    void cut_cell(std::size_t index, float z_mm, double share);
+    void store(std::size_t index, float high_mm, float low_mm, std::uint8_t low_share);
 
     double min_x_mm_;
     double min_y_mm_;
     double cell_mm_;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
-    std::vector<float> heights_;
+    float highest_mm_;
+    std::vector<float> heights_;            // of the larger part of each cell
+    std::vector<float> others_;             // of its smaller part; the same where there is none
+    std::vector<std::uint8_t> low_shares_;  // of 255: how much of the cell stands at the lower height; 0: one height
+    std::optional<Standing> standing_;
 };
 
 }  // namespace millforce::sim

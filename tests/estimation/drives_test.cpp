@@ -22,8 +22,9 @@ SpindleDrive<double>::Average at_current(double current_A, double speed_rad_s = 
 
 FeedDriveParameters<double> paper_axis() {
     FeedDriveParameters<double> p;
-    p.positive = {3.5788, -7.2469, 19.7252};
-    p.negative = {3.5788, -7.2469, 21.0};
+    p.positive = {3.5788, -7.2469};
+    p.negative = {3.5788, -6.0};
+    p.K_x3_A = 19.7252;
     p.gravity_A = -5.39;
     p.K_x4_N_per_A = 100.0;
     p.velocity_floor_mm_s = 0.5;
@@ -93,7 +94,7 @@ TEST(FeedDrive, subtracts_the_papers_friction_in_each_direction_and_the_weight) 
     const double w = 0.3;  // m/min, 5 mm/s
     const double friction = 3.5788 * w * w - 7.2469 * w + 19.7252;
     DOUBLES_EQUAL(250.0, axis.force_N(moving(5.0, friction - 5.39 + 2.5)).value, 1e-6);
-    const double back = 3.5788 * w * w - 7.2469 * w + 21.0;
+    const double back = 3.5788 * w * w - 6.0 * w + 19.7252;
     DOUBLES_EQUAL(-250.0, axis.force_N(moving(-5.0, -back - 5.39 - 2.5)).value, 1e-6);
 }
 

@@ -3,6 +3,7 @@
 #include "estimation/encoder_angle.hpp"
 #include "estimation/engagement_solver.hpp"
 #include "estimation/feed_drive.hpp"
+#include "estimation/force_memory.hpp"
 #include "estimation/peak_factors.hpp"
 #include "estimation/spindle_drive.hpp"
 #include "estimation/synchronous_average.hpp"
@@ -116,15 +117,31 @@ class CutEstimator {
         estimate_ = {};
     }
 
-    /// The last window was in air: re-zero the spindle's idle torque and the moving axes' friction with it.
-    void rezero() {
+    /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
+    /// with the window one revolution ago: the first contact must not be taken for drift before it is known as contact.
+    /// Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
+    bool rezero() {
         if (window_.revolutions == 0) {
-            return;
+            return false;
         }
-        spindle_.rezero(spindle_average(window_, window_));
-        for (std::size_t k = 0; k < axes_.size(); ++k) {
-            axes_[k].rezero(axis_average(k));
+        air_periods_ = air_periods_ + 1;
+        if (air_periods_ < window_.revolutions * static_cast<int>(settings_.teeth)) {
+            return false;
         }
+        air_periods_ = 0;
+        const bool has_window = air_window_.revolutions > 0;
+        if (has_window) {
+            spindle_.rezero(spindle_average(air_window_, air_window_));
+            for (std::size_t k = 0; k < axes_.size(); ++k) {
+                axes_[k].rezero(axis_average(air_window_, k));
+            }
+        }
+        air_window_ = window_;
+        return has_window;
+    }
+    void leave_air() {
+        air_window_ = {};
+        air_periods_ = 0;
     }
 
     [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimate_; }
@@ -190,15 +207,16 @@ class CutEstimator {
         return spindle;
     }
 
-    [[nodiscard]] typename FeedDrive<Scalar>::Average axis_average(std::size_t axis) const {
+    [[nodiscard]] typename FeedDrive<Scalar>::Average axis_average(const typename Averager::Window& window,
+                                                                      std::size_t axis) const {
         const auto k = static_cast<Eigen::Index>(axis);
         typename FeedDrive<Scalar>::Average average;
-        average.current_A = window_.mean[1 + k];
-        average.velocity_mm_s = window_.mean[4 + k];
-        average.acceleration_mm_s2 = window_.slope_per_s[4 + k];
-        average.duration_s = window_.duration_s;
-        average.samples = window_.samples;
-        average.present = (window_.present & (2U << axis)) != 0U;
+        average.current_A = window.mean[1 + k];
+        average.velocity_mm_s = window.mean[4 + k];
+        average.acceleration_mm_s2 = window.slope_per_s[4 + k];
+        average.duration_s = window.duration_s;
+        average.samples = window.samples;
+        average.present = (window.present & (2U << axis)) != 0U;
         return average;
     }
 
@@ -214,9 +232,9 @@ class CutEstimator {
         estimate_.tangential_N = spindle_.tangential_force_N(spindle_average(window_, window_), settings_.cutter_radius_mm);
         estimate_.tooth_tangential_N =
             spindle_.tangential_force_N(spindle_average(tooth, window_), settings_.cutter_radius_mm);
-        estimate_.x_N = axes_[0].force_N(axis_average(0));
-        estimate_.y_N = axes_[1].force_N(axis_average(1));
-        estimate_.z_N = axes_[2].force_N(axis_average(2));
+        estimate_.x_N = axes_[0].force_N(axis_average(window_, 0));
+        estimate_.y_N = axes_[1].force_N(axis_average(window_, 1));
+        estimate_.z_N = axes_[2].force_N(axis_average(window_, 2));
         estimate_feed();
         solve_engagement();
         estimate_peaks();
@@ -254,7 +272,12 @@ class CutEstimator {
         forces.y_N = estimate_.y_N;
         forces.feed_direction_x = direction_x_;
         forces.feed_direction_y = direction_y_;
-        estimate_.engagement = solver_.solve(forces, estimate_.feed_per_tooth_mm, settings_.side);
+        periods_since_memory_ = periods_since_memory_ + 1;
+        const bool is_new_revolution = periods_since_memory_ >= window_.revolutions * static_cast<int>(settings_.teeth);
+        periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
+        const AverageForceMeasurement<Scalar> blended =
+            memory_.blend(forces, estimate_.feed_mm_s, last_exponent_, is_new_revolution);
+        estimate_.engagement = solver_.solve(blended, estimate_.feed_per_tooth_mm, settings_.side);
         if (estimate_.engagement.immersion_valid) {
             last_immersion_ = estimate_.engagement.radial_immersion;
             last_side_ = estimate_.engagement.side;
@@ -270,6 +293,10 @@ class CutEstimator {
         return last_immersion_ > Scalar(0) ? last_immersion_ : settings_.assumed_immersion;
     }
     [[nodiscard]] Scalar shown_depth_mm() const {
+        const EngagementEstimate<Scalar>& e = estimate_.engagement;
+        if (e.immersion_valid && e.axial_depth_mm > Scalar(0)) {
+            return e.axial_depth_mm;  // however doubtful: it is the one that goes with the immersion
+        }
         return last_depth_mm_ > Scalar(0) ? last_depth_mm_ : settings_.largest_depth_mm;
     }
 
@@ -284,6 +311,7 @@ class CutEstimator {
                                          ? model.per_ln_K_s.tangential_N / model.mean.tangential_N
                                          : Scalar(1);
         estimate_.force_feed_exponent = (Scalar(1) + law_.p_s) * cutting_share;
+        last_exponent_ = estimate_.force_feed_exponent;
         const Measurement<Scalar>& window = estimate_.tangential_N;
         if (!window.valid) {
             return;
@@ -300,12 +328,14 @@ class CutEstimator {
         const Scalar runout = runout_factor();
         estimate_.worst_tooth_force_N = newest * factor * runout;
         if (e.immersion_valid) {
-            const Scalar low = tooth_factor(e.side, e.radial_immersion_low, depth);
-            const Scalar high = tooth_factor(e.side, e.radial_immersion_high, depth);
+            const Scalar low = tooth_factor(e.side, e.radial_immersion_low, e.axial_depth_mm > Scalar(0) ? e.depth_at_low_mm : depth);
+            const Scalar high =
+                tooth_factor(e.side, e.radial_immersion_high, e.axial_depth_mm > Scalar(0) ? e.depth_at_high_mm : depth);
             const Scalar factor_sd = (low - high) / static_cast<Scalar>(3.92L);
             estimate_.tooth_force_N = {true, estimate_.worst_tooth_force_N,
                                        square(runout) * (square(factor) * window.variance +
-                                                         square(newest * factor_sd))};
+                                                         square(newest * factor_sd)),
+                                       Scalar(0)};
         }
         estimate_surge(immersion, depth, factor, model.mean.tangential_N);
     }
@@ -343,6 +373,11 @@ class CutEstimator {
     ToothPeakTable<Scalar> up_table_{};
 
     typename Averager::Window window_{};
+    typename Averager::Window air_window_{};
+    int air_periods_ = 0;
+    ForceMemory<Scalar> memory_{};
+    int periods_since_memory_ = 0;
+    Scalar last_exponent_{Scalar(0.75F)};
     CutEstimate<Scalar> estimate_{};
     Scalar since_period_s_{0};
     Scalar direction_x_{1};

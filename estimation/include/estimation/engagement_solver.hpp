@@ -45,6 +45,8 @@ struct EngagementEstimate {
     bool depth_valid = false;
     Scalar axial_depth_mm{0};
     Scalar axial_depth_sd_mm{0};
+    Scalar depth_at_low_mm{0};   ///< the depth that goes with radial_immersion_low: both err together
+    Scalar depth_at_high_mm{0};  ///< … with radial_immersion_high
 
     CutSide side = CutSide::unknown;
     Scalar misfit{0};  ///< J at the estimate: far above 4 means that the law does not describe these forces
@@ -272,8 +274,9 @@ class EngagementSolver {
             const Scalar theta = acos(Scalar(1) - clamp(immersion, settings_.smallest_immersion, Scalar(2)));
             return profile_at(forces, feed_per_tooth_mm, side, theta).depth_mm;
         };
-        const Scalar spread =
-            (depth_at(estimate.radial_immersion_high) - depth_at(estimate.radial_immersion_low)) / static_cast<Scalar>(3.92L);
+        estimate.depth_at_low_mm = depth_at(estimate.radial_immersion_low);
+        estimate.depth_at_high_mm = depth_at(estimate.radial_immersion_high);
+        const Scalar spread = (estimate.depth_at_high_mm - estimate.depth_at_low_mm) / static_cast<Scalar>(3.92L);
         estimate.axial_depth_mm = best.depth_mm;
         estimate.axial_depth_sd_mm = sqrt(square(spread) + Scalar(1) / best.information +
                                           square(best.depth_mm) * best.ln_K_s_variance);

@@ -7,15 +7,14 @@
 
 namespace millforce::estimation {
 
-/// I_f(w) = K_x1 w² + K_x2 w + K_x3, w = |velocity| in m/min (Kim & Chung Eq. 9), for one direction of travel.
+/// K_x1 w² + K_x2 w, w = |velocity| in m/min (Kim & Chung Eq. 9), for one direction of travel.
 template <typename Scalar>
 struct FrictionCurrent {
     Scalar K_x1_A_min2_per_m2{0};
     Scalar K_x2_A_min_per_m{0};
-    Scalar K_x3_A{0};
 
     [[nodiscard]] Scalar at(Scalar speed_m_per_min) const {
-        return (K_x1_A_min2_per_m2 * speed_m_per_min + K_x2_A_min_per_m) * speed_m_per_min + K_x3_A;
+        return (K_x1_A_min2_per_m2 * speed_m_per_min + K_x2_A_min_per_m) * speed_m_per_min;
     }
 };
 
@@ -74,9 +73,11 @@ class FrictionScale {
 
 template <typename Scalar>
 struct FeedDriveParameters {
-    FrictionCurrent<Scalar> positive{};    ///< friction current travelling in + direction
-    FrictionCurrent<Scalar> negative{};    ///< its magnitude travelling in − direction
-    Scalar gravity_A{0};                   ///< current that holds the axis against its weight
+    FrictionCurrent<Scalar> positive{};    ///< growth of the friction current with speed, travelling in + direction
+    FrictionCurrent<Scalar> negative{};    ///< of its magnitude, travelling in − direction
+    Scalar K_x3_A{0};                      ///< constant friction current, of both directions: see gravity_A
+    Scalar gravity_A{0};                   ///< current that holds the axis against its weight; half the difference of
+                                           ///< the directions' constant friction is in it: air data cannot tell them apart
     Scalar K_x4_N_per_A{0};                ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
     Scalar K_x5_N_m_per_min{0};            ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
     Scalar mass_kg{0};                     ///< moved mass, with the motor's inertia reflected
@@ -91,6 +92,7 @@ struct FeedDriveParameters {
 /// Mean force of the cut along one feed axis from its motor current.
 ///
 ///   F_ax = K_x4 (I − I_g − σ κ I_f(|w|)) + K_x5/w − M dv/dt,   σ = sign of w      Kim & Chung Eqs. 9, 10
+///   I_f(w) = K_x1 w² + K_x2 w + K_x3,   K_x1 and K_x2 by direction
 ///
 /// positive in the axis' + direction, as a force on the workpiece. κ scales the friction and is re-zeroed in air
 /// (FrictionScale). An axis below its velocity floor, or one that turned round within the average, gives no estimate:
@@ -119,10 +121,13 @@ class FeedDrive {
         const Scalar cut_A = average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
         const Scalar force = parameters_.K_x4_N_per_A * cut_A +
                              parameters_.K_x5_N_m_per_min / velocity_m_per_min(average) - inertial_force_N(average);
-        const Scalar current_variance =
-            current_variance_A2(average) + square(friction_A) * friction_scale_.variance(direction(average));
+        const Scalar friction_variance =
+            square(friction_A) * friction_scale_.variance(direction(average)) + square(parameters_.friction_ripple_A);
+        const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
+                             square(inertia_share_in_doubt * inertial_force_N(average));
         return {true, force,
-                square(parameters_.K_x4_N_per_A) * current_variance + square(parameters_.gain_relative_sd * force)};
+                noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
+                noise};
     }
 
     /// Time passes: the friction may have moved.
@@ -131,7 +136,7 @@ class FeedDrive {
     /// The tool is known to be in air: the current is friction, weight and inertia alone.
     void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
-        if (!is_moving(average) || !(square(friction_A) > Scalar(0))) {
+        if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
             return;
         }
         const Scalar other_A = parameters_.gravity_A +
@@ -156,7 +161,16 @@ class FeedDrive {
         return speed - magnitude >= parameters_.velocity_floor_mm_s;
     }
 
+    /// Moving, and at nearly the same speed throughout the average.
+    [[nodiscard]] bool is_steady(const Average& average) const {
+        const Scalar change = average.acceleration_mm_s2 * average.duration_s;
+        return is_moving(average) && square(change) < square(static_cast<Scalar>(0.1L) * average.velocity_mm_s);
+    }
+
   private:
+    /// Of M dv/dt: what the slope of an average misses of an acceleration that changes within it.
+    static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
+
     [[nodiscard]] static std::size_t direction(const Average& average) {
         return average.velocity_mm_s > Scalar(0) ? 1U : 0U;
     }
@@ -165,7 +179,8 @@ class FeedDrive {
     }
     [[nodiscard]] Scalar signed_friction_A(const Average& average) const {
         const Scalar w = velocity_m_per_min(average);
-        return w > Scalar(0) ? parameters_.positive.at(w) : -parameters_.negative.at(-w);
+        return w > Scalar(0) ? parameters_.positive.at(w) + parameters_.K_x3_A
+                             : -(parameters_.negative.at(-w) + parameters_.K_x3_A);
     }
     [[nodiscard]] Scalar inertial_force_N(const Average& average) const {
         return parameters_.mass_kg * average.acceleration_mm_s2 * static_cast<Scalar>(0.001L);

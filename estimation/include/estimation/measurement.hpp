@@ -8,7 +8,8 @@ template <typename Scalar>
 struct Measurement {
     bool valid = false;
     Scalar value{0};
-    Scalar variance{0};
+    Scalar variance{0};  ///< of all there is to doubt
+    Scalar noise{0};     ///< the part of it that differs from window to window, and that averaging removes
 };
 
 template <typename Scalar>

@@ -48,7 +48,7 @@ class SpindleDrive {
         torque.value -= drift_Nm_.value();
         torque.variance += drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque.value);
         const Scalar per_Nm = Scalar(1000) / cutter_radius_mm;
-        return {true, torque.value * per_Nm, torque.variance * square(per_Nm)};
+        return {true, torque.value * per_Nm, torque.variance * square(per_Nm), torque.noise * square(per_Nm)};
     }
 
     /// Time passes: the drift may have moved.
@@ -76,7 +76,7 @@ class SpindleDrive {
                               parameters_.inertia_kg_m2 * average.acceleration_rad_s2;
         const Scalar variance = square(constant * parameters_.current_sd_A) / average.samples +
                                 square(parameters_.inertia_kg_m2) * average.acceleration_variance;
-        return {true, torque, variance};
+        return {true, torque, variance, variance};
     }
 
     SpindleDriveParameters<Scalar> parameters_;

@@ -52,11 +52,10 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
 
     {ParameterFile::machine, "axis", "K_x1_positive_A_min2_per_m2", "A/(m/min)²", 0.0F, -1e3F, 1e3F, "Friction current travelling in + direction, quadratic term.", MILLFORCE_AXIS(positive.K_x1_A_min2_per_m2)},
     {ParameterFile::machine, "axis", "K_x2_positive_A_min_per_m", "A/(m/min)", 0.0F, -1e3F, 1e3F, "Friction current travelling in + direction, linear term.", MILLFORCE_AXIS(positive.K_x2_A_min_per_m)},
-    {ParameterFile::machine, "axis", "K_x3_positive_A", "A", 0.0F, -1e3F, 1e3F, "Friction current travelling in + direction, constant term.", MILLFORCE_AXIS(positive.K_x3_A)},
     {ParameterFile::machine, "axis", "K_x1_negative_A_min2_per_m2", "A/(m/min)²", 0.0F, -1e3F, 1e3F, "Magnitude of the friction current travelling in - direction, quadratic term.", MILLFORCE_AXIS(negative.K_x1_A_min2_per_m2)},
     {ParameterFile::machine, "axis", "K_x2_negative_A_min_per_m", "A/(m/min)", 0.0F, -1e3F, 1e3F, "Magnitude of the friction current travelling in - direction, linear term.", MILLFORCE_AXIS(negative.K_x2_A_min_per_m)},
-    {ParameterFile::machine, "axis", "K_x3_negative_A", "A", 0.0F, -1e3F, 1e3F, "Magnitude of the friction current travelling in - direction, constant term.", MILLFORCE_AXIS(negative.K_x3_A)},
-    {ParameterFile::machine, "axis", "gravity_A", "A", 0.0F, -1e3F, 1e3F, "Current that holds the axis against its weight.", MILLFORCE_AXIS(gravity_A)},
+    {ParameterFile::machine, "axis", "K_x3_A", "A", 0.0F, -1e3F, 1e3F, "Friction current, constant term, of both directions.", MILLFORCE_AXIS(K_x3_A)},
+    {ParameterFile::machine, "axis", "gravity_A", "A", 0.0F, -1e3F, 1e3F, "Current that holds the axis against its weight, with half the difference of the directions' constant friction.", MILLFORCE_AXIS(gravity_A)},
     {ParameterFile::machine, "axis", "K_x4_N_per_A", "N/A", 0.0F, 0.0F, 1e5F, "Force per ampere of feed motor current; 0: this axis gives no force.", MILLFORCE_AXIS(K_x4_N_per_A)},
     {ParameterFile::machine, "axis", "K_x5_N_m_per_min", "N·m/min", 0.0F, -1e5F, 1e5F, "Force term K_x5/w of the feed drive (Kim & Chung Eq. 10).", MILLFORCE_AXIS(K_x5_N_m_per_min)},
     {ParameterFile::machine, "axis", "mass_kg", "kg", 0.0F, 0.0F, 1e5F, "Moved mass, with the motor's inertia reflected.", MILLFORCE_AXIS(mass_kg)},
@@ -87,10 +86,10 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
 
     {ParameterFile::tool, "cutting", "k_s_N_per_mm2", "N/mm²", required, 1.0F, 1e6F, "K_s at a mean chip thickness of 1 mm: K_s = k_s t_a^p_s.", MILLFORCE_FIELD(tool.law.k_s_N_per_mm2)},
     {ParameterFile::tool, "cutting", "p_s", "1", 0.0F, -0.95F, 0.5F, "Exponent of K_s over the mean chip thickness.", MILLFORCE_FIELD(tool.law.p_s)},
-    {ParameterFile::tool, "cutting", "k_1", "1", required, 0.0F, 10.0F, "r_1 = F_r/F_t at a mean chip thickness of 1 mm: r_1 = k_1 t_a^p_1.", MILLFORCE_FIELD(tool.law.k_1)},
+    {ParameterFile::tool, "cutting", "k_1", "1", required, -10.0F, 10.0F, "r_1 = F_r/F_t at a mean chip thickness of 1 mm: r_1 = k_1 t_a^p_1.", MILLFORCE_FIELD(tool.law.k_1)},
     {ParameterFile::tool, "cutting", "p_1", "1", 0.0F, -2.0F, 1.0F, "Exponent of r_1 over the mean chip thickness.", MILLFORCE_FIELD(tool.law.p_1)},
-    {ParameterFile::tool, "cutting", "K_te_N_per_mm", "N/mm", 0.0F, 0.0F, 1e4F, "Tangential edge force per length of edge.", MILLFORCE_FIELD(tool.law.K_te_N_per_mm)},
-    {ParameterFile::tool, "cutting", "K_re_N_per_mm", "N/mm", 0.0F, 0.0F, 1e4F, "Radial edge force per length of edge.", MILLFORCE_FIELD(tool.law.K_re_N_per_mm)},
+    {ParameterFile::tool, "cutting", "K_te_N_per_mm", "N/mm", 0.0F, -1e4F, 1e4F, "Tangential edge force per length of edge.", MILLFORCE_FIELD(tool.law.K_te_N_per_mm)},
+    {ParameterFile::tool, "cutting", "K_re_N_per_mm", "N/mm", 0.0F, -1e4F, 1e4F, "Radial edge force per length of edge.", MILLFORCE_FIELD(tool.law.K_re_N_per_mm)},
     {ParameterFile::tool, "cutting", "K_s_relative_sd", "1", 0.05F, 0.0F, 2.0F, "Standard deviation of ln K_s at the reference chip thickness.", MILLFORCE_FIELD(tool.law.K_s_relative_sd)},
     {ParameterFile::tool, "cutting", "K_s_exponent_sd", "1", 0.0F, 0.0F, 2.0F, "Its growth per unit of ln(t_a/t_ref).", MILLFORCE_FIELD(tool.law.K_s_exponent_sd)},
     {ParameterFile::tool, "cutting", "r_1_relative_sd", "1", 0.05F, 0.0F, 2.0F, "Standard deviation of ln r_1 at the reference chip thickness.", MILLFORCE_FIELD(tool.law.r_1_relative_sd)},
@@ -122,6 +121,36 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
 
 #undef MILLFORCE_FIELD
 #undef MILLFORCE_AXIS
+
+/// Keys that a calibration writes for the reader of the file, not for the controller: they are checked and ignored.
+/// A numeric key of either table may also have a companion KEY_se, the standard error of its fit.
+struct InformationRow {
+    ParameterFile file;
+    const char* table;  ///< as in ParameterRow
+    const char* key;
+    const char* unit;
+    const char* sentence;
+    const char* choices = nullptr;  ///< as in ParameterRow
+};
+
+inline constexpr auto information_table = std::to_array<InformationRow>({
+    {ParameterFile::machine, "spindle", "torque_residual_rms_Nm", "N·m", "Residual of the spindle's calibration."},
+
+    {ParameterFile::machine, "axis", "friction_residual_rms_A", "A", "Residual of the friction current's fit."},
+    {ParameterFile::machine, "axis", "viscous_N_s_per_m", "N·s/m", "Viscous friction of both directions, from position and motor force."},
+    {ParameterFile::machine, "axis", "coulomb_N", "N", "Coulomb friction of both directions, likewise."},
+    {ParameterFile::machine, "axis", "offset_N", "N", "Force at rest: weight, or a sensor's zero."},
+    {ParameterFile::machine, "axis", "directional_mass_kg", "kg", "Moved mass by the fit that keeps the directions apart."},
+    {ParameterFile::machine, "axis", "positive_viscous_N_s_per_m", "N·s/m", "Viscous friction travelling in + direction."},
+    {ParameterFile::machine, "axis", "negative_viscous_N_s_per_m", "N·s/m", "Viscous friction travelling in - direction."},
+    {ParameterFile::machine, "axis", "positive_coulomb_N", "N", "Coulomb friction travelling in + direction."},
+    {ParameterFile::machine, "axis", "negative_coulomb_N", "N", "Coulomb friction travelling in - direction."},
+    {ParameterFile::machine, "axis", "residual_rms_N", "N", "Residual of that fit."},
+
+    {ParameterFile::tool, "cutting", "minimum_feed_per_tooth_mm", "mm", "Smallest feed per tooth of the calibration cuts."},
+    {ParameterFile::tool, "cutting", "maximum_feed_per_tooth_mm", "mm", "Largest feed per tooth of the calibration cuts."},
+    {ParameterFile::tool, "cutting", "cut_side", "", "Side that the calibration cuts were milled on; `millforce estimate` takes it.", "down|up"},
+});
 // clang-format on
 
 }  // namespace millforce::firmware

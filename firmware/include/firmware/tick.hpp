@@ -36,7 +36,7 @@ class ForceControlTick {
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
                                                        sample.spindle_index_number, signals);
         if (fresh) {
-            rezero_in_air();
+            rezero_in_air(program.rapid);
         }
         return output_of(controller_.step(control_input(dt_s, signals, program, fresh)));
     }
@@ -85,18 +85,20 @@ class ForceControlTick {
         return signals;
     }
 
-    void rezero_in_air() {
+    void rezero_in_air(bool rapid) {
         const auto& estimate = estimator_.estimate();
         const bool in_air = controller_.state() == control::CutState::air;
         const Scalar half_contact_N = Scalar(0.5F) * control_parameters_.contact_force_N;
+        // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
         const bool looks_idle = estimate.tangential_N.valid &&
                                 (!was_rezeroed_ || estimate.tangential_N.value < half_contact_N);
-        air_periods_ = in_air && looks_idle ? air_periods_ + 1 : 0;
+        air_periods_ = rapid || (in_air && looks_idle) ? air_periods_ + 1 : 0;
         // The first windows after a change hold a mixture of air and cut.
         if (air_periods_ > 2 * static_cast<int>(control_parameters_.teeth)) {
-            estimator_.rezero();
-            was_rezeroed_ = true;
+            was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
             air_periods_ = 2 * static_cast<int>(control_parameters_.teeth);
+        } else {
+            estimator_.leave_air();
         }
     }
 

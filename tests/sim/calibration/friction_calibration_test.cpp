@@ -136,11 +136,11 @@ TEST(FrictionCalibration, of_a_recording_in_air_gives_the_quadratic_current_by_d
         DOUBLES_EQUAL(truth, value(run, "x", key), 3.0 * error);
         CHECK(error < 0.05 * std::abs(truth) + 0.01);
     };
-    within("friction_positive_K_x1_A_min2_per_m2", 0.012);
-    within("friction_positive_K_x2_A_min_per_m", 0.09);
-    within("friction_negative_K_x1_A_min2_per_m2", 0.012);
-    within("friction_negative_K_x2_A_min_per_m", 0.09);
-    within("friction_K_x3_A", 1.9);
+    within("K_x1_positive_A_min2_per_m2", 0.012);
+    within("K_x2_positive_A_min_per_m", 0.09);
+    within("K_x1_negative_A_min2_per_m2", 0.012);
+    within("K_x2_negative_A_min_per_m", 0.09);
+    within("K_x3_A", 1.9);
     within("gravity_A", -0.4);
     CHECK(!run.toml.contains("y"));  // it stood still
 }
@@ -151,10 +151,10 @@ TEST(FrictionCalibration, refuses_a_recording_that_lacks_feeds_or_a_direction_an
         return calibrate({folder.write("air.csv", recording(feeds, 0.05))}).error;
     };
     CHECK(contains(error({20, -20, 20, -20, 20, -20, 20, -20}),
-                   "'x.friction_positive_K_x1_A_min2_per_m2' cannot be determined: 1 steady feed(s) in air in +x"));
-    CHECK(contains(error({20, 40, 60, 80, -20, -20, -40}), "friction_negative_K_x1_A_min2_per_m2"));
+                   "'x.K_x1_positive_A_min2_per_m2' cannot be determined: 1 steady feed(s) in air in +x"));
+    CHECK(contains(error({20, 40, 60, 80, -20, -20, -40}), "K_x1_negative_A_min2_per_m2"));
     CHECK(contains(error({20, 40, 60, 80, 100, 120, 140}),
-                   "'x.gravity_A' cannot be told from friction_K_x3_A: no steady "
+                   "'x.gravity_A' cannot be told from K_x3_A: no steady "
                    "travel in air in -x"));
     CHECK(contains(error({0, 0, 0}), "'K_x1' to 'K_x3' cannot be determined"));
 }
