@@ -63,6 +63,30 @@ EngagementMap::Bin ball_bin(const HeightMap& map, const Cutter& cutter, const Ei
     return bin;
 }
 
+/// Width of a bin's material across the feed, in radii: cos φ_st − cos φ_ex as a product, as bins are narrow.
+double width_in_radii(const EngagementMap& map, std::size_t k) {
+    const CoveredPart part = covered_part(map, k);
+    const double middle = static_cast<double>(k) + 0.5 * (part.low + part.high);
+    return std::sin(middle * EngagementMap::bin_rad) * (part.high - part.low) * part.weight * EngagementMap::bin_rad;
+}
+
+/// Clears the stretches of material that are narrower than a given width.
+void remove_grain(EngagementMap& map, double narrowest_in_radii) {
+    constexpr std::size_t end = EngagementMap::bin_count / 2;
+    for (std::size_t begin = 0; begin < end; ++begin) {
+        double width = 0.0;
+        std::size_t k = begin;
+        for (; k < end && holds_material(map.bins[k]); ++k) {
+            width += width_in_radii(map, k);
+        }
+        if (width < narrowest_in_radii) {
+            std::fill(map.bins.begin() + static_cast<std::ptrdiff_t>(begin),
+                      map.bins.begin() + static_cast<std::ptrdiff_t>(k), EngagementMap::Bin{});
+        }
+        begin = k;
+    }
+}
+
 }  // namespace
 
 EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& tip_mm,
@@ -76,7 +100,7 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
     const Eigen::Vector2d n(-t.y(), t.x());
     const double radius = 0.5 * cutter.diameter_mm;
     const double epsilon = 0.5 * map.cell_mm();
-    const double margin = 0.8 * map.cell_mm();
+    const double margin = map.cell_mm();
     const double furthest = 6.0 * map.cell_mm();
     const double rise = std::max(0.0, (2.0 * radius * margin + margin * margin - furthest * furthest) / (2.0 * furthest));
     const double widest = std::sqrt(std::max(0.0, radius * radius - rise * rise));
@@ -95,6 +119,7 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
             result.bins[k] = flat_bin(map, cutter, {point.x(), point.y(), tip_mm.z()});
         }
     }
+    remove_grain(result, 0.25 * map.cell_mm() / radius);
     return result;
 }
 
@@ -109,11 +134,9 @@ TrueEngagement summarise(const EngagementMap& map) {
             continue;
         }
         const CoveredPart part = covered_part(map, k);
-        const double begin_rad = static_cast<double>(k) * EngagementMap::bin_rad;
-        const double low = begin_rad + part.low * EngagementMap::bin_rad;
-        const double high = begin_rad + part.high * EngagementMap::bin_rad;
-        // cos φ_st − cos φ_ex as a product: the bins are narrow.
-        const double width = std::sin(0.5 * (low + high)) * (high - low) * part.weight;
+        const double low = (static_cast<double>(k) + part.low) * EngagementMap::bin_rad;
+        const double high = (static_cast<double>(k) + part.high) * EngagementMap::bin_rad;
+        const double width = width_in_radii(map, k);
         truth.entry_rad = truth.cutting ? truth.entry_rad : low;
         truth.exit_rad = high;
         truth.cutting = true;

@@ -6,14 +6,15 @@
 
 /// The feed override that holds the largest force on a tooth at its limit.
 ///
-/// Force grows with feed as F ∝ f^m, m = d ln F/d ln f = (1 + p_s) × the share of F that is not edge force, and its gain
+/// Force grows with feed as F = F₀ [(1 − c) + c (f/f₀)^(1+p_s)], c the share of F that is not edge force, and its gain
 /// varies by an order of magnitude along a part (depth, immersion). A loop with a fixed gain is slow or unstable there.
-/// In logarithms the gain is one number, m, and known. So the law inverts the process at the measured point,
+/// So the law inverts the process at the measured point (f, F),
 ///
-///   f* = f (F_set / F)^(1/m),
+///   f* = f {[F_set/F − (1 − c)]/c}^(1/(1+p_s)),
 ///
 /// with f and F averaged over the same window of tooth periods: the depth, the immersion and K_s cancel, and a delay
-/// between override and force delays the correction but does not add to it. f* below the present feed is taken at
+/// between override and force delays the correction but does not add to it. Where the edge force alone exceeds the set
+/// point no feed helps, and f* is 0. f* below the present feed is taken at
 /// once; f* above it is approached by a share per revolution. Ceilings follow, and the smallest wins.
 ///
 /// No estimate, no rise: without an estimate the override may fall (the tangential force alone suffices for that) or
@@ -24,7 +25,7 @@ namespace millforce::control {
 template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{1000};      ///< F_tooth,max
-    Scalar setpoint_share{static_cast<Scalar>(0.92L)};          ///< of the limit that steady cutting is held at; the rest is for noise
+    Scalar setpoint_share{static_cast<Scalar>(0.97L)};          ///< of the limit that steady cutting is held at; the rest is for noise
     Scalar override_min{static_cast<Scalar>(0.1L)};
     Scalar override_max{1.5F};
     Scalar recovery_per_rev{0.25F};        ///< share of the way up that one revolution goes
@@ -39,7 +40,7 @@ struct FeedControllerParameters {
     Scalar contact_force_N{40};            ///< F_at that counts as contact, beside its noise
     Scalar contact_significance{4};        ///< … and this many standard deviations
     Scalar surge_radial_immersion{0};      ///< largest immersion that may come without warning; 0: none does
-    Scalar surge_share{static_cast<Scalar>(1.08L)};             ///< of the limit that such a surge may reach
+    Scalar surge_share{static_cast<Scalar>(1.05L)};             ///< of the limit that such a surge may reach
     Scalar overload_share{static_cast<Scalar>(1.35L)};          ///< of the limit above which the feed is held and the fault latched
     Scalar overload_revolutions{3};        ///< for so long, though the override already falls
     Scalar no_estimate_hold_s{0.5F};       ///< in cut without estimate for longer: state hold
@@ -58,7 +59,9 @@ struct CutEstimateForControl {
     bool tooth_force_valid = false;    ///< the immersion behind it is an estimate, not a guess
     Scalar tooth_force_N{0};           ///< peak force of one tooth; without an immersion, the worst it can be
     Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
-    Scalar force_feed_exponent{0.75F}; ///< m
+    Scalar cutting_share{1};           ///< c: share of the force that is not edge force
+    Scalar surge_cutting_share{1};     ///< the same after a surge
+    Scalar feed_exponent{Scalar(0.75F)};  ///< 1 + p_s
     Scalar feed_mm_s{0};               ///< path speed over the same window
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
@@ -332,10 +335,22 @@ class FeedController {
         }
     }
 
-    /// The law. Remembers its last demand: between two tooth periods the override keeps moving towards it.
-    void cap_by_force(Wish& wish, const ControlInput<Scalar>& input) {
+    /// The override at which a force that is `force_N` now would be `share` of the tooth's limit.
+    [[nodiscard]] Scalar feed_for(Scalar share, Scalar force_N, Scalar cutting_share,
+                                  const ControlInput<Scalar>& input) const {
         using std::exp;
         using std::log;
+        constexpr Scalar least_share = static_cast<Scalar>(0.05L);
+        const Scalar c = cutting_share > least_share ? cutting_share : least_share;
+        const Scalar growth = (share * parameters_.tooth_force_limit_N / force_N - (Scalar(1) - c)) / c;
+        if (!(growth > Scalar(0))) {
+            return Scalar(0);
+        }
+        return input.cut.feed_mm_s * exp(log(growth) / input.cut.feed_exponent) / input.programmed_feed_mm_s;
+    }
+
+    /// The law. Remembers its last demand: between two tooth periods the override keeps moving towards it.
+    void cap_by_force(Wish& wish, const ControlInput<Scalar>& input) {
         const CutEstimateForControl<Scalar>& cut = input.cut;
         if (state_ == CutState::air || state_ == CutState::exit) {
             demand_ = parameters_.override_max;
@@ -344,15 +359,11 @@ class FeedController {
         const bool usable = cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
                             is_finite(cut.tooth_force_N);
         if (cut.fresh && usable) {
-            const Scalar exponent = cut.force_feed_exponent > static_cast<Scalar>(0.3L) ? cut.force_feed_exponent : static_cast<Scalar>(0.3L);
-            const auto feed_for = [&](Scalar force_N, Scalar share) {
-                const Scalar ratio = share * parameters_.tooth_force_limit_N / force_N;
-                return cut.feed_mm_s * exp(log(ratio) / exponent) / input.programmed_feed_mm_s;
-            };
-            demand_ = feed_for(cut.tooth_force_N, parameters_.setpoint_share);
+            demand_ = feed_for(parameters_.setpoint_share, cut.tooth_force_N, cut.cutting_share, input);
             demand_limit_ = Limit::force;
             if (parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1)) {
-                const Scalar before_surge = feed_for(cut.tooth_force_N * cut.surge_ratio, parameters_.surge_share);
+                const Scalar before_surge = feed_for(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
+                                                     cut.surge_cutting_share, input);
                 if (before_surge < demand_) {
                     demand_ = before_surge;
                     demand_limit_ = Limit::surge;

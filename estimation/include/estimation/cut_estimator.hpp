@@ -58,7 +58,9 @@ struct CutEstimate {
     Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
-    Scalar force_feed_exponent{0.75F};  ///< d ln F/d ln f
+    Scalar cutting_share{1};            ///< of F_at: what is not edge force
+    Scalar surge_cutting_share{1};      ///< the same at the surge immersion
+    Scalar feed_exponent{Scalar(0.75F)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     Scalar surge_ratio{1};
     Scalar feed_mm_s{0};  ///< path speed over the window
     Scalar feed_per_tooth_mm{0};
@@ -310,8 +312,9 @@ class CutEstimator {
         const Scalar cutting_share = model.mean.tangential_N > Scalar(0)
                                          ? model.per_ln_K_s.tangential_N / model.mean.tangential_N
                                          : Scalar(1);
-        estimate_.force_feed_exponent = (Scalar(1) + law_.p_s) * cutting_share;
-        last_exponent_ = estimate_.force_feed_exponent;
+        estimate_.cutting_share = cutting_share;
+        estimate_.feed_exponent = Scalar(1) + law_.p_s;
+        last_exponent_ = estimate_.feed_exponent * cutting_share;
         const Measurement<Scalar>& window = estimate_.tangential_N;
         if (!window.valid) {
             return;
@@ -349,7 +352,7 @@ class CutEstimator {
         }
         const Scalar most = settings_.teeth;  // more than all teeth's chips one tooth cannot take
         const Scalar chip = clamp(Scalar(1) + settings_.runout_mm / estimate_.feed_per_tooth_mm, Scalar(1), most);
-        return exp(estimate_.force_feed_exponent * log(chip));
+        return exp(last_exponent_ * log(chip));
     }
 
     void estimate_surge(Scalar immersion, Scalar depth_mm, Scalar factor_now, Scalar F_at_now) {
@@ -357,8 +360,9 @@ class CutEstimator {
             return;
         }
         const Scalar factor_then = tooth_factor(last_side_, settings_.surge_immersion, depth_mm);
-        const Scalar F_at_then =
-            solver_.forces_per_mm(last_side_, settings_.surge_immersion, estimate_.feed_per_tooth_mm).mean.tangential_N;
+        const auto then = solver_.forces_per_mm(last_side_, settings_.surge_immersion, estimate_.feed_per_tooth_mm);
+        const Scalar F_at_then = then.mean.tangential_N;
+        estimate_.surge_cutting_share = then.per_ln_K_s.tangential_N / F_at_then;
         estimate_.surge_ratio = F_at_then * factor_then / (F_at_now * factor_now);
     }
 

@@ -133,7 +133,9 @@ class ForceControlTick {
             cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
         }
         cut.surge_ratio = e.surge_ratio;
-        cut.force_feed_exponent = e.force_feed_exponent;
+        cut.cutting_share = e.cutting_share;
+        cut.surge_cutting_share = e.surge_cutting_share;
+        cut.feed_exponent = e.feed_exponent;
         cut.feed_mm_s = e.feed_mm_s;
         cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
         return input;

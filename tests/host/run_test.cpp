@@ -1,0 +1,197 @@
+#include "inputs.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <thread>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce::test;
+
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> result{""};
+    for (const char letter : line) {
+        if (letter == ',') {
+            result.emplace_back();
+        } else {
+            result.back() += letter;
+        }
+    }
+    return result;
+}
+
+/// Rows by their time to the microsecond.
+std::map<long, Row> rows_of(const std::string& csv) {
+    std::istringstream text(csv);
+    std::string line;
+    std::getline(text, line);
+    const std::vector<std::string> names = cells(line);
+    std::map<long, Row> rows;
+    while (std::getline(text, line)) {
+        const std::vector<std::string> values = cells(line);
+        Row row;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            row[names[k]] = values[k];
+        }
+        rows[std::lround(std::atof(row["time_s"].c_str()) * 1e6)] = row;
+    }
+    return rows;
+}
+
+/// The trace holds eight digits of a number.
+std::string in_eight_digits(const std::string& cell) {
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    if (cell.empty() || *end != '\0') {
+        return cell;
+    }
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.8g", value);
+    return text.data();
+}
+
+/// 4 s of an axis to and fro at 200 Hz, whose friction grows by `growth` half-way.
+std::string axis_motion(double growth) {
+    std::ostringstream text;
+    text.precision(12);
+    text << "time_s,position_m,motor_force_N\n";
+    for (int k = 0; k < 1600; ++k) {
+        const double t = 0.005 * k;
+        const double v = 0.1 * 3.0 * std::cos(3.0 * t);
+        const double a = -0.1 * 9.0 * std::sin(3.0 * t);
+        const double friction = (20.0 + 50.0 * std::abs(v)) * (k < 800 ? 1.0 : growth);
+        const double ripple = 0.5 * std::sin(40.0 * t);
+        text << t << ',' << 0.1 * std::sin(3.0 * t) << ',' << 90.0 * a + std::copysign(friction, v) + ripple << '\n';
+    }
+    return text.str();
+}
+
+}  // namespace
+
+TEST_GROUP(Run) {
+    Inputs inputs;
+
+    void check_ran(const Ended& ended) {
+        STRCMP_EQUAL("", ended.error.c_str());
+        LONGS_EQUAL(0, ended.exit_code);
+    }
+    void simulate_and_record() {
+        check_ran(millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")}));
+        std::filesystem::rename(inputs.path("results") / "recording.csv", inputs.path("log.csv"));
+    }
+    /// Every row of the trace, all its estimates and the override, stands in the replay to the last digit.
+    void check_replay_repeats_the_trace() {
+        const auto replayed = rows_of(inputs.read("out.csv"));
+        const auto trace = rows_of(text_of(inputs.path("results") / "trace.csv"));
+        int with_immersion = 0;
+        for (const auto& [time_us, row] : trace) {
+            const auto found = replayed.find(time_us);
+            CHECK(found != replayed.end());
+            for (const auto& [name, value] : found->second) {
+                STRCMP_EQUAL(row.at(name).c_str(), in_eight_digits(value).c_str());
+            }
+            with_immersion += row.at("radial_immersion").empty() ? 0 : 1;
+        }
+        CHECK(with_immersion >= 10);
+        CHECK(replayed.size() > 10 * trace.size());
+    }
+};
+
+TEST(Run, simulate_writes_its_report_and_is_silent_in_a_pipe) {
+    const Ended ended = millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("results")});
+    check_ran(ended);
+    CHECK(contains(ended.out, "report: "));
+    for (const char* file : {"summary.json", "trace.csv", "trace_constant.csv", "report.html"}) {
+        CHECK(std::filesystem::file_size(inputs.path("results") / file) > 100);
+    }
+}
+
+TEST(Run, the_same_seed_gives_the_same_trace_and_another_seed_another) {
+    const auto trace = [&](const char* seed) {
+        check_ran(millforce({"simulate", inputs.name("scenario.toml"), "--seed", seed, "--controller", "constant", "--out",
+                             inputs.name("results")}));
+        return text_of(inputs.path("results") / "trace.csv");
+    };
+    const std::string first = trace("7");
+    CHECK(first == trace("7"));
+    CHECK(first != trace("8"));
+}
+
+TEST(Run, replay_of_a_recorded_simulation_repeats_its_estimates_and_override_to_the_last_digit) {
+    simulate_and_record();
+    check_ran(inputs.replay({"--interval", "0"}));
+    check_replay_repeats_the_trace();
+}
+
+TEST(Run, replay_with_the_programmed_feed_told_repeats_them_as_well) {
+    simulate_and_record();
+    inputs.write("log.csv", with(inputs.read("log.csv"), "programmed_feed_mm_s", "not_told"));
+    check_ran(inputs.replay({"--interval", "0", "--programmed-feed", "1200"}));
+    check_replay_repeats_the_trace();
+}
+
+TEST(Run, replay_without_an_output_file_prints_the_same_rows) {
+    simulate_and_record();
+    check_ran(inputs.replay());
+    const Ended ended = millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"), "--tool",
+                                   inputs.name("tool.toml")});
+    check_ran(ended);
+    CHECK(ended.out == inputs.read("out.csv"));
+}
+
+TEST(Run, ctrl_c_in_a_long_simulation_leaves_no_file_and_a_pipe_sees_no_progress) {
+    inputs.write("scenario.toml", with(scenario_text, "length_mm = 30", "length_mm = 90000"));
+    Program program({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")});
+    const auto unfinished = [&] {
+        std::error_code none_yet;
+        return std::filesystem::directory_iterator(inputs.path("results"), none_yet) !=
+               std::filesystem::directory_iterator();
+    };
+    for (int k = 0; k < 1000 && !unfinished(); ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    // On a terminal the progress begins after half a second.
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    CHECK(unfinished());
+    program.interrupt(SIGINT);
+    program.wait();
+    LONGS_EQUAL(SIGINT, program.ended_by_signal());
+    STRCMP_EQUAL("", program.error().c_str());
+    CHECK(!unfinished());
+}
+
+TEST(Run, what_calibrate_cutting_writes_is_a_table_of_tool_toml) {
+    check_ran(millforce({"calibrate", "cutting", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "-o", inputs.name("c.toml")}));
+    inputs.write("tool.toml", tool_head + inputs.read("c.toml"));
+    simulate_and_record();
+    check_ran(inputs.replay());
+    check_ran(millforce({"estimate", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "--tool", inputs.name("tool.toml"),
+                         "-o", inputs.name("estimates.csv")}));
+}
+
+TEST(Run, what_cut_table_writes_is_what_calibrate_cutting_takes) {
+    check_ran(millforce({"cut-table", inputs.name("scenario.toml"), "-o", inputs.name("cuts.csv")}));
+    check_ran(millforce({"calibrate", "cutting", inputs.name("cuts.csv"), "-o", inputs.name("c.toml")}));
+    CHECK(contains(inputs.read("c.toml"), "cut_side = \"down\""));
+}
+
+TEST(Run, what_calibrate_friction_writes_is_a_table_of_machine_toml) {
+    inputs.write("axis.csv", axis_motion(1.0));
+    check_ran(millforce({"calibrate", "friction", inputs.name("axis.csv"), "--axis", "y", "-o", inputs.name("f.toml")}));
+    inputs.write("machine.toml", machine_text + inputs.read("f.toml"));
+    simulate_and_record();
+}
+
+TEST(Run, a_bound_that_does_not_hold_is_exit_code_1_with_the_result_written) {
+    inputs.write("axis.csv", axis_motion(1.5));
+    const Ended ended = millforce({"calibrate", "friction", inputs.name("axis.csv"), "-o", inputs.name("f.toml")});
+    LONGS_EQUAL(1, ended.exit_code);
+    CHECK(contains(ended.out, "BROKEN"));
+    CHECK(contains(inputs.read("f.toml"), "mass_kg"));
+}
