@@ -1,14 +1,13 @@
 #include "cutting/bottom_edge.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/checked_value.hpp"
 
 namespace millforce::sim {
 
 void validate(const BottomEdge& edge, double cutter_radius_mm) {
-    constexpr double degree = std::numbers::pi / 180.0;
     check_range("bottom_edge.shear_stress_N_mm2", edge.shear_stress_N_mm2, 1e-6, 1e5);
     check_range("bottom_edge.chip_compression", edge.chip_compression, 1.0, 10.0);
     check_range("bottom_edge.friction_angle_rad", edge.friction_angle_rad, 0.0, 60.0 * degree);

@@ -2,14 +2,12 @@
 
 #include <cmath>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/checked_value.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr double turn = 2.0 * std::numbers::pi;
 
 void validate_pitch(const Cutter& cutter) {
     if (has_equal_pitch(cutter)) {

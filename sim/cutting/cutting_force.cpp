@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/checked_value.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 std::size_t previous_bin(std::size_t index) {
     return index == 0 ? EngagementMap::bin_count - 1 : index - 1;

@@ -1,14 +1,12 @@
 #include "cutting/oblique_cutting.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/checked_value.hpp"
 
 namespace millforce::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 double normal_friction_angle(const ObliqueCut& cut) {
     const double chip_flow_rad = cut.inclination_rad;

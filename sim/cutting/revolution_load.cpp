@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/checked_value.hpp"
 
 namespace millforce::sim {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 /// An angle at which material begins or ends, and the height of the material there.
 struct MaterialEdge {

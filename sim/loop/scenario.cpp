@@ -118,13 +118,15 @@ void read_material(Table& root, Scenario& scenario) {
 }
 
 /// What the operation asks of the controller beyond the tool's own settings.
-void read_operation(Table& root, control::FeedControllerParameters<float>& control) {
+void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
+    control::FeedControllerParameters<float>& control = tool.control;
     Table table = root.table("operation");
     const auto read = [&](const char* key, float& value, double low, double high) {
         value = static_cast<float>(table.number(key, low, high, static_cast<double>(value)));
     };
     read("surge_radial_immersion", control.surge_radial_immersion, 0.0, 2.0);
     read("entry_feed_per_tooth_mm", control.entry_feed_per_tooth_mm, 1e-4, 10.0);
+    read("declared_axial_depth_mm", tool.declared_axial_depth_mm, 0.0, 300.0);
     read("exit_travel_mm", control.exit_travel_mm, 0.0, 1e3);
     read("air_feed_per_tooth_mm", control.air_feed_per_tooth_mm, 1e-4, 10.0);
     table.reject_unknown_keys();
@@ -157,7 +159,7 @@ Scenario read_scenario(const std::string& path) {
     read_cutter(root, scenario.parameters.tool, scenario.cutter);
     read_material(root, scenario);
     read_deviation(root, scenario.deviation);
-    read_operation(root, scenario.parameters.tool.control);
+    read_operation(root, scenario.parameters.tool);
     const std::string program = root.text("program", "");
     if (program.empty()) {
         read_profile(root, scenario);

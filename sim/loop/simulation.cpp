@@ -224,13 +224,15 @@ Simulated simulate(const Scenario& scenario, OverrideSource& controller, const s
     return Loop(scenario, controller, settings).run(controller_name);
 }
 
-double safe_constant_override(const Scenario& scenario, const SimulationSettings& settings) {
+double safe_constant_override(const Scenario& scenario, double hardest, const SimulationSettings& settings) {
+    Scenario hard = scenario;
+    hard.deviation.cutting_force_scale *= hardest;
     const double exponent = 0.75;
     double ratio = 0.5;
     double best = 0.0;
     for (int round = 0; round < 5; ++round) {
-        ConstantFeed constant(scenario.parameters, ratio);
-        const Simulated run = simulate(scenario, constant, "constant", settings);
+        ConstantFeed constant(hard.parameters, ratio);
+        const Simulated run = simulate(hard, constant, "constant", settings);
         if (run.interrupted) {
             return ratio;
         }

@@ -34,8 +34,13 @@ struct Simulated {
 Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,
                    const SimulationSettings& settings = {});
 
-/// The largest constant override with which no tooth of this very plant (its true K_s, runout, geometry) exceeds its
-/// limit anywhere on the part: the best that a programmer who knew everything but could not vary the feed would choose.
-double safe_constant_override(const Scenario& scenario, const SimulationSettings& settings = {});
+/// K_s varies by ± 30 % between batches of a steel and with the wear of the edge: what a programmer must allow for who
+/// chooses a constant feed.
+inline constexpr double hardest_material = 1.3;
+
+/// The largest constant override with which no tooth exceeds its limit anywhere on the part, for a material whose K_s is
+/// `hardest` times that of the scenario. With 1.0 it is the best constant feed in hindsight, K_s known exactly.
+double safe_constant_override(const Scenario& scenario, double hardest = hardest_material,
+                              const SimulationSettings& settings = {});
 
 }  // namespace millforce::sim

@@ -43,7 +43,7 @@ TEST_GROUP(BadInput) {
     /// Simulated into a folder that then must hold nothing; the folder itself goes.
     void scenario_is_refused(const std::string& text, const std::vector<std::string>& parts) {
         inputs.write("scenario.toml", text);
-        const Ended ended = millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("results")});
+        const Ended ended = run_millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("results")});
         std::filesystem::remove(inputs.path("results"));
         check_refused(ended, parts);
     }
@@ -59,7 +59,7 @@ TEST(BadInput, the_good_input_passes) {
 
 TEST(BadInput, a_missing_file_is_named) {
     const auto refused = [&](std::vector<std::string> words) {
-        check_refused(millforce(words), {"nowhere", "no such file"});
+        check_refused(run_millforce(words), {"nowhere", "no such file"});
     };
     refused({"simulate", inputs.name("nowhere.toml"), "--out", inputs.name("results")});
     refused({"bench", inputs.name("nowhere.toml")});
@@ -67,9 +67,9 @@ TEST(BadInput, a_missing_file_is_named) {
     refused({"estimate", inputs.name("log.csv"), "--tool", inputs.name("nowhere.toml")});
     refused({"replay", inputs.name("log.csv"), "--machine", inputs.name("nowhere.toml"), "--tool",
              inputs.name("tool.toml"), "-o", inputs.name("out.csv")});
-    check_refused(millforce({"calibrate", "friction", inputs.name("nowhere.csv"), "-o", inputs.name("out.csv")}),
+    check_refused(run_millforce({"calibrate", "friction", inputs.name("nowhere.csv"), "-o", inputs.name("out.csv")}),
                   {"nowhere.csv"});
-    check_refused(millforce({"calibrate", "cutting", inputs.name("nowhere.csv"), "-o", inputs.name("out.csv")}),
+    check_refused(run_millforce({"calibrate", "cutting", inputs.name("nowhere.csv"), "-o", inputs.name("out.csv")}),
                   {"nowhere.csv"});
 }
 
@@ -125,7 +125,7 @@ TEST(BadInput, an_error_of_the_part_program_has_file_line_and_column) {
         other.write("part.toml",
                     "machine = \"machine.toml\"\ntool = \"tool.toml\"\nprogram = \"part.ngc\"\n[stock]\nmin_x_mm = 0\n"
                     "min_y_mm = 0\nmax_x_mm = 9\nmax_y_mm = 9\n[material]\nK_tc_N_mm2 = 900\nK_rc_N_mm2 = 300\n");
-    const Ended ended = millforce({"simulate", scenario.string(), "--out", other.path("results").string()});
+    const Ended ended = run_millforce({"simulate", scenario.string(), "--out", other.path("results").string()});
     STRCMP_EQUAL("", not_refused(ended, {"part.ngc:3:8"}).c_str());
     CHECK(!std::filesystem::exists(other.path("results") / "summary.json"));
 }
@@ -155,14 +155,14 @@ TEST(BadInput, a_truncated_or_empty_file_is_refused) {
 
 TEST(BadInput, an_output_that_cannot_be_written_is_named) {
     const auto written_to = [&](const std::string& target) {
-        return millforce({"cut-table", inputs.name("scenario.toml"), "-o", target});
+        return run_millforce({"cut-table", inputs.name("scenario.toml"), "-o", target});
     };
     check_refused(written_to(inputs.name("no/such/folder/cuts.csv")), {"cuts.csv: cannot be written"});
-    check_refused(millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"), "--tool",
+    check_refused(run_millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"), "--tool",
                              inputs.name("tool.toml"), "-o", inputs.name("no/such/folder/out.csv")}),
                   {"out.csv: cannot be written"});
     check_refused(written_to("/proc/cuts.csv"), {"/proc/cuts.csv: cannot be written"});
     check_refused(written_to(inputs.path("").string()), {"is a folder"});
-    check_refused(millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("log.csv")}), {"log.csv"});
-    check_refused(millforce({"simulate", inputs.name("scenario.toml"), "--out", "/proc"}), {"/proc/summary.json"});
+    check_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("log.csv")}), {"log.csv"});
+    check_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--out", "/proc"}), {"/proc/summary.json"});
 }

@@ -26,7 +26,7 @@ std::vector<std::string> plus(std::vector<std::string> words, const std::string&
 }
 
 void refuses(const std::vector<std::string>& words, const std::vector<std::string>& parts) {
-    STRCMP_EQUAL("", not_refused(millforce(words), parts).c_str());
+    STRCMP_EQUAL("", not_refused(run_millforce(words), parts).c_str());
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ TEST_GROUP(CommandLine){};
 
 TEST(CommandLine, every_command_explains_itself) {
     for (const auto& command : commands) {
-        const Ended help = millforce(plus(command, "--help"));
+        const Ended help = run_millforce(plus(command, "--help"));
         LONGS_EQUAL(0, help.exit_code);
         STRCMP_EQUAL("", help.error.c_str());
         CHECK(contains(help.out, "Usage: "));
@@ -48,7 +48,7 @@ TEST(CommandLine, every_command_explains_itself) {
 
 TEST(CommandLine, every_command_tells_the_version) {
     for (const auto& command : commands) {
-        const Ended version = millforce(plus(command, "--version"));
+        const Ended version = run_millforce(plus(command, "--version"));
         LONGS_EQUAL(0, version.exit_code);
         CHECK(version.out.starts_with("millforce "));
         LONGS_EQUAL(1, std::count(version.out.begin(), version.out.end(), '\n'));
@@ -57,7 +57,7 @@ TEST(CommandLine, every_command_tells_the_version) {
 }
 
 TEST(CommandLine, the_programs_help_lists_every_command) {
-    const Ended help = millforce({"--help"});
+    const Ended help = run_millforce({"--help"});
     for (const auto& command : commands) {
         CHECK(command.empty() || contains(help.out, "  " + command.front() + " "));
     }
@@ -91,7 +91,7 @@ TEST(CommandLine, a_value_out_of_range_or_of_the_wrong_kind_is_refused) {
 }
 
 TEST(CommandLine, parameters_lists_every_key_of_the_table) {
-    const Ended listed = millforce({"parameters"});
+    const Ended listed = run_millforce({"parameters"});
     LONGS_EQUAL(0, listed.exit_code);
     for (const auto& row : millforce::firmware::parameter_table<float>) {
         CHECK(contains(listed.out, std::string("| `") + row.key + "` |"));

@@ -81,7 +81,7 @@ class Inputs : public TemporaryFolder {
         std::vector<std::string> words{"replay",         name("log.csv"), "--machine", name("machine.toml"), "--tool",
                                        name("tool.toml"), "-o",            name("out.csv")};
         words.insert(words.end(), more.begin(), more.end());
-        return millforce(words);
+        return run_millforce(words);
     }
 };
 

@@ -98,7 +98,7 @@ struct Ended {
     std::string error;
 };
 
-inline Ended millforce(const std::vector<std::string>& arguments) {
+inline Ended run_millforce(const std::vector<std::string>& arguments) {
     Program program(arguments);
     program.wait();
     return {program.exit_code(), program.out(), program.error()};

@@ -9,8 +9,9 @@
 
 /// Feeds the tick a synthetic cut and lets callgrind write down the instructions of each step, one dump per step with
 /// the name of its kind: `plain` between two tooth periods, `estimating` at the end of one. To be run by
-/// count_instructions. The cut is down milling at 20 % of the diameter, with the tooth's ripple on the currents.
-/// Exit code 1: the estimator did not find the cut, so the count would be that of something else.
+/// count_instructions. The cut is down milling whose width grows from about a tenth to the whole of the radius, with
+/// the tooth's ripple on the currents. Exit code 1: the estimator did not find the cut, so the count would be that of
+/// something else.
 
 namespace {
 
@@ -29,6 +30,7 @@ constexpr float feed_mm_s = 20.0F;
 constexpr int air_samples = 100;
 constexpr int settling_samples = 100;  // from contact until each window lies wholly in the cut
 constexpr int counted_samples = 300;
+constexpr int samples = air_samples + settling_samples + counted_samples;
 
 Parameters<float> machine_and_tool() {
     Parameters<float> parameters;
@@ -56,7 +58,8 @@ Parameters<float> machine_and_tool() {
 /// Sample `index` of a straight cut along +x that begins after `air_samples`.
 hal::DriveSample sample_of(int index, const Parameters<float>& parameters) {
     constexpr float tangential_N = 250.0F;
-    constexpr float feed_N = -180.0F;
+    constexpr float narrow_ratio = -0.75F;  // F_ax/F_at
+    constexpr float wide_ratio = -0.2F;
     constexpr float ripple_share = 0.3F;
     const float time_s = static_cast<float>(index) * sample_interval_s;
     const float turned_rev = time_s * spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
@@ -70,6 +73,8 @@ hal::DriveSample sample_of(int index, const Parameters<float>& parameters) {
     sample.present = hal::all_present;
     sample.spindle_current_A =
         (torque_Nm - parameters.machine.spindle.K_t2_Nm) / parameters.machine.spindle.K_t1_Nm_per_A;
+    const float progress = static_cast<float>(index) / static_cast<float>(samples);
+    const float feed_N = tangential_N * (narrow_ratio + (wide_ratio - narrow_ratio) * progress);
     const auto& x = parameters.machine.axes[0];
     const float friction_A = x.positive.at(feed_mm_s * 0.06F) + x.K_x3_A;
     sample.axis_current_A[0] = friction_A + load * feed_N / x.K_x4_N_per_A;
@@ -92,7 +97,7 @@ int main() {
     program.programmed_feed_mm_s = feed_mm_s;
     int estimating = 0;
     int with_engagement = 0;
-    for (int index = 0; index < air_samples + settling_samples + counted_samples; ++index) {
+    for (int index = 0; index < samples; ++index) {
         const hal::DriveSample sample = sample_of(index, parameters);
         const bool counted = index >= air_samples + settling_samples;
         if (!counted) {
@@ -111,6 +116,7 @@ int main() {
             CALLGRIND_DUMP_STATS_AT("plain");
         }
     }
+    std::printf("immersion at the end: %.2f\n", static_cast<double>(tick.estimate().engagement.radial_immersion));
     if (estimating == 0 || with_engagement != estimating) {
         std::fprintf(stderr, "tick_instructions: %d of %d estimates found the engagement\n", with_engagement,
                      estimating);

@@ -36,6 +36,7 @@ struct FeedControllerParameters {
     Scalar highest_programmed_feed_mm_s{0};///< highest F of the program; 0: learnt as blocks come
     Scalar max_feed_per_tooth_mm{static_cast<Scalar>(0.2L)};    ///< what the tool's edge and chip space allow
     Scalar entry_revolutions{2};
+    Scalar entry_travel_mm{5};             ///< … and this travel: until then the engagement still grows (cutter radius)
     Scalar exit_travel_mm{2};              ///< without contact before `exit` becomes `air`
     Scalar contact_force_N{40};            ///< F_at that counts as contact, beside its noise
     Scalar contact_significance{4};        ///< … and this many standard deviations
@@ -196,7 +197,8 @@ class FeedController {
             case CutState::entry:
                 if (lost) {
                     go_to(CutState::exit);
-                } else if (revolutions_in_state_ >= parameters_.entry_revolutions) {
+                } else if (revolutions_in_state_ >= parameters_.entry_revolutions &&
+                           travel_in_state_mm_ >= parameters_.entry_travel_mm) {
                     go_to(CutState::in_cut);
                 }
                 break;

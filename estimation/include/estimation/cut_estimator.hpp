@@ -30,6 +30,7 @@ struct CutEstimatorSettings {
     Scalar assumed_immersion{1};     ///< used for peaks (never to speed up) until an immersion is known
     Scalar surge_immersion{0};       ///< see FeedControllerParameters::surge_radial_immersion
     Scalar tooth_force_limit_N{1000};
+    Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
     Scalar min_samples{12};
     std::uint32_t encoder_counts_per_rev = 4096;
@@ -84,6 +85,7 @@ class CutEstimator {
         solver.teeth = settings.teeth;
         solver.centre_offset_in_radii = settings.centre_offset_in_radii;
         solver.law_relative_sd = settings.law_relative_sd;
+        solver.declared_depth_mm = settings.declared_depth_mm;
         solver_ = EngagementSolver<Scalar>(law, solver);
         down_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::down : settings.side));
         up_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::up : settings.side));
@@ -335,9 +337,13 @@ class CutEstimator {
             const Scalar high =
                 tooth_factor(e.side, e.radial_immersion_high, e.axial_depth_mm > Scalar(0) ? e.depth_at_high_mm : depth);
             const Scalar factor_sd = (low - high) / static_cast<Scalar>(3.92L);
+            // An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
+            const Scalar ln_K_s_sd = sqrt(model.coefficients.ln_K_s_variance);
+            const Scalar factor_by_K_s =
+                tooth_factor(e.side, immersion, depth * (Scalar(1) - ln_K_s_sd)) - factor;
             estimate_.tooth_force_N = {true, estimate_.worst_tooth_force_N,
                                        square(runout) * (square(factor) * window.variance +
-                                                         square(newest * factor_sd)),
+                                                         square(newest) * (square(factor_sd) + square(factor_by_K_s))),
                                        Scalar(0)};
         }
         estimate_surge(immersion, depth, factor, model.mean.tangential_N);

@@ -60,6 +60,8 @@ struct EngagementSolverSettings {
     Scalar smallest_immersion{static_cast<Scalar>(0.02L)};
     Scalar largest_immersion{2};
     Scalar widest_interval{static_cast<Scalar>(1.2L)};    ///< a 95 % interval wider than this is no estimate
+    Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
+    Scalar declared_depth_relative_sd{static_cast<Scalar>(0.05L)};
     Scalar least_significance{4};    ///< F_at must exceed this many of its standard deviations
 };
 
@@ -142,6 +144,16 @@ class EngagementSolver {
         gather(forces.tangential_N, model.mean.tangential_N, Scalar(0));
         gather(forces.x_N, g_x, var_x);
         gather(forces.y_N, g_y, var_y);
+        // A depth that is told bounds what the forces leave open. K_s and depth act on all forces as one factor, so the
+        // factor is known as well as both are.
+        const Scalar declared = settings_.declared_depth_mm;
+        const Scalar declared_weight =
+            declared > Scalar(0)
+                ? Scalar(1) / (square(declared) * (square(settings_.declared_depth_relative_sd) +
+                                                   model.coefficients.ln_K_s_variance))
+                : Scalar(0);
+        wmg += declared_weight * declared;
+        wgg += declared_weight;
         Profile profile;
         profile.tangential_per_mm_N = model.mean.tangential_N;
         profile.ln_K_s_variance = model.coefficients.ln_K_s_variance;
@@ -151,7 +163,8 @@ class EngagementSolver {
             return m.valid ? square(m.value - profile.depth_mm * g) / (m.variance + extra_variance) : Scalar(0);
         };
         profile.misfit = misfit(forces.tangential_N, model.mean.tangential_N, Scalar(0)) +
-                         misfit(forces.x_N, g_x, var_x) + misfit(forces.y_N, g_y, var_y);
+                         misfit(forces.x_N, g_x, var_x) + misfit(forces.y_N, g_y, var_y) +
+                         declared_weight * square(profile.depth_mm - declared);
         return profile;
     }
 

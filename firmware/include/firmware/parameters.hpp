@@ -43,6 +43,7 @@ struct ToolParameters {
     Scalar centre_offset_mm{0};
     Scalar tooth_force_limit_N{0};
     Scalar break_share{1.5F};
+    Scalar declared_axial_depth_mm{0};
     Scalar law_relative_sd{0.02F};
     estimation::CuttingLaw<Scalar> law{};
     control::FeedControllerParameters<Scalar> control{};
@@ -70,6 +71,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.nominal_feed_per_tooth_mm = p.tool.control.entry_feed_per_tooth_mm;
     s.surge_immersion = p.tool.control.surge_radial_immersion;
     s.tooth_force_limit_N = p.tool.tooth_force_limit_N;
+    s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;
     s.encoder_counts_per_rev = static_cast<std::uint32_t>(p.machine.encoder_counts_per_rev);
     return s;

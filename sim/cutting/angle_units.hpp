@@ -1,0 +1,12 @@
+#pragma once
+
+#include <numbers>
+
+/// Angles in radians, by the units that tools and programs are described in.
+
+namespace millforce::sim {
+
+inline constexpr double turn = 2.0 * std::numbers::pi;
+inline constexpr double degree = std::numbers::pi / 180.0;
+
+}  // namespace millforce::sim
