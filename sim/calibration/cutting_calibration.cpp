@@ -86,7 +86,7 @@ std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
 
 CuttingFit<double> fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
                                  CutSide side) {
-    const auto fit = fit_cuts(cuts, options.form, side);
+    auto fit = fit_cuts(cuts, options.form, side);
     const std::string lack = what_the_cuts_lack(fit);
     if (!lack.empty()) {
         throw InputError(fmt::format("{}: {}", options.data.front().string(), lack));

@@ -59,15 +59,17 @@ void document_file(firmware::ParameterFile file, std::string& text) {
 
 void document_information(std::string& text) {
     text +=
-        "\n## Keys for information\n\nA calibration writes them for the reader of its file; the controller does not use "
-        "them. Each key with a\nnumber, here or above, may have a companion `KEY_se`: the standard error of its fit.\n\n"
+        "\n## Keys for information\n\nA calibration writes them for the reader of its file; the controller does not "
+        "use "
+        "them. Each key with a\nnumber, here or above, may have a companion `KEY_se`: the standard error of its "
+        "fit.\n\n"
         "| table | key | unit | meaning |\n|---|---|---|---|\n";
     for (const auto& row : firmware::information_table) {
         const std::string_view table = row.table;
         const std::string range = row.choices != nullptr ? fmt::format(" ({})", joined_words(row.choices)) : "";
-        text += fmt::format("| {} | `{}` | {} | {}{} |\n",
-                            table == "axis" ? "[x], [y], [z]" : fmt::format("[{}]", table), row.key, row.unit,
-                            row.sentence, range);
+        text +=
+            fmt::format("| {} | `{}` | {} | {}{} |\n", table == "axis" ? "[x], [y], [z]" : fmt::format("[{}]", table),
+                        row.key, row.unit, row.sentence, range);
     }
 }
 
@@ -75,7 +77,8 @@ void document_information(std::string& text) {
 
 std::string parameter_documentation() {
     std::string text =
-        "# Parameters\n\nMade by `millforce parameters`. Free text keys `name` and `description` may stand at the top of "
+        "# Parameters\n\nMade by `millforce parameters`. Free text keys `name` and `description` may stand at the top "
+        "of "
         "either file.\n\n## machine.toml\n";
     document_file(firmware::ParameterFile::machine, text);
     text += "\n## tool.toml\n";

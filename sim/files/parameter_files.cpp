@@ -41,13 +41,10 @@ void check_standard_error(const std::string& key, TomlFile::Table& table) {
 }
 
 void check_information(const InformationRow& row, TomlFile::Table& table) {
-    if (!table.has(row.key)) {
-        return;
-    }
     if (row.choices != nullptr) {
-        table.choice(row.key, words_of(row.choices));
+        table.choice(row.key, words_of(row.choices), 0);
     } else {
-        table.number(row.key, -largest_information, largest_information);
+        table.number(row.key, -largest_information, largest_information, 0.0);
     }
 }
 
@@ -134,7 +131,8 @@ CuttingTable read_cutting_table(const std::string& tool_path) {
     reader.read("cutting");
     CuttingTable result{parameters.tool.law, std::nullopt};
     if (TomlFile::Table& table = reader.table("cutting"); table.has("cut_side")) {
-        result.side = table.choice("cut_side", {"down", "up"}) == 1 ? estimation::CutSide::up : estimation::CutSide::down;
+        result.side =
+            table.choice("cut_side", {"down", "up"}) == 1 ? estimation::CutSide::up : estimation::CutSide::down;
     }
     return result;
 }

@@ -108,8 +108,9 @@ int bench(const std::string& path) {
     if (counter.works()) {
         print_cost("instructions", tick_cost(scenario, recording, [&] { return counter.read_count(); }));
     } else {
-        fmt::print("instructions          not counted: this kernel gives no hardware counters; "
-                   "tests/run counts them with valgrind\n");
+        fmt::print(
+            "instructions          not counted: this kernel gives no hardware counters; "
+            "tests/run counts them with valgrind\n");
     }
     fmt::print("\nRAM of the tick: {} bytes\n", sizeof(firmware::ForceControlTick<float>));
     return 0;

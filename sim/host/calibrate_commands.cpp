@@ -35,8 +35,10 @@ void add_friction(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<FrictionCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("friction", "Feed axes: friction by direction, mass, weight");
     command->footer(
-        "Data: a recording of air cuts (time_s, AXIS_velocity_mm_s, AXIS_current_A; at least three steady feeds in each\n"
-        "direction), or one axis in motion (time_s, position_m, motor_force_N). The tables go into machine.toml as they\n"
+        "Data: a recording of air cuts (time_s, AXIS_velocity_mm_s, AXIS_current_A; at least three steady feeds in "
+        "each\n"
+        "direction), or one axis in motion (time_s, position_m, motor_force_N). The tables go into machine.toml as "
+        "they\n"
         "are. Exit code 1: the friction changed within the data.");
     add_data_and_output(command, *options);
     command->add_option("--axis", options->axis, "Axis of data that holds a single one")
@@ -55,7 +57,8 @@ void add_spindle(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<SpindleCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("spindle", "Spindle: torque per ampere, idle torque, inertia");
     command->footer(
-        "Data: spindle_current_A and spindle_torque_Nm, with spindle_speed_rad_s or with time_s and spindle_angle_rad.\n"
+        "Data: spindle_current_A and spindle_torque_Nm, with spindle_speed_rad_s or with time_s and "
+        "spindle_angle_rad.\n"
         "The table goes into machine.toml as it is.");
     add_data_and_output(command, *options);
     command->add_option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
@@ -69,17 +72,19 @@ void add_cutting(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<CuttingCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("cutting", "Material and tool: coefficients from measured cuts");
     command->footer(
-        "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s, spindle_torque_Nm and\n"
-        "normal_force_N or feed_force_N; cuts at two feeds and several widths. The table goes into tool.toml as it is.\n"
+        "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s, spindle_torque_Nm "
+        "and\n"
+        "normal_force_N or feed_force_N; cuts at two feeds and several widths. The table goes into tool.toml as it "
+        "is.\n"
         "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
     add_data_and_output(command, *options);
     command->add_option("--side", options->side, "down, up or unknown: from the data")->transform(side_names());
     command->add_option("--law", options->form, "linear_edge, power or combined")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
-                                                  {"power", CuttingLawForm::power},
-                                                  {"combined", CuttingLawForm::combined}},
-            CLI::ignore_case));
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
+                                                                          {"power", CuttingLawForm::power},
+                                                                          {"combined", CuttingLawForm::combined}},
+                                    CLI::ignore_case));
     command->callback([options, &exit_code] { exit_code = calibrate_cutting(*options, std::cout); });
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -28,7 +27,7 @@ struct CutTableOptions {
     std::uint64_t seed = 1;
 };
 
-constexpr std::size_t feeds = 4;
+constexpr std::array<double, 4> feed_shares{0.125, 0.25, 0.5, 1.0};             // of the largest feed per tooth
 constexpr std::array<double, 6> width_shares{0.08, 0.15, 0.25, 0.4, 0.6, 0.8};  // of the diameter
 constexpr std::array<double, 2> depth_shares{0.1, 0.25};                        // of the flute length
 
@@ -38,17 +37,14 @@ struct Cut {
     double axial_depth_mm;
 };
 
-/// Feeds per tooth in equal ratios from the entry feed to the largest one of the tool's file.
 std::vector<Cut> grid_of(const Scenario& scenario) {
-    const auto& control = scenario.parameters.tool.control;
-    const double least_mm = decimal(control.entry_feed_per_tooth_mm);
-    const double ratio = decimal(control.max_feed_per_tooth_mm) / least_mm;
+    const double largest_feed_mm = decimal(scenario.parameters.tool.control.max_feed_per_tooth_mm);
     std::vector<Cut> cuts;
     for (const double depth : depth_shares) {
         for (const double width : width_shares) {
-            for (std::size_t k = 0; k < feeds; ++k) {
-                cuts.push_back({least_mm * std::pow(ratio, static_cast<double>(k) / (feeds - 1)),
-                                width * scenario.cutter.diameter_mm, depth * scenario.cutter.flute_length_mm});
+            for (const double feed : feed_shares) {
+                cuts.push_back({feed * largest_feed_mm, width * scenario.cutter.diameter_mm,
+                                depth * scenario.cutter.flute_length_mm});
             }
         }
     }
@@ -69,17 +65,16 @@ int cut_table(const CutTableOptions& options) {
     std::mt19937_64 random(options.seed);
     std::normal_distribution<double> noise(0.0, options.noise_share);
     AtomicFile file(options.output);
-    constexpr std::array<std::string_view, 8> columns{
-        "tool_diameter_mm", "flutes",    "spindle_rad_s",     "axial_depth_mm",
-        "radial_width_mm",  "feed_mm_s", "spindle_torque_Nm", "normal_force_N"};
+    constexpr std::array<std::string_view, 8> columns{"tool_diameter_mm",  "flutes",          "spindle_rad_s",
+                                                      "axial_depth_mm",    "radial_width_mm", "feed_mm_s",
+                                                      "spindle_torque_Nm", "normal_force_N"};
     CsvWriter csv(file.stream(), columns);
     const std::vector<Cut> cuts = grid_of(scenario);
     for (const Cut& cut : cuts) {
         const auto angles =
             estimation::engagement_angles(side_of(scenario), 2.0 * cut.radial_width_mm / scenario.cutter.diameter_mm);
-        const RevolutionLoad load =
-            revolution_load(force, cut.feed_per_tooth_mm,
-                            uniform_engagement(angles.entry_rad, angles.exit_rad, cut.axial_depth_mm));
+        const RevolutionLoad load = revolution_load(
+            force, cut.feed_per_tooth_mm, uniform_engagement(angles.entry_rad, angles.exit_rad, cut.axial_depth_mm));
         const double feed_mm_s = cut.feed_per_tooth_mm * teeth * spindle_rad_s / (2.0 * std::numbers::pi);
         const double torque_Nm = load.mean_torque_Nm * (1.0 + noise(random));
         const double normal_N = -load.mean_fy_N * (1.0 + noise(random));
@@ -98,9 +93,9 @@ void add_cut_table(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "cut-table", "Straight cuts with torque and normal force, as a dynamometer on the plant would measure them");
     command->footer(
-        "The cuts: four feeds per tooth from entry_feed_per_tooth_mm to max_feed_per_tooth_mm of the tool's file, six\n"
-        "widths from 8 to 80 % of its diameter, two depths of 10 and 25 % of its flute length. The table is what\n"
-        "'millforce calibrate cutting' takes.");
+        "The cuts: feeds per tooth of 1/8, 1/4, 1/2 and 1 of the tool's max_feed_per_tooth_mm, six widths from 8 to\n"
+        "80 % of its diameter, depths of 10 and 25 % of its flute length. The table is what 'millforce calibrate\n"
+        "cutting' takes.");
     command->add_option("scenario", options->scenario, "Scenario with tool and material")
         ->required()
         ->type_name("SCENARIO.toml");

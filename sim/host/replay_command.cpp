@@ -110,8 +110,9 @@ void add_replay(CLI::App& app, int& exit_code) {
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
     command->add_option("-o,--output", options->output, "Estimates; default: standard output")->type_name("OUT.csv");
-    command->add_option("--programmed-feed", options->programmed_feed_mm_min,
-                        "F of the program in mm/min, for the override; default: the recording's, else not known")
+    command
+        ->add_option("--programmed-feed", options->programmed_feed_mm_min,
+                     "F of the program in mm/min, for the override; default: the recording's, else not known")
         ->check(CLI::Range(0.0, 1e6));
     command->add_option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
         ->check(CLI::Range(0.0, 1e6))

@@ -160,9 +160,11 @@ int simulate_scenario(const SimulateOptions& options) {
 
 void add_simulate(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SimulateOptions>();
-    CLI::App* command = app.add_subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
+    CLI::App* command =
+        app.add_subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
     command->footer(
-        "The baseline beside it is the largest constant feed with which no tooth exceeds its limit, though the material\n"
+        "The baseline beside it is the largest constant feed with which no tooth exceeds its limit, though the "
+        "material\n"
         "be harder by 30 %.\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit, or the program did not finish.");
     command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");

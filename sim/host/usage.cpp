@@ -74,7 +74,8 @@ std::string unknown_name(const CLI::App& program, int argc, const char* const* a
 
 /// CLI11's messages may hold line breaks.
 std::string one_line(std::string text) {
-    std::replace_if(text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     return text;
 }
 

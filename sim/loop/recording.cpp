@@ -95,9 +95,10 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_
         any = any || (axes_[k].current && axes_[k].velocity);
     }
     if (!any) {
-        throw InputError(fmt::format("{}:1: expected the columns x_current_A and x_velocity_mm_s, or those of y or z: "
-                                     "the feed per tooth comes from the velocities",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{}:1: expected the columns x_current_A and x_velocity_mm_s, or those of y or z: "
+                        "the feed per tooth comes from the velocities",
+                        file.string()));
     }
 }
 

@@ -57,10 +57,10 @@ class RecordingWriter {
     std::uint32_t last_count_ = 0;
 };
 
-/// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as a
-/// column or in a row, is "not present" in the sample. Required: time_s, spindle_angle_rad, spindle_current_A, and one
-/// axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError: time
-/// that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
+/// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as
+/// a column or in a row, is "not present" in the sample. Required: time_s, spindle_angle_rad, spindle_current_A, and
+/// one axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError:
+/// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);

@@ -33,8 +33,8 @@ EngagementMap::Bin flat_bin(const HeightMap& map, const Cutter& cutter, const Ei
     const float covered = std::clamp((material.share - 0.5F) * 3.0F + 0.5F, 0.0F, 1.0F);
     if (covered > 0.0F) {
         bin.covered = covered;
-        bin.top_mm = std::min(material.top_mm - static_cast<float>(point.z()),
-                              static_cast<float>(cutter.flute_length_mm));
+        bin.top_mm =
+            std::min(material.top_mm - static_cast<float>(point.z()), static_cast<float>(cutter.flute_length_mm));
     }
     return bin;
 }
@@ -57,8 +57,8 @@ EngagementMap::Bin ball_bin(const HeightMap& map, const Cutter& cutter, const Ei
             bin.bottom_mm = static_cast<float>(radius * k / heights);
         }
         bin.covered = 1.0F;
-        bin.top_mm = std::min(static_cast<float>(radius * (k + 1) / heights),
-                              material.top_mm - static_cast<float>(ahead.z()));
+        bin.top_mm =
+            std::min(static_cast<float>(radius * (k + 1) / heights), material.top_mm - static_cast<float>(ahead.z()));
     }
     return bin;
 }
@@ -102,7 +102,8 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
     const double epsilon = 0.5 * map.cell_mm();
     const double margin = map.cell_mm();
     const double furthest = 6.0 * map.cell_mm();
-    const double rise = std::max(0.0, (2.0 * radius * margin + margin * margin - furthest * furthest) / (2.0 * furthest));
+    const double rise =
+        std::max(0.0, (2.0 * radius * margin + margin * margin - furthest * furthest) / (2.0 * furthest));
     const double widest = std::sqrt(std::max(0.0, radius * radius - rise * rise));
     const Eigen::Vector3d ahead = tip_mm + Eigen::Vector3d(t.x(), t.y(), 0.0) * epsilon;
     for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {

@@ -8,14 +8,14 @@
 
 namespace millforce::sim {
 
-/// Where a tool that stands with its tip at `tip_mm` and moves along `direction` (unit vector in machine axes) meets the
-/// workpiece, in the feed frame. The map holds the state after the removal at this position.
+/// Where a tool that stands with its tip at `tip_mm` and moves along `direction` (unit vector in machine axes) meets
+/// the workpiece, in the feed frame. The map holds the state after the removal at this position.
 ///
-/// For each angle φ the point is looked at that stands as far beside the axis as the periphery does, y = R cos φ, and so
-/// far ahead that it clears the circle removed so far by a cell: x = √((R + m)² − y²), m = 1 cell. It is what the tool
-/// is about to remove: within the width that it will sweep, so that no wall beside the tool is taken for material in
-/// front of it, and not yet gnawed at by the removal at this position. So everything is seen m early: an entry, an exit
-/// or a corner by one cell of path in front of the tool, and by up to √(2 R m) at its sides, where chips are thin.
+/// For each angle φ the point is looked at that stands as far beside the axis as the periphery does, y = R cos φ, and
+/// so far ahead that it clears the circle removed so far by a cell: x = √((R + m)² − y²), m = 1 cell. It is what the
+/// tool is about to remove: within the width that it will sweep, so that no wall beside the tool is taken for material
+/// in front of it, and not yet gnawed at by the removal at this position. So everything is seen m early: an entry, an
+/// exit or a corner by one cell of path in front of the tool, and by up to √(2 R m) at its sides, where chips are thin.
 ///
 /// Resolution: walls to 0.2 cells. A stretch of material narrower than a quarter of a cell across the feed is taken for
 /// the grain of a finished wall and left out; a cut that thin needs smaller cells.
@@ -26,7 +26,7 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
 /// The engagement in the terms of the estimators: the truth that they are judged against.
 struct TrueEngagement {
     bool cutting = false;
-    double entry_rad = 0.0;         ///< of the hull of all that is engaged
+    double entry_rad = 0.0;  ///< of the hull of all that is engaged
     double exit_rad = 0.0;
     double radial_immersion = 0.0;  ///< Σ (cos φ_st − cos φ_ex): width of the material in front of the tool over R
     double axial_depth_mm = 0.0;    ///< mean height, weighted with sin φ as the chip is

@@ -66,9 +66,10 @@ HeightMap::HeightMap(double min_x_mm, double min_y_mm, double max_x_mm, double m
     const double columns = std::ceil(width - 1e-9);
     const double rows = std::ceil(depth - 1e-9);
     if (!(columns >= 1.0 && rows >= 1.0 && columns * rows <= most_cells && cell_mm > 0.0 && std::isfinite(top_mm))) {
-        throw InputError(fmt::format("stock: a block of {} × {} mm, {} mm high, in cells of {} mm has {} × {} cells, "
-                                     "expected 1 to 64 million in all",
-                                     max_x_mm - min_x_mm, max_y_mm - min_y_mm, top_mm, cell_mm, columns, rows));
+        throw InputError(
+            fmt::format("stock: a block of {} × {} mm, {} mm high, in cells of {} mm has {} × {} cells, "
+                        "expected 1 to 64 million in all",
+                        max_x_mm - min_x_mm, max_y_mm - min_y_mm, top_mm, cell_mm, columns, rows));
     }
     columns_ = static_cast<std::size_t>(columns);
     rows_ = static_cast<std::size_t>(rows);
@@ -177,7 +178,8 @@ void HeightMap::sweep(const Cutter& cutter, const Eigen::Vector3d& from_mm, cons
     }
     const CutterShape shape{0.5 * cutter.diameter_mm / cell_mm_, cutter.type == CutterType::ball_end_mill, z_mm};
     const auto in_cells = [&](const Eigen::Vector3d& point_mm) {
-        return Eigen::Vector2d((point_mm.x() - min_x_mm_) / cell_mm_ - 0.5, (point_mm.y() - min_y_mm_) / cell_mm_ - 0.5);
+        return Eigen::Vector2d((point_mm.x() - min_x_mm_) / cell_mm_ - 0.5,
+                               (point_mm.y() - min_y_mm_) / cell_mm_ - 0.5);
     };
     const SweptDisc disc(in_cells(from_mm), in_cells(to_mm));
     const double reach = shape.radius + 0.5;

@@ -16,12 +16,13 @@ class SweptDisc;
 /// The workpiece as the height of its material over each cell of a grid in x and y: what a three-axis tool can cut has
 /// no undercut. Cells are squares of `cell_mm`.
 ///
-/// A cell through which an edge runs holds two heights and the share of its area that stands at the lower one, to 1/255:
-/// so a wall stands where it was cut, and not where the cells end. Seen by `material_above`, a straight wall lies within
-/// 0.15 cells of its place at each point and within 0.02 cells on average along it. A third height in one cell (walls of
-/// two levels less than a cell apart) is merged into the lower one.
+/// A cell through which an edge runs holds two heights and the share of its area that stands at the lower one, to
+/// 1/255: so a wall stands where it was cut, and not where the cells end. Seen by `material_above`, a straight wall
+/// lies within 0.15 cells of its place at each point and within 0.02 cells on average along it. A third height in one
+/// cell (walls of two levels less than a cell apart) is merged into the lower one.
 ///
-/// Memory: 9 bytes a cell, at most 64 million cells. Throws InputError where the block is empty, not finite or too large.
+/// Memory: 9 bytes a cell, at most 64 million cells. Throws InputError where the block is empty, not finite or too
+/// large.
 class HeightMap {
   public:
     /// Outside the block there is air: height `nothing_mm`.

@@ -21,7 +21,8 @@ class SweptDisc {
         }
     };
 
-    SweptDisc(const Eigen::Vector2d& from, const Eigen::Vector2d& to) : from_(from), to_(to), length_((to - from).norm()) {
+    SweptDisc(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
+        : from_(from), to_(to), length_((to - from).norm()) {
         if (length_ > 0.0) {
             direction_ = (to - from) / length_;
         }

@@ -55,9 +55,9 @@ TEST(ParameterTable, gives_every_key_a_field_of_its_own) {
 TEST(ParameterTable, has_each_default_within_its_range_and_a_sentence_for_each_key) {
     for (const auto& row : table) {
         CHECK_TEXT(row.minimum < row.maximum, row.key);
-        CHECK_TEXT(std::isnan(row.default_value) ||
-                       (row.default_value >= row.minimum && row.default_value <= row.maximum),
-                   row.key);
+        CHECK_TEXT(
+            std::isnan(row.default_value) || (row.default_value >= row.minimum && row.default_value <= row.maximum),
+            row.key);
         CHECK_TEXT(std::string(row.sentence).ends_with('.'), row.key);
     }
 }

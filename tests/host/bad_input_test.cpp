@@ -76,7 +76,10 @@ TEST(BadInput, a_missing_file_is_named) {
 TEST(BadInput, what_is_not_toml_is_refused_with_line_and_column) {
     machine_is_refused("[spindle]\nK_t1_Nm_per_A = 0.7\n[x\n", {"machine.toml:3:", "not valid TOML"});
     machine_is_refused("time_s,x\n1,2\n", {"machine.toml:1:", "not valid TOML"});
-    machine_is_refused(std::string("\x7f" "ELF\0\1\2", 7), {"machine.toml:1:"});
+    machine_is_refused(std::string("\x7f"
+                                   "ELF\0\1\2",
+                                   7),
+                       {"machine.toml:1:"});
     machine_is_refused(machine_text + "[x]\n", {"machine.toml:15:"});  // a table told twice
 }
 
@@ -111,9 +114,10 @@ TEST(BadInput, a_value_out_of_range_not_finite_or_of_the_wrong_type_is_shown) {
 
 TEST(BadInput, a_scenario_names_the_tool_or_program_that_is_not_there) {
     scenario_is_refused(with(scenario_text, "tool.toml", "lost.toml"), {"lost.toml: no such file"});
-    scenario_is_refused("machine = \"machine.toml\"\ntool = \"tool.toml\"\nprogram = \"lost.ngc\"\n[stock]\nmin_x_mm = 0\n"
-                        "min_y_mm = 0\nmax_x_mm = 9\nmax_y_mm = 9\n[material]\nK_tc_N_mm2 = 900\nK_rc_N_mm2 = 300\n",
-                        {"lost.ngc: no such file"});
+    scenario_is_refused(
+        "machine = \"machine.toml\"\ntool = \"tool.toml\"\nprogram = \"lost.ngc\"\n[stock]\nmin_x_mm = 0\n"
+        "min_y_mm = 0\nmax_x_mm = 9\nmax_y_mm = 9\n[material]\nK_tc_N_mm2 = 900\nK_rc_N_mm2 = 300\n",
+        {"lost.ngc: no such file"});
 }
 
 TEST(BadInput, an_error_of_the_part_program_has_file_line_and_column) {
@@ -159,10 +163,11 @@ TEST(BadInput, an_output_that_cannot_be_written_is_named) {
     };
     check_refused(written_to(inputs.name("no/such/folder/cuts.csv")), {"cuts.csv: cannot be written"});
     check_refused(run_millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"), "--tool",
-                             inputs.name("tool.toml"), "-o", inputs.name("no/such/folder/out.csv")}),
+                                 inputs.name("tool.toml"), "-o", inputs.name("no/such/folder/out.csv")}),
                   {"out.csv: cannot be written"});
     check_refused(written_to("/proc/cuts.csv"), {"/proc/cuts.csv: cannot be written"});
     check_refused(written_to(inputs.path("").string()), {"is a folder"});
-    check_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("log.csv")}), {"log.csv"});
+    check_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--out", inputs.name("log.csv")}),
+                  {"log.csv"});
     check_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--out", "/proc"}), {"/proc/summary.json"});
 }

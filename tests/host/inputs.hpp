@@ -78,8 +78,8 @@ class Inputs : public TemporaryFolder {
 
     /// The recording log.csv replayed to out.csv.
     Ended replay(std::vector<std::string> more = {}) const {
-        std::vector<std::string> words{"replay",         name("log.csv"), "--machine", name("machine.toml"), "--tool",
-                                       name("tool.toml"), "-o",            name("out.csv")};
+        std::vector<std::string> words{"replay", name("log.csv"),   "--machine", name("machine.toml"),
+                                       "--tool", name("tool.toml"), "-o",        name("out.csv")};
         words.insert(words.end(), more.begin(), more.end());
         return run_millforce(words);
     }

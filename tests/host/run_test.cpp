@@ -82,7 +82,8 @@ TEST_GROUP(Run) {
         LONGS_EQUAL(0, ended.exit_code);
     }
     void simulate_and_record() {
-        check_ran(run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")}));
+        check_ran(
+            run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")}));
         std::filesystem::rename(inputs.path("results") / "recording.csv", inputs.path("log.csv"));
     }
     /// Every row of the trace, all its estimates and the override, stands in the replay to the last digit.
@@ -114,8 +115,8 @@ TEST(Run, simulate_writes_its_report_and_is_silent_in_a_pipe) {
 
 TEST(Run, the_same_seed_gives_the_same_trace_and_another_seed_another) {
     const auto trace = [&](const char* seed) {
-        check_ran(run_millforce({"simulate", inputs.name("scenario.toml"), "--seed", seed, "--controller", "constant", "--out",
-                             inputs.name("results")}));
+        check_ran(run_millforce({"simulate", inputs.name("scenario.toml"), "--seed", seed, "--controller", "constant",
+                                 "--out", inputs.name("results")}));
         return text_of(inputs.path("results") / "trace.csv");
     };
     const std::string first = trace("7");
@@ -139,8 +140,8 @@ TEST(Run, replay_with_the_programmed_feed_told_repeats_them_as_well) {
 TEST(Run, replay_without_an_output_file_prints_the_same_rows) {
     simulate_and_record();
     check_ran(inputs.replay());
-    const Ended ended = run_millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"), "--tool",
-                                   inputs.name("tool.toml")});
+    const Ended ended = run_millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"),
+                                       "--tool", inputs.name("tool.toml")});
     check_ran(ended);
     CHECK(ended.out == inputs.read("out.csv"));
 }
@@ -167,12 +168,13 @@ TEST(Run, ctrl_c_in_a_long_simulation_leaves_no_file_and_a_pipe_sees_no_progress
 }
 
 TEST(Run, what_calibrate_cutting_writes_is_a_table_of_tool_toml) {
-    check_ran(run_millforce({"calibrate", "cutting", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "-o", inputs.name("c.toml")}));
+    check_ran(run_millforce(
+        {"calibrate", "cutting", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "-o", inputs.name("c.toml")}));
     inputs.write("tool.toml", tool_head + inputs.read("c.toml"));
     simulate_and_record();
     check_ran(inputs.replay());
-    check_ran(run_millforce({"estimate", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "--tool", inputs.name("tool.toml"),
-                         "-o", inputs.name("estimates.csv")}));
+    check_ran(run_millforce({"estimate", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "--tool",
+                             inputs.name("tool.toml"), "-o", inputs.name("estimates.csv")}));
 }
 
 TEST(Run, what_cut_table_writes_is_what_calibrate_cutting_takes) {
@@ -183,7 +185,8 @@ TEST(Run, what_cut_table_writes_is_what_calibrate_cutting_takes) {
 
 TEST(Run, what_calibrate_friction_writes_is_a_table_of_machine_toml) {
     inputs.write("axis.csv", axis_motion(1.0));
-    check_ran(run_millforce({"calibrate", "friction", inputs.name("axis.csv"), "--axis", "y", "-o", inputs.name("f.toml")}));
+    check_ran(
+        run_millforce({"calibrate", "friction", inputs.name("axis.csv"), "--axis", "y", "-o", inputs.name("f.toml")}));
     inputs.write("machine.toml", machine_text + inputs.read("f.toml"));
     simulate_and_record();
 }

@@ -9,9 +9,8 @@
 
 /// Feeds the tick a synthetic cut and lets callgrind write down the instructions of each step, one dump per step with
 /// the name of its kind: `plain` between two tooth periods, `estimating` at the end of one. To be run by
-/// count_instructions. The cut is down milling whose width grows from about a tenth to the whole of the radius, with
-/// the tooth's ripple on the currents. Exit code 1: the estimator did not find the cut, so the count would be that of
-/// something else.
+/// count_instructions. The cut is down milling whose width grows, with the tooth's ripple on the currents.
+/// Exit code 1: the estimator did not find the cut, so the count would be that of something else.
 
 namespace {
 

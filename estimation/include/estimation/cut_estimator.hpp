@@ -55,7 +55,7 @@ struct CutEstimate {
     Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid where a needed axis stands
     EngagementEstimate<Scalar> engagement{};
 
-    Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; not valid without an immersion
+    Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
     Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
@@ -345,6 +345,13 @@ class CutEstimator {
                                        square(runout) * (square(factor) * window.variance +
                                                          square(newest) * (square(factor_sd) + square(factor_by_K_s))),
                                        Scalar(0)};
+        }
+        if (!e.immersion_valid && e.solved && e.depth_at_high_mm > Scalar(0)) {
+            // No estimate of the immersion, but a bound: the narrowest cut and the smallest depth that the forces allow
+            // load one tooth most. Where even that is far from the limit, the force is known well enough.
+            const Scalar bound = tooth_factor(e.side, e.radial_immersion_low, e.depth_at_high_mm);
+            const Scalar worst = newest * runout * (bound > factor ? bound : factor);
+            estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
         }
         estimate_surge(immersion, depth, factor, model.mean.tangential_N);
     }

@@ -36,6 +36,7 @@ struct AverageForceMeasurement {
 
 template <typename Scalar>
 struct EngagementEstimate {
+    bool solved = false;  ///< there was something to solve: the 95 % intervals below hold, however wide
     bool immersion_valid = false;
     Scalar radial_immersion{0};  ///< R_r = a_e/R, 0…2
     Scalar radial_immersion_sd{0};
@@ -272,6 +273,7 @@ class EngagementSolver {
         const Scalar width = estimate.radial_immersion_high - estimate.radial_immersion_low;
         estimate.radial_immersion_sd = width / static_cast<Scalar>(3.92L);
         estimate.misfit = least;
+        estimate.solved = true;
         estimate.immersion_valid = width <= settings_.widest_interval;
     }
 
@@ -280,7 +282,7 @@ class EngagementSolver {
                     Scalar feed_per_tooth_mm, CutSide side, const Profile& best) const {
         using std::acos;
         using std::sqrt;
-        if (!estimate.immersion_valid || !(best.information > Scalar(0)) || !(best.depth_mm > Scalar(0))) {
+        if (!(best.information > Scalar(0)) || !(best.depth_mm > Scalar(0))) {
             return;
         }
         const auto depth_at = [&](Scalar immersion) {
@@ -293,7 +295,8 @@ class EngagementSolver {
         estimate.axial_depth_mm = best.depth_mm;
         estimate.axial_depth_sd_mm = sqrt(square(spread) + Scalar(1) / best.information +
                                           square(best.depth_mm) * best.ln_K_s_variance);
-        estimate.depth_valid = estimate.axial_depth_sd_mm < estimate.axial_depth_mm;
+        estimate.depth_valid =
+            estimate.immersion_valid && estimate.axial_depth_sd_mm < estimate.axial_depth_mm;
     }
 
     [[nodiscard]] static EngagementEstimate<Scalar> choose_side(const EngagementEstimate<Scalar>& down,
