@@ -73,7 +73,9 @@ class TableReader {
             if (is_asked(row)) {
                 for_each_table(row, [&](std::size_t, TomlFile::Table& table) {
                     check_information(row, table);
-                    check_standard_error(row.key, table);
+                    if (row.choices == nullptr) {
+                        check_standard_error(row.key, table);
+                    }
                 });
             }
         }

@@ -45,10 +45,10 @@ void add_friction(CLI::App* calibrate, int& exit_code) {
         ->check(CLI::IsMember({"x", "y", "z"}))
         ->capture_default_str();
     command->add_option("--low-pass", options->low_pass_hz, "Zero-phase filter of position and force, Hz")
-        ->check(CLI::Range(0.1, 1e4))
+        ->check(number_from(0.1, 1e4))
         ->capture_default_str();
     command->add_option("--minimum-speed", options->minimum_speed_mm_s, "Slower samples are pre-sliding, mm/s")
-        ->check(CLI::Range(0.001, 1e4))
+        ->check(number_from(0.001, 1e4))
         ->capture_default_str();
     command->callback([options, &exit_code] { exit_code = calibrate_friction(*options, std::cout); });
 }
@@ -62,7 +62,7 @@ void add_spindle(CLI::App* calibrate, int& exit_code) {
         "The table goes into machine.toml as it is.");
     add_data_and_output(command, *options);
     command->add_option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
-        ->check(CLI::Range(0.01, 1e4))
+        ->check(number_from(0.01, 1e4))
         ->capture_default_str();
     command->callback([options, &exit_code] { exit_code = calibrate_spindle(*options, std::cout); });
 }

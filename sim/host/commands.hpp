@@ -4,7 +4,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace millforce::sim {
 
@@ -20,6 +21,9 @@ void add_parameters(CLI::App& app, int& exit_code);
 
 /// `--version` for the program and every subcommand, and the rules that all of them share.
 void set_common_rules(CLI::App& app, const std::string& version);
+
+/// Checks that an option is a finite number within [low, high]. CLI::Range lets NaN pass.
+CLI::Validator number_from(double low, double high);
 
 /// The one line that says what is wrong with the command line: the message of CLI11, with the nearest name of an
 /// unknown command or option.

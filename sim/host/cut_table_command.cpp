@@ -103,10 +103,10 @@ void add_cut_table(CLI::App& app, int& exit_code) {
         ->required()
         ->type_name("CONDITIONS.csv");
     command->add_option("--spindle-speed", options->spindle_speed_rpm, "In 1/min")
-        ->check(CLI::Range(1.0, 1e5))
+        ->check(number_from(1.0, 1e5))
         ->capture_default_str();
     command->add_option("--noise", options->noise_share, "Standard deviation of a measured value, relative")
-        ->check(CLI::Range(0.0, 0.5))
+        ->check(number_from(0.0, 0.5))
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Seed of the noise")->capture_default_str();
     command->callback([options, &exit_code] { exit_code = cut_table(*options); });

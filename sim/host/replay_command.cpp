@@ -113,9 +113,9 @@ void add_replay(CLI::App& app, int& exit_code) {
     command
         ->add_option("--programmed-feed", options->programmed_feed_mm_min,
                      "F of the program in mm/min, for the override; default: the recording's, else not known")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(number_from(0.0, 1e6));
     command->add_option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(number_from(0.0, 1e6))
         ->capture_default_str();
     command->callback([options, &exit_code] { exit_code = replay(*options); });
 }

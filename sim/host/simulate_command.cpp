@@ -177,11 +177,11 @@ void add_simulate(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
     command->add_option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
-        ->check(CLI::Range(0.1, 10.0));
+        ->check(number_from(0.1, 10.0));
     command->add_option("--friction-scale", options->friction_scale, "True friction over the machine's")
-        ->check(CLI::Range(0.0, 10.0));
+        ->check(number_from(0.0, 10.0));
     command->add_option("--current-noise", options->current_noise_share, "Noise of a current sample over rated current")
-        ->check(CLI::Range(0.0, 0.5));
+        ->check(number_from(0.0, 0.5));
     command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
 }
 

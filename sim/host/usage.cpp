@@ -89,6 +89,17 @@ void set_common_rules(CLI::App& app, const std::string& version) {
     }
 }
 
+CLI::Validator number_from(double low, double high) {
+    const auto check = [low, high](const std::string& text) {
+        double value = 0.0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        return is_number && value >= low && value <= high
+                   ? std::string()
+                   : fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
+    };
+    return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
+}
+
 std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {
     std::string command_path = app.get_name();
     const std::string name = unknown_name(app, argc, argv, command_path);

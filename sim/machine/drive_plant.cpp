@@ -17,9 +17,8 @@ double first_order(double value, double target, double dt_s, double time_constan
 }  // namespace
 
 double SpindlePlant::torque_constant(double speed_rad_s) const {
-    return speed_rad_s > settings_.base_speed_rad_s
-               ? settings_.torque_constant_Nm_per_A * settings_.base_speed_rad_s / speed_rad_s
-               : settings_.torque_constant_Nm_per_A;
+    const double weakening = std::max(1.0, std::abs(speed_rad_s) / settings_.base_speed_rad_s);
+    return settings_.torque_constant_Nm_per_A / weakening;
 }
 
 double SpindlePlant::idle_torque_Nm(double speed_rad_s) const {
@@ -30,7 +29,7 @@ double SpindlePlant::idle_torque_Nm(double speed_rad_s) const {
 
 void SpindlePlant::start_at(double speed_rad_s) {
     speed_rad_s_ = speed_rad_s;
-    integral_A_ = speed_rad_s > 0.0 ? idle_torque_Nm(speed_rad_s) / torque_constant(speed_rad_s) : 0.0;
+    integral_A_ = speed_rad_s != 0.0 ? idle_torque_Nm(speed_rad_s) / torque_constant(speed_rad_s) : 0.0;
     current_A_ = integral_A_;
 }
 
@@ -45,13 +44,24 @@ void SpindlePlant::advance(double dt_s, double commanded_speed_rad_s, double cut
         integral_A_ += gain_A_s * loop_rad_s / 4.0 * error * dt_s;
     }
     current_A_ = first_order(current_A_, std::clamp(wanted_A, -limit_A, limit_A), dt_s, settings_.current_loop_time_s);
-    double torque_Nm = constant * current_A_ - cutting_torque_Nm;
-    const double friction_Nm = idle_torque_Nm(speed_rad_s_);
-    const bool at_rest = std::abs(speed_rad_s_) < 1e-3;
-    torque_Nm = at_rest && std::abs(torque_Nm) < settings_.bearing_torque_Nm ? 0.0 : torque_Nm - friction_Nm;
-    speed_rad_s_ += torque_Nm / settings_.inertia_kg_m2 * dt_s;
+    turn(dt_s, constant * current_A_ - cutting_torque_Nm);
     angle_rad_ += speed_rad_s_ * dt_s;
     time_s_ += dt_s;
+}
+
+// Dry friction brings the spindle to rest and holds it there; it never turns it.
+void SpindlePlant::turn(double dt_s, double torque_Nm) {
+    if (speed_rad_s_ == 0.0) {
+        const double holding_Nm = idle_torque_Nm(0.0);
+        const double excess_Nm = std::max(0.0, std::abs(torque_Nm) - holding_Nm);
+        speed_rad_s_ = std::copysign(excess_Nm, torque_Nm) / settings_.inertia_kg_m2 * dt_s;
+        return;
+    }
+    const double before_rad_s = speed_rad_s_;
+    speed_rad_s_ += (torque_Nm - idle_torque_Nm(speed_rad_s_)) / settings_.inertia_kg_m2 * dt_s;
+    if (before_rad_s * speed_rad_s_ < 0.0) {
+        speed_rad_s_ = 0.0;
+    }
 }
 
 void FeedPlant::start_at(double position_mm) {
@@ -68,7 +78,7 @@ double FeedPlant::friction_force_N(double dt_s) {
         1.0 + settings_.ripple_share * std::sin(2.0 * std::numbers::pi * position_mm_ / settings_.screw_pitch_mm);
     const double coulomb_N = (forward ? settings_.coulomb_positive_N : settings_.coulomb_negative_N) * ripple;
     const double stribeck = std::exp(-std::pow(velocity_mm_s_ / settings_.stribeck_velocity_mm_s, 2.0));
-    const double level_N = coulomb_N * (1.0 + settings_.stribeck_excess * stribeck);
+    const double level_N = std::max(1e-6, coulomb_N * (1.0 + settings_.stribeck_excess * stribeck));
     const double before_mm = presliding_mm_;
     presliding_mm_ = (presliding_mm_ + velocity_mm_s_ * dt_s) /
                      (1.0 + std::abs(velocity_mm_s_) * dt_s * settings_.presliding_stiffness_N_per_mm / level_N);

@@ -39,6 +39,7 @@ class SpindlePlant {
 
   private:
     [[nodiscard]] double torque_constant(double speed_rad_s) const;
+    void turn(double dt_s, double torque_Nm);
 
     SpindlePlantSettings settings_;
     double time_s_ = 0.0;

@@ -198,7 +198,7 @@ void write_path(JsonWriter& json, const ScenarioInfo& info, std::span<const Trac
     json.end_object();
 }
 
-void write_scenario(JsonWriter& json, const ScenarioInfo& info) {
+void write_report_scenario(JsonWriter& json, const ScenarioInfo& info) {
     json.begin_object();
     json.key("name").text(info.name);
     json.key("tooth_force_limit_N").number(info.tooth_force_limit_N);
@@ -231,7 +231,7 @@ void write_names(JsonWriter& json, const char* key, unsigned count) {
 std::string report_data_json(const ScenarioInfo& info, std::span<const RunResult> runs) {
     JsonWriter json;
     json.begin_object().key("scenario");
-    write_scenario(json, info);
+    write_report_scenario(json, info);
     write_names<control::CutState>(json, "state_names", state_count);
     write_names<control::Limit>(json, "limit_names", limit_count);
     json.key("runs").begin_array();

@@ -27,7 +27,7 @@ constexpr struct {
     {"real_time_factor", &RunFigures::real_time_factor},
 };
 
-void write_scenario(JsonWriter& json, const ScenarioInfo& info) {
+void write_summary_scenario(JsonWriter& json, const ScenarioInfo& info) {
     json.begin_object();
     json.key("name").text(info.name).key("title").text(info.title).key("description").text(info.description);
     json.key("tool").text(info.tool).key("material").text(info.material);
@@ -66,7 +66,7 @@ void write_run(JsonWriter& json, const RunResult& run, std::span<const RunResult
 std::string summary_json(const ScenarioInfo& info, std::span<const RunResult> runs) {
     JsonWriter json(JsonWriter::Style::indented);
     json.begin_object().key("scenario");
-    write_scenario(json, info);
+    write_summary_scenario(json, info);
     json.key("runs").begin_array();
     for (const RunResult& run : runs) {
         write_run(json, run, runs);

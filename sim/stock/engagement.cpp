@@ -25,12 +25,15 @@ const std::array<Direction, EngagementMap::bin_count>& bin_directions() {
     return table;
 }
 
-EngagementMap::Bin flat_bin(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& point) {
+/// `cells_across`: how many cells wide the bin is across the feed.
+EngagementMap::Bin flat_bin(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& point,
+                            double cells_across) {
     const HeightMap::Material material = map.material_above(point.z(), point.x(), point.y());
     EngagementMap::Bin bin;
-    // The share of material passes one half where the wall is: a ramp about that point, narrower than a cell, neither
-    // widens nor narrows the cut, and a clean wall beside the tool stays out of it.
-    const float covered = std::clamp((material.share - 0.5F) * 3.0F + 0.5F, 0.0F, 1.0F);
+    // The share of material passes one half where a wall is and changes by one over a cell: so as much of the bin is
+    // covered as the wall lies beside its middle.
+    const auto steepness = static_cast<float>(std::max(1.0, 1.0 / cells_across));
+    const float covered = std::clamp((material.share - 0.5F) * steepness + 0.5F, 0.0F, 1.0F);
     if (covered > 0.0F) {
         bin.covered = covered;
         bin.top_mm =
@@ -39,17 +42,52 @@ EngagementMap::Bin flat_bin(const HeightMap& map, const Cutter& cutter, const Ei
     return bin;
 }
 
+/// Where to look for the material that the periphery is about to meet.
+class LookAhead {
+  public:
+    LookAhead(const HeightMap& map, const Eigen::Vector3d& tip_mm, const Eigen::Vector2d& feed)
+        : tip_mm_(tip_mm), feed_(feed), left_(-feed.y(), feed.x()), margin_mm_(map.cell_mm()) {}
+
+    /// Sets the radius and the height over the tip. The points lie on a circle that clears the removed one; at the very
+    /// sides, where that would look further ahead than `furthest`, as far beside the axis as it does not.
+    void set_circle(double radius_mm, double height_mm) {
+        const double furthest = 6.0 * margin_mm_;
+        const double clearance = 2.0 * radius_mm * margin_mm_ + margin_mm_ * margin_mm_;
+        const double rise = std::max(0.0, (clearance - furthest * furthest) / (2.0 * furthest));
+        radius_mm_ = radius_mm;
+        reach_squared_mm2_ = radius_mm * radius_mm + clearance;
+        widest_mm_ = std::sqrt(std::max(0.0, radius_mm * radius_mm - rise * rise));
+        height_mm_ = tip_mm_.z() + height_mm;
+    }
+
+    [[nodiscard]] Eigen::Vector3d point(const Direction& u) const {
+        const double beside = std::clamp(radius_mm_ * u.cosine, -widest_mm_, widest_mm_);
+        const double in_front = std::sqrt(reach_squared_mm2_ - beside * beside);
+        const Eigen::Vector2d place = tip_mm_.head<2>() + feed_ * in_front + left_ * beside;
+        return {place.x(), place.y(), height_mm_};
+    }
+
+  private:
+    Eigen::Vector3d tip_mm_;
+    Eigen::Vector2d feed_;
+    Eigen::Vector2d left_;
+    double margin_mm_;
+    double radius_mm_ = 0.0;
+    double reach_squared_mm2_ = 0.0;
+    double widest_mm_ = 0.0;
+    double height_mm_ = 0.0;
+};
+
 // Of the heights of a ball's edge that lie in material, the lowest and the highest bound the bin.
-EngagementMap::Bin ball_bin(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& ahead,
-                            const Eigen::Vector2d& outward) {
+EngagementMap::Bin ball_bin(const HeightMap& map, const Cutter& cutter, LookAhead& ahead, const Direction& u) {
     constexpr int heights = 24;
     const double radius = 0.5 * cutter.diameter_mm;
     EngagementMap::Bin bin;
     for (int k = 0; k < heights; ++k) {
         const double z = radius * (k + 0.5) / heights;
-        const double r = std::sqrt(radius * radius - (radius - z) * (radius - z));
-        const Eigen::Vector2d point = ahead.head<2>() + outward * r;
-        const HeightMap::Material material = map.material_above(ahead.z() + z, point.x(), point.y());
+        ahead.set_circle(local_radius_mm(cutter, z), z);
+        const Eigen::Vector3d point = ahead.point(u);
+        const HeightMap::Material material = map.material_above(point.z(), point.x(), point.y());
         if (material.share < 0.5F) {
             continue;
         }
@@ -57,8 +95,8 @@ EngagementMap::Bin ball_bin(const HeightMap& map, const Cutter& cutter, const Ei
             bin.bottom_mm = static_cast<float>(radius * k / heights);
         }
         bin.covered = 1.0F;
-        bin.top_mm =
-            std::min(static_cast<float>(radius * (k + 1) / heights), material.top_mm - static_cast<float>(ahead.z()));
+        bin.top_mm = std::min(static_cast<float>(radius * (k + 1) / heights),
+                              material.top_mm - static_cast<float>(point.z() - z));
     }
     return bin;
 }
@@ -96,29 +134,15 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
     if (!(along > 1e-6)) {
         return result;
     }
-    const Eigen::Vector2d t = direction.head<2>() / along;
-    const Eigen::Vector2d n(-t.y(), t.x());
     const double radius = 0.5 * cutter.diameter_mm;
-    const double epsilon = 0.5 * map.cell_mm();
-    const double margin = map.cell_mm();
-    const double furthest = 6.0 * map.cell_mm();
-    const double rise =
-        std::max(0.0, (2.0 * radius * margin + margin * margin - furthest * furthest) / (2.0 * furthest));
-    const double widest = std::sqrt(std::max(0.0, radius * radius - rise * rise));
-    const Eigen::Vector3d ahead = tip_mm + Eigen::Vector3d(t.x(), t.y(), 0.0) * epsilon;
+    LookAhead ahead(map, tip_mm, direction.head<2>() / along);
+    ahead.set_circle(radius, 0.0);
+    const double bin_in_cells = radius * EngagementMap::bin_rad / map.cell_mm();
     for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
         const Direction& u = bin_directions()[k];
-        const Eigen::Vector2d outward = t * u.sine + n * u.cosine;
-        if (cutter.type == CutterType::ball_end_mill) {
-            result.bins[k] = ball_bin(map, cutter, ahead, outward);
-        } else {
-            // At the same height beside the axis, on a circle that clears the removed one by most of a cell; at the
-            // very sides, where that would look far ahead, at the height where it looks `furthest` ahead.
-            const double beside = std::clamp(radius * u.cosine, -widest, widest);
-            const double in_front = std::sqrt((radius + margin) * (radius + margin) - beside * beside);
-            const Eigen::Vector2d point = tip_mm.head<2>() + t * in_front + n * beside;
-            result.bins[k] = flat_bin(map, cutter, {point.x(), point.y(), tip_mm.z()});
-        }
+        result.bins[k] = cutter.type == CutterType::ball_end_mill
+                             ? ball_bin(map, cutter, ahead, u)
+                             : flat_bin(map, cutter, ahead.point(u), bin_in_cells * u.sine);
     }
     remove_grain(result, 0.25 * map.cell_mm() / radius);
     return result;

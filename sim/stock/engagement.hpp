@@ -14,11 +14,12 @@ namespace millforce::sim {
 /// For each angle φ the point is looked at that stands as far beside the axis as the periphery does, y = R cos φ, and
 /// so far ahead that it clears the circle removed so far by a cell: x = √((R + m)² − y²), m = 1 cell. It is what the
 /// tool is about to remove: within the width that it will sweep, so that no wall beside the tool is taken for material
-/// in front of it, and not yet gnawed at by the removal at this position. So everything is seen m early: an entry, an
-/// exit or a corner by one cell of path in front of the tool, and by up to √(2 R m) at its sides, where chips are thin.
+/// in front of it, and not yet gnawed at by the removal at this position. So everything is seen early: an entry, an
+/// exit or a corner by one cell of path in front of the tool, and by up to six cells at its sides, where chips are
+/// thin.
 ///
-/// Resolution: walls to 0.2 cells. A stretch of material narrower than a quarter of a cell across the feed is taken for
-/// the grain of a finished wall and left out; a cut that thin needs smaller cells.
+/// Resolution: the width of a cut to 0.2 cells. A stretch of material narrower than a quarter of a cell across the feed
+/// is taken for the grain of a finished wall and left out; a cut that thin needs smaller cells.
 /// A move along the axis alone engages no flank: plunge into drilled holes. A ball end is looked at in 24 heights.
 EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& tip_mm,
                             const Eigen::Vector3d& direction);

@@ -17,9 +17,9 @@ class SweptDisc;
 /// no undercut. Cells are squares of `cell_mm`.
 ///
 /// A cell through which an edge runs holds two heights and the share of its area that stands at the lower one, to
-/// 1/255: so a wall stands where it was cut, and not where the cells end. Seen by `material_above`, a straight wall
-/// lies within 0.15 cells of its place at each point and within 0.02 cells on average along it. A third height in one
-/// cell (walls of two levels less than a cell apart) is merged into the lower one.
+/// 1/255: so a wall stands where it was cut, and not where the cells end. As `material_above` sees it, a straight wall
+/// lies within 0.1 cells of its place, and without a bias. A third height in one cell (walls of two levels less than a
+/// cell apart) is merged into the lower one.
 ///
 /// Memory: 9 bytes a cell, at most 64 million cells. Throws InputError where the block is empty, not finite or too
 /// large.

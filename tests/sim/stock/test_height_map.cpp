@@ -57,8 +57,14 @@ TEST(HeightMap, a_block_has_its_height_inside_and_air_around_it) {
     LONGS_EQUAL(60, map.rows());
     DOUBLES_EQUAL(7.5, map.height_mm(-0.99, -1.99), 0.0);
     DOUBLES_EQUAL(7.5, map.height_mm(2.99, 3.99), 0.0);
-    for (const auto& [x, y] : {std::pair{-1.11, 0.0}, {3.11, 0.0}, {0.0, -2.11}, {0.0, 4.11}, {1e300, 0.0},
-                               {-1e300, 0.0}, {not_a_number, 0.0}, {0.0, not_a_number}}) {
+    for (const auto& [x, y] : {std::pair{-1.11, 0.0},
+                               {3.11, 0.0},
+                               {0.0, -2.11},
+                               {0.0, 4.11},
+                               {1e300, 0.0},
+                               {-1e300, 0.0},
+                               {not_a_number, 0.0},
+                               {0.0, not_a_number}}) {
         CHECK(map.height_mm(x, y) == HeightMap::nothing_mm);
         DOUBLES_EQUAL(0.0, map.material_above(-1000.0, x, y).share, 0.0);
     }

@@ -1,0 +1,130 @@
+#include "feed_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce::control;
+using namespace millforce::control::bench;
+
+TEST_GROUP(Ceilings){};
+
+namespace {
+
+void check_ratio(float expected, const Output& output, double tolerance = 1e-5) {
+    DOUBLES_EQUAL(static_cast<double>(expected), static_cast<double>(output.ratio), tolerance);
+}
+
+}  // namespace
+
+TEST(Ceilings, in_air_the_feed_is_the_one_at_which_the_tool_may_meet_the_workpiece) {
+    Controller controller;
+    const Output output = repeat(controller, in_air(), 2000);
+    check_ratio(ratio_of(0.05F, in_air()), output);
+    CHECK(output.limit == Limit::air_feed);
+}
+
+TEST(Ceilings, in_air_the_ceiling_holds_for_the_highest_feed_that_the_program_may_bring) {
+    Parameters p;
+    p.highest_programmed_feed_mm_s = 40.0F;
+    Controller controller(p);
+    const float ratio_at_40 = 0.5F * ratio_of(0.05F, in_air());
+    check_ratio(ratio_at_40, repeat(controller, in_air(), 2000));
+    Input faster = in_air();
+    faster.programmed_feed_mm_s = 40.0F;
+    check_ratio(ratio_at_40, controller.step(faster));  // F doubles, the override need not move
+}
+
+TEST(Ceilings, the_highest_feed_is_learnt_from_the_blocks_but_not_from_rapids) {
+    Controller controller;
+    Input input = in_air();
+    input.programmed_feed_mm_s = 400.0F;
+    input.rapid = true;
+    controller.step(input);
+    check_ratio(ratio_of(0.05F, in_air()), repeat(controller, in_air(), 2000));
+    input.programmed_feed_mm_s = 40.0F;
+    input.rapid = false;
+    controller.step(input);
+    check_ratio(0.5F * ratio_of(0.05F, in_air()), repeat(controller, in_air(), 2000));
+}
+
+TEST(Ceilings, from_contact_until_in_cut_the_entry_feed_is_not_exceeded) {
+    Parameters p;
+    p.air_feed_per_tooth_mm = 0.1F;
+    p.entry_feed_per_tooth_mm = 0.03F;
+    p.entry_travel_mm = 20.0F;
+    Controller controller(p);
+    repeat(controller, in_air(), 2000);
+    Input light = in_contact();
+    light.cut.tooth_force_N = 50.0F;
+    const Output output = repeat(controller, light, 100);
+    CHECK(output.state == CutState::entry);
+    CHECK(output.limit == Limit::entry_feed);
+    check_ratio(ratio_of(0.03F, light), output);
+}
+
+TEST(Ceilings, a_plunge_goes_no_faster_than_the_air_feed_nor_the_program) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input input = in_contact();
+    repeat(controller, input, 2000);
+    input.plunging = true;
+    check_ratio(ratio_of(0.05F, input), repeat(controller, input, 100));
+    Parameters p;
+    p.air_feed_per_tooth_mm = 0.2F;
+    Controller roomy(p);
+    Input above = in_air();
+    above.plunging = true;
+    check_ratio(1.0F, repeat(roomy, above, 2000));
+}
+
+TEST(Ceilings, a_rapid_gives_1) {
+    for (const bool from_cut : {false, true}) {
+        Controller controller;
+        if (from_cut) {
+            bring_into_cut(controller);
+            CHECK(repeat(controller, in_contact(), 2000).ratio > 1.0F);
+        }
+        Input input = in_air();
+        input.rapid = true;
+        input.programmed_feed_mm_s = 0.0F;
+        check_ratio(1.0F, repeat(controller, input, 2000));
+    }
+}
+
+TEST(Ceilings, an_unknown_programmed_feed_raises_nothing) {
+    for (const float feed_mm_s : {0.0F, -20.0F, not_a_number, infinity}) {
+        Controller controller;
+        const float before = repeat(controller, in_air(), 50).ratio;
+        Input input = in_air();
+        input.programmed_feed_mm_s = feed_mm_s;
+        const Output output = repeat(controller, input, 1000);
+        check_ratio(before, output, 1e-7);
+        CHECK(output.limit == Limit::no_estimate);
+    }
+}
+
+TEST(Ceilings, monitor_only_leaves_the_override_to_the_operator_at_once) {
+    Parameters p;
+    p.monitor_only = true;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.tooth_force_N = 5000.0F;
+    for (const float wanted : {0.3F, 1.0F, 1.2F, 0.7F}) {
+        input.operator_override = wanted;
+        const Output output = repeat(controller, input, 50);
+        check_ratio(wanted, output, 1e-7);
+        CHECK_FALSE(output.hold);
+        CHECK(output.fault == Fault::none);
+    }
+    input.operator_override = 2.0F;
+    check_ratio(1.5F, controller.step(input), 1e-7);
+}
+
+TEST(Ceilings, monitor_only_watches_the_cut_all_the_same) {
+    Parameters p;
+    p.monitor_only = true;
+    Controller controller(p);
+    CHECK(bring_into_cut(controller).state == CutState::in_cut);
+    Input stale = in_contact();
+    stale.time_since_sample_s = 1.0F;
+    CHECK(controller.step(stale).hold);
+}

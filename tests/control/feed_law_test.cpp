@@ -1,0 +1,132 @@
+#include "feed_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce::control;
+using namespace millforce::control::bench;
+
+TEST_GROUP(FeedLaw){};
+
+namespace {
+
+/// F = F₀ [(1 − c) + c (f/f₀)^(1+p_s)]
+float force_at(float feed_ratio, float force_0_N, float c, float exponent) {
+    return force_0_N * ((1.0F - c) + c * std::pow(feed_ratio, exponent));
+}
+
+float settled_ratio(const Parameters& parameters, const Input& input) {
+    Controller controller(parameters);
+    bring_into_cut(controller, input);
+    return controller.step(input).ratio;
+}
+
+}  // namespace
+
+TEST(FeedLaw, reaches_the_set_point_in_one_step_whatever_the_gain_and_the_edge_force) {
+    const Parameters p = immediate();
+    const float setpoint_N = p.setpoint_share * p.tooth_force_limit_N;
+    int reached = 0;
+    for (float force_N = 150.0F; force_N < 4000.0F; force_N *= 1.3F) {
+        for (float c = 0.1F; c <= 1.0F; c += 0.1F) {
+            for (const float exponent : {0.6F, 0.75F, 1.0F}) {
+                Controller controller(p);
+                bring_into_cut(controller);
+                Input input = in_contact();
+                input.cut.tooth_force_N = force_N;
+                input.cut.cutting_share = c;
+                input.cut.feed_exponent = exponent;
+                const Output output = controller.step(input);
+                if (output.ratio > p.override_min && output.ratio < p.override_max) {
+                    const float force_then_N = force_at(output.ratio, force_N, c, exponent);
+                    DOUBLES_EQUAL(1.0, static_cast<double>(force_then_N / setpoint_N), 1e-4);
+                    CHECK(output.limit == Limit::force);
+                    ++reached;
+                } else {  // out of what an override can do: the nearest end is taken
+                    const bool too_low = output.ratio >= p.override_max;
+                    CHECK(too_low == (force_at(output.ratio, force_N, c, exponent) < setpoint_N));
+                }
+            }
+        }
+    }
+    CHECK(reached > 200);
+}
+
+TEST(FeedLaw, does_not_care_at_which_feed_the_force_was_measured) {
+    for (const float feed_mm_s : {5.0F, 20.0F, 35.0F}) {
+        Input input = in_contact();
+        input.cut.cutting_share = 0.7F;
+        input.cut.feed_mm_s = feed_mm_s;
+        input.cut.tooth_force_N = force_at(feed_mm_s / 20.0F, 800.0F, 0.7F, 0.75F);
+        // The share of what is not edge force is that of the measured point.
+        input.cut.cutting_share = 1.0F - 0.3F * 800.0F / input.cut.tooth_force_N;
+        const float ratio = settled_ratio(immediate(), input);
+        DOUBLES_EQUAL(970.0, static_cast<double>(force_at(ratio, 800.0F, 0.7F, 0.75F)), 0.2);
+    }
+}
+
+TEST(FeedLaw, goes_to_the_minimum_where_the_edge_force_alone_exceeds_the_set_point) {
+    Input input = in_contact();
+    input.cut.tooth_force_N = 2000.0F;
+    input.cut.cutting_share = 0.4F;  // 1200 N of edge force against 970 N
+    DOUBLES_EQUAL(0.001, static_cast<double>(settled_ratio(immediate(), input)), 1e-9);
+}
+
+TEST(FeedLaw, backs_off_at_least_ten_times_faster_than_it_recovers) {
+    Parameters p;
+    p.entry_travel_mm = 0.0F;
+    const auto steps_until = [&p](float from_N, float to_N) {
+        Controller controller(p);
+        Input input = in_contact();
+        input.cut.tooth_force_N = from_N;
+        const float start = repeat(controller, input, 3000).ratio;
+        Controller goal(p);
+        input.cut.tooth_force_N = to_N;
+        const float end = repeat(goal, input, 3000).ratio;
+        CHECK(std::fabs(end - start) > 0.5F);
+        int steps = 0;
+        float ratio = start;
+        while (std::fabs(ratio - end) > 0.1F * std::fabs(end - start) && steps < 3000) {
+            ratio = controller.step(input).ratio;
+            ++steps;
+        }
+        return steps;
+    };
+    const int down = steps_until(700.0F, 1250.0F);
+    const int up = steps_until(1250.0F, 700.0F);
+    CHECK(down < 30);
+    CHECK(up > 10 * down);
+    CHECK(up < 3000);
+}
+
+TEST(FeedLaw, lowers_the_feed_so_that_a_surge_stays_below_its_share_of_the_limit) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 600.0F;
+    input.cut.surge_ratio = 2.5F;
+    input.cut.surge_cutting_share = 0.8F;
+    Controller controller(p);
+    bring_into_cut(controller, input);
+    const Output output = controller.step(input);
+    CHECK(output.limit == Limit::surge);
+    DOUBLES_EQUAL(1050.0, static_cast<double>(force_at(output.ratio, 1500.0F, 0.8F, 0.75F)), 0.2);
+}
+
+TEST(FeedLaw, ignores_surges_where_none_can_come) {
+    Input input = in_contact();
+    const float calm = settled_ratio(immediate(), input);
+    input.cut.surge_ratio = 2.5F;
+    DOUBLES_EQUAL(static_cast<double>(calm), static_cast<double>(settled_ratio(immediate(), input)), 1e-7);
+}
+
+TEST(FeedLaw, never_exceeds_what_edge_and_chip_space_allow) {
+    Parameters p = immediate();
+    p.max_feed_per_tooth_mm = 0.1F;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 100.0F;
+    Controller controller(p);
+    bring_into_cut(controller, input);
+    const Output output = controller.step(input);
+    CHECK(output.limit == Limit::feed_per_tooth);
+    DOUBLES_EQUAL(static_cast<double>(ratio_of(0.1F, input)), static_cast<double>(output.ratio), 1e-5);
+}

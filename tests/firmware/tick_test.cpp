@@ -1,0 +1,240 @@
+#include "firmware/tick.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include <CppUTest/TestHarness.h>
+
+namespace hal = millforce::hal;
+using millforce::control::CutState;
+using millforce::control::Fault;
+using millforce::firmware::ForceControlTick;
+using Parameters = millforce::firmware::Parameters<float>;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float feed_mm_s = 20.0F;
+
+Parameters machine_and_tool() {
+    Parameters p;
+    p.machine.spindle.K_t1_Nm_per_A = 0.7F;
+    p.machine.spindle.K_t2_Nm = -0.95F;
+    p.machine.spindle.inertia_kg_m2 = 0.004F;
+    for (auto& axis : p.machine.axes) {
+        axis.positive.K_x2_A_min_per_m = 0.65F;
+        axis.negative.K_x2_A_min_per_m = 0.65F;
+        axis.K_x3_A = 1.6F;
+        axis.K_x4_N_per_A = 120.0F;
+        axis.mass_kg = 250.0F;
+    }
+    p.tool.side = 0.0F;
+    p.tool.tooth_force_limit_N = 700.0F;
+    p.tool.law = millforce::estimation::linear_edge_law(1650.0F, 22.0F, 620.0F, 28.0F);
+    return p;
+}
+
+/// A straight way along +x at 1 kHz and 4000 rpm: 0.2 s of air, then a cut with F_at = 250 N, F_ax = −150 N.
+hal::DriveSample sample_of(int index, std::uint32_t first_time_us = 0) {
+    const Parameters p = machine_and_tool();
+    const float turned_rev = static_cast<float>(index) * 0.001F * 4000.0F / 60.0F;
+    const float ripple = 1.0F + 0.3F * std::sin(8.0F * std::numbers::pi_v<float> * turned_rev);
+    const float load = index < 200 ? 0.0F : ripple;
+    hal::DriveSample sample;
+    sample.time_us = first_time_us + static_cast<std::uint32_t>(index) * 1000U;
+    sample.spindle_count = static_cast<std::uint32_t>(turned_rev * 4096.0F);
+    sample.present = hal::all_present;
+    sample.spindle_current_A = (load * 250.0F * 0.005F - p.machine.spindle.K_t2_Nm) / p.machine.spindle.K_t1_Nm_per_A;
+    const auto& x = p.machine.axes[0];
+    sample.axis_current_A[0] = x.positive.at(feed_mm_s * 0.06F) + x.K_x3_A - load * 150.0F / x.K_x4_N_per_A;
+    sample.axis_velocity_mm_s[0] = feed_mm_s;
+    return sample;
+}
+
+hal::ProgramStatus program() {
+    hal::ProgramStatus status;
+    status.programmed_feed_mm_s = feed_mm_s;
+    return status;
+}
+
+bool is_sound(const hal::FeedOverride& output) {
+    return output.ratio >= 0.1F && output.ratio <= 1.5F;
+}
+
+bool are_equal(const hal::FeedOverride& a, const hal::FeedOverride& b) {
+    return a.ratio == b.ratio && a.hold == b.hold && a.state == b.state && a.fault == b.fault;
+}
+
+}  // namespace
+
+TEST_GROUP(Tick){};
+
+TEST(Tick, finds_the_cut_in_the_drives_signals) {
+    ForceControlTick<float> tick(machine_and_tool());
+    for (int k = 0; k < 200; ++k) {
+        CHECK(tick.step(sample_of(k), program()).state == static_cast<std::uint8_t>(CutState::air));
+    }
+    for (int k = 200; k < 800; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    CHECK(tick.control().state == CutState::in_cut);
+    CHECK(tick.estimate().tooth_force_N.valid);
+    DOUBLES_EQUAL(250.0, static_cast<double>(tick.estimate().tangential_N.value), 12.5);
+}
+
+TEST(Tick, counts_its_heartbeat_up_by_one_with_and_without_a_sample) {
+    ForceControlTick<float> tick(machine_and_tool());
+    std::uint32_t expected = 0;
+    for (int k = 0; k < 300; ++k) {
+        const bool with_sample = k % 7 != 0;
+        const auto output =
+            with_sample ? tick.step(sample_of(k), program()) : tick.step_without_sample(0.001F, 0.001F, program());
+        LONGS_EQUAL(++expected, output.heartbeat);
+    }
+}
+
+TEST(Tick, holds_the_feed_and_latches_a_fault_once_samples_are_stale) {
+    ForceControlTick<float> tick(machine_and_tool());
+    for (int k = 0; k < 600; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    hal::FeedOverride output;
+    for (int k = 1; k <= 49; ++k) {
+        output = tick.step_without_sample(static_cast<float>(k) * 0.001F, 0.001F, program());
+        CHECK_FALSE(output.hold);
+    }
+    output = tick.step_without_sample(0.051F, 0.001F, program());
+    CHECK(output.hold);
+    LONGS_EQUAL(static_cast<int>(Fault::stale_input), output.fault);
+    for (int k = 700; k < 900; ++k) {
+        output = tick.step(sample_of(k), program());
+    }
+    CHECK(output.hold);
+    DOUBLES_EQUAL(0.1, static_cast<double>(output.ratio), 1e-6);
+    tick.reset_fault();
+    output = tick.step(sample_of(900), program());
+    CHECK_FALSE(output.hold);
+    LONGS_EQUAL(0, output.fault);
+}
+
+TEST(Tick, does_not_raise_the_feed_while_samples_are_missing) {
+    ForceControlTick<float> tick(machine_and_tool());
+    for (int k = 0; k < 600; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    float before = tick.control().ratio;
+    for (int k = 1; k < 50; ++k) {
+        const auto output = tick.step_without_sample(static_cast<float>(k) * 0.001F, 0.001F, program());
+        CHECK(output.ratio <= before);
+        before = output.ratio;
+    }
+}
+
+TEST(Tick, takes_what_is_not_finite_for_what_is_not_present) {
+    for (int channel = 0; channel < 4; ++channel) {
+        ForceControlTick<float> with_nan(machine_and_tool());
+        ForceControlTick<float> without(machine_and_tool());
+        for (int k = 0; k < 900; ++k) {
+            hal::DriveSample spoilt = sample_of(k);
+            hal::DriveSample missing = spoilt;
+            if (k > 400 && k < 600) {
+                const auto bit = 2U << static_cast<unsigned>(channel);
+                missing.present = static_cast<std::uint8_t>(hal::all_present & ~bit);
+                const auto axis = static_cast<std::size_t>(channel > 0 ? channel - 1 : 0);
+                float& value = channel == 0 ? spoilt.spindle_current_A
+                               : k % 2 == 0 ? spoilt.axis_current_A[axis]
+                                            : spoilt.axis_velocity_mm_s[axis];
+                value = k % 3 == 0 ? not_a_number : k % 3 == 1 ? std::numeric_limits<float>::infinity() : -INFINITY;
+            }
+            const auto output = with_nan.step(spoilt, program());
+            CHECK(is_sound(output));
+            CHECK(are_equal(output, without.step(missing, program())));
+        }
+    }
+}
+
+TEST(Tick, without_the_spindles_current_has_no_force_and_does_not_raise_the_feed_in_cut) {
+    ForceControlTick<float> tick(machine_and_tool());
+    for (int k = 0; k < 600; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    CHECK(tick.control().state == CutState::in_cut);
+    float before = tick.control().ratio;
+    for (int k = 600; k < 1500; ++k) {
+        hal::DriveSample sample = sample_of(k);
+        sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(hal::Present::spindle_current));
+        const auto output = tick.step(sample, program());
+        if (k > 700) {
+            CHECK_FALSE(tick.estimate().tangential_N.valid);
+            CHECK(output.ratio <= before);
+        }
+        CHECK(is_sound(output));
+        before = output.ratio;
+    }
+    CHECK(tick.control().state == CutState::hold);
+}
+
+TEST(Tick, without_the_spindles_encoder_has_no_estimate_and_does_not_raise_the_feed) {
+    ForceControlTick<float> tick(machine_and_tool());
+    float before = 0.1F;
+    for (int k = 0; k < 500; ++k) {
+        hal::DriveSample sample = sample_of(k);
+        sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(hal::Present::spindle_count));
+        const auto output = tick.step(sample, program());
+        CHECK_FALSE(tick.estimate().tangential_N.valid);
+        CHECK(output.ratio <= before);
+        before = output.ratio;
+    }
+}
+
+TEST(Tick, is_not_touched_by_the_wrap_of_the_time) {
+    ForceControlTick<float> plain(machine_and_tool());
+    ForceControlTick<float> wrapping(machine_and_tool());
+    for (int k = 0; k < 900; ++k) {
+        const auto output = plain.step(sample_of(k), program());
+        CHECK(are_equal(output, wrapping.step(sample_of(k, 0xFFFFFFFFU - 450123U), program())));
+    }
+    CHECK(wrapping.control().state == CutState::in_cut);
+}
+
+TEST(Tick, is_not_touched_by_the_wrap_of_the_encoder_count) {
+    ForceControlTick<float> plain(machine_and_tool());
+    ForceControlTick<float> wrapping(machine_and_tool());
+    for (int k = 0; k < 900; ++k) {
+        hal::DriveSample wrapped = sample_of(k);
+        wrapped.spindle_count -= 4096U * 30U;
+        const auto output = plain.step(sample_of(k), program());
+        CHECK(are_equal(output, wrapping.step(wrapped, program())));
+    }
+}
+
+TEST(Tick, gives_a_sound_ratio_whatever_the_sample_and_the_program_say) {
+    std::mt19937 engine(4711);
+    const auto anything = [&engine](float sensible) {
+        const float extremes[] = {not_a_number, INFINITY, -INFINITY, 3e38F, -3e38F, 1e-40F, 0.0F, -1.0F};
+        return engine() % 6U == 0U ? extremes[engine() % 8U] : sensible;
+    };
+    ForceControlTick<float> tick(machine_and_tool());
+    for (int k = 0; k < 20000; ++k) {
+        hal::DriveSample sample = sample_of(k % 2000);
+        sample.spindle_count = static_cast<std::uint32_t>(k) * 273U + (engine() % 50U == 0U ? engine() % 9000U : 0U);
+        sample.time_us = static_cast<std::uint32_t>(k) * 1000U + (engine() % 50U == 0U ? engine() % 90000U : 0U);
+        sample.present = static_cast<std::uint8_t>(engine() % 4U == 0U ? engine() % 256U : 0x1FU);
+        sample.spindle_current_A = anything(sample.spindle_current_A);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            sample.axis_current_A[axis] = anything(sample.axis_current_A[axis]);
+            sample.axis_velocity_mm_s[axis] = anything(sample.axis_velocity_mm_s[axis]);
+        }
+        hal::ProgramStatus status = program();
+        status.programmed_feed_mm_s = anything(feed_mm_s);
+        status.operator_override = anything(1.0F);
+        status.rapid = engine() % 20U == 0U;
+        CHECK(is_sound(tick.step(sample, status)));
+        if (engine() % 50U == 0U) {
+            tick.reset_fault();
+        }
+    }
+}
