@@ -108,7 +108,9 @@ void add_cut_table(CLI::App& app, int& exit_code) {
     command->add_option("--noise", options->noise_share, "Standard deviation of a measured value, relative")
         ->check(number_from(0.0, 0.5))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Seed of the noise")->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of the noise")
+        ->check(number_from(0.0, 4e9))
+        ->capture_default_str();
     command->callback([options, &exit_code] { exit_code = cut_table(*options); });
 }
 

@@ -171,7 +171,8 @@ void add_simulate(CLI::App& app, int& exit_code) {
     command->add_option("--controller", options->controller, "Who sets the override")
         ->check(CLI::IsMember(controller_names()))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Seed of all noise; default: the scenario's");
+    command->add_option("--seed", options->seed, "Seed of all noise; default: the scenario's")
+        ->check(number_from(0.0, 4e9));
     command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
         ->type_name("DIR")
         ->capture_default_str();

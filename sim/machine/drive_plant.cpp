@@ -83,11 +83,9 @@ double FeedPlant::friction_force_N(double dt_s) {
     presliding_mm_ = (presliding_mm_ + velocity_mm_s_ * dt_s) /
                      (1.0 + std::abs(velocity_mm_s_) * dt_s * settings_.presliding_stiffness_N_per_mm / level_N);
     const double rate_mm_s = (presliding_mm_ - before_mm) / dt_s;
-    const double viscous =
-        forward ? settings_.viscous_positive_N_s_per_mm : settings_.viscous_negative_N_s_per_mm;
-    return settings_.friction_scale *
-           (settings_.presliding_stiffness_N_per_mm * presliding_mm_ +
-            settings_.presliding_damping_N_s_per_mm * rate_mm_s + viscous * velocity_mm_s_);
+    const double viscous = forward ? settings_.viscous_positive_N_s_per_mm : settings_.viscous_negative_N_s_per_mm;
+    return settings_.friction_scale * (settings_.presliding_stiffness_N_per_mm * presliding_mm_ +
+                                       settings_.presliding_damping_N_s_per_mm * rate_mm_s + viscous * velocity_mm_s_);
 }
 
 void FeedPlant::advance(double dt_s, double commanded_position_mm, double commanded_velocity_mm_s,
@@ -104,8 +102,8 @@ void FeedPlant::advance(double dt_s, double commanded_position_mm, double comman
         integral_A_ += gain * loop_rad_s / 4.0 * error_mm_s * dt_s;
     }
     current_A_ = first_order(current_A_, std::clamp(wanted_A, -limit_A, limit_A), dt_s, settings_.current_loop_time_s);
-    const double force_N = settings_.force_constant_N_per_A * current_A_ - friction_force_N(dt_s) - cutting_force_N -
-                           settings_.weight_N;
+    const double force_N =
+        settings_.force_constant_N_per_A * current_A_ - friction_force_N(dt_s) - cutting_force_N - settings_.weight_N;
     velocity_mm_s_ += force_N / settings_.mass_kg * 1e3 * dt_s;
     position_mm_ += velocity_mm_s_ * dt_s;
 }

@@ -44,8 +44,7 @@ void MachinePlant::start_at(const Eigen::Vector3d& position_mm, double spindle_s
 void MachinePlant::advance(double dt_s, const Command& command, const Load& load) {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         const auto axis = static_cast<Eigen::Index>(k);
-        axes_[k].advance(dt_s, command.position_mm[axis], command.velocity_mm_s[axis],
-                         load.force_on_workpiece_N[axis]);
+        axes_[k].advance(dt_s, command.position_mm[axis], command.velocity_mm_s[axis], load.force_on_workpiece_N[axis]);
     }
     spindle_.advance(dt_s, command.spindle_speed_rad_s, load.spindle_torque_Nm);
     encoder_.update(spindle_.angle_rad());

@@ -17,7 +17,7 @@ struct MachinePlantSettings {
     double current_noise_share = 0.01;        ///< of rated current, per sample
     double velocity_resolution_mm_s = 0.001;  ///< of the drive's velocity object
     std::uint32_t encoder_counts_per_rev = 8192;
-    double index_offset_rad = 1.0;            ///< the index stands anywhere beside tooth 0
+    double index_offset_rad = 1.0;  ///< the index stands anywhere beside tooth 0
     std::uint64_t seed = 1;
 
     /// A table that weighs 250 kg in x, 320 kg in y, and a head of 180 kg in z that a weight pulls down.

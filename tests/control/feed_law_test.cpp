@@ -26,7 +26,7 @@ TEST(FeedLaw, reaches_the_set_point_in_one_step_whatever_the_gain_and_the_edge_f
     const Parameters p = immediate();
     const float setpoint_N = p.setpoint_share * p.tooth_force_limit_N;
     int reached = 0;
-    for (float force_N = 150.0F; force_N < 4000.0F; force_N *= 1.3F) {
+    for (float force_N = 150.0F; force_N < 4000.0F; force_N *= 1.1F) {
         for (float c = 0.1F; c <= 1.0F; c += 0.1F) {
             for (const float exponent : {0.6F, 0.75F, 1.0F}) {
                 Controller controller(p);

@@ -212,7 +212,8 @@ TEST(Tick, is_not_touched_by_the_wrap_of_the_encoder_count) {
 }
 
 TEST(Tick, gives_a_sound_ratio_whatever_the_sample_and_the_program_say) {
-    std::mt19937 engine(4711);
+    std::mt19937 random(4711);
+    const auto engine = [&random] { return static_cast<std::uint32_t>(random()); };
     const auto anything = [&engine](float sensible) {
         const float extremes[] = {not_a_number, INFINITY, -INFINITY, 3e38F, -3e38F, 1e-40F, 0.0F, -1.0F};
         return engine() % 6U == 0U ? extremes[engine() % 8U] : sensible;

@@ -8,9 +8,9 @@ namespace millforce::control {
 /// how it is left.
 enum class CutState : std::uint8_t {
     air = 0,     ///< start; from `exit` after the exit travel without contact. Left by contact → entry.
-    entry = 1,   ///< contact from air. Left after the entry revolutions → in_cut; contact lost → exit.
+    entry = 1,   ///< contact, from air, exit or hold. Left after entry revolutions and travel → in_cut, or → exit.
     in_cut = 2,  ///< a full window of cutting is behind. Left by lost contact → exit, no estimate for long → hold.
-    exit = 3,    ///< contact lost. Left by contact → in_cut (interrupted cut), by the exit travel → air.
+    exit = 3,    ///< contact lost. Left by contact → entry (if it had cut: at that feed), by the exit travel → air.
     hold = 4,    ///< nothing to judge by, or the feed is held: the override is not raised. Left when estimates return.
     fault = 5,   ///< latched. Left only by reset(), at standstill.
 };

@@ -101,6 +101,7 @@ class FeedController {
             fault_ = Fault::bad_configuration;
             state_ = CutState::fault;
             parameters_.override_min = Scalar(0);
+            parameters_.override_max = Scalar(0);
             ratio_ = Scalar(0);
         }
     }
@@ -114,7 +115,11 @@ class FeedController {
         }
     }
 
-    ControlOutput<Scalar> step(const ControlInput<Scalar>& input) {
+    ControlOutput<Scalar> step(const ControlInput<Scalar>& given) {
+        ControlInput<Scalar> input = given;
+        // A step of unknown, negative or absurd length moves nothing; a speed that is no number counts as rest.
+        input.dt_s = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
+        input.path_speed_mm_s = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
         update_state(input);
         Limit limit = Limit::none;
         const Scalar wanted = wanted_ratio(input, limit);
@@ -134,10 +139,18 @@ class FeedController {
   private:
     [[nodiscard]] bool configuration_is_sound() const {
         const auto& p = parameters_;
-        return p.tooth_force_limit_N > Scalar(0) && p.override_min >= Scalar(0) && p.override_max > p.override_min &&
-               p.override_max < Scalar(10) && p.setpoint_share > Scalar(0) && p.slew_up_per_s > Scalar(0) &&
-               p.slew_down_per_s > Scalar(0) && p.teeth >= Scalar(1) && p.entry_feed_per_tooth_mm > Scalar(0) &&
-               p.air_feed_per_tooth_mm > Scalar(0) && p.max_feed_per_tooth_mm > Scalar(0);
+        const auto positive = [](Scalar value) { return is_finite(value) && value > Scalar(0); };
+        const auto not_negative = [](Scalar value) { return is_finite(value) && value >= Scalar(0); };
+        return positive(p.tooth_force_limit_N) && positive(p.setpoint_share) && not_negative(p.override_min) &&
+               is_finite(p.override_max) && p.override_max > p.override_min && p.override_max < Scalar(10) &&
+               positive(p.recovery_per_rev) && positive(p.slew_up_per_s) && positive(p.slew_down_per_s) &&
+               positive(p.entry_feed_per_tooth_mm) && positive(p.air_feed_per_tooth_mm) &&
+               positive(p.max_feed_per_tooth_mm) && not_negative(p.highest_programmed_feed_mm_s) &&
+               not_negative(p.entry_revolutions) && not_negative(p.entry_travel_mm) &&
+               not_negative(p.exit_travel_mm) && positive(p.contact_force_N) && not_negative(p.contact_significance) &&
+               not_negative(p.surge_radial_immersion) && positive(p.surge_share) && positive(p.overload_share) &&
+               not_negative(p.overload_revolutions) && not_negative(p.no_estimate_hold_s) && positive(p.stale_s) &&
+               is_finite(p.teeth) && p.teeth >= Scalar(1);
     }
 
     [[nodiscard]] static bool is_finite(Scalar value) { return value - value == Scalar(0); }
@@ -210,8 +223,7 @@ class FeedController {
             case CutState::exit:
                 if (contact) {
                     go_to(CutState::entry);
-                    ratio_at_entry_ = ratio_;
-                } else if (travel_in_state_mm_ > parameters_.exit_travel_mm) {
+                } else if (input.cut.force_valid && travel_in_state_mm_ > parameters_.exit_travel_mm) {
                     go_to(CutState::air);
                 }
                 break;
@@ -229,8 +241,9 @@ class FeedController {
         if (state == state_) {
             return;
         }
+        has_cut_ = state == CutState::in_cut || (has_cut_ && state != CutState::air);
         // What was cut before the gap was survived at this feed; from air, contact starts at the entry feed.
-        ratio_at_entry_ = state == CutState::entry && state_ == CutState::air ? Scalar(-1) : ratio_;
+        ratio_at_entry_ = state == CutState::entry && !has_cut_ ? Scalar(-1) : ratio_;
         state_ = state;
         travel_in_state_mm_ = Scalar(0);
         revolutions_in_state_ = Scalar(0);
@@ -288,13 +301,15 @@ class FeedController {
         }
         Wish wish{parameters_.override_max, Limit::override_max};
         const bool feed_is_known = input.programmed_feed_mm_s > Scalar(0) && is_finite(input.programmed_feed_mm_s);
-        if (!feed_is_known && !input.rapid) {
+        const bool speed_is_known =
+            input.cut.spindle_speed_rad_s > Scalar(0) && is_finite(input.cut.spindle_speed_rad_s);
+        if (!(feed_is_known && speed_is_known)) {
             wish.cap(ratio_, Limit::no_estimate);
         }
         if (feed_is_known && !input.rapid && input.programmed_feed_mm_s > highest_feed_mm_s_) {
             highest_feed_mm_s_ = input.programmed_feed_mm_s;
         }
-        if (feed_is_known && input.cut.spindle_speed_rad_s > Scalar(0)) {
+        if (feed_is_known && speed_is_known) {
             cap_by_state(wish, input);
             wish.cap(ratio_of_feed_per_tooth(parameters_.max_feed_per_tooth_mm, input), Limit::feed_per_tooth);
             cap_by_force(wish, input);
@@ -359,7 +374,9 @@ class FeedController {
             return;
         }
         const bool usable = cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
-                            is_finite(cut.tooth_force_N);
+                            cut.feed_exponent > Scalar(0) && is_finite(cut.tooth_force_N) &&
+                            is_finite(cut.feed_mm_s) && is_finite(cut.feed_exponent) && is_finite(cut.cutting_share) &&
+                            is_finite(cut.surge_ratio) && is_finite(cut.surge_cutting_share);
         if (cut.fresh && usable) {
             demand_ = feed_for(parameters_.setpoint_share, cut.tooth_force_N, cut.cutting_share, input);
             demand_limit_ = Limit::force;
@@ -386,7 +403,8 @@ class FeedController {
             const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
             const Scalar revolutions =
                 input.cut.spindle_speed_rad_s * input.dt_s * static_cast<Scalar>(0.159154943091895336L);
-            const Scalar share = cutting ? parameters_.recovery_per_rev * revolutions : Scalar(1);
+            const Scalar paced = revolutions > Scalar(0) ? parameters_.recovery_per_rev * revolutions : Scalar(0);
+            const Scalar share = cutting ? paced : Scalar(1);
             Scalar rise = (wanted - ratio_) * (share < Scalar(1) ? share : Scalar(1));
             const Scalar most = parameters_.slew_up_per_s * input.dt_s;
             rise = rise > most ? most : rise;
@@ -401,6 +419,7 @@ class FeedController {
     Scalar ratio_{0};
     Scalar highest_feed_mm_s_{0};
     Scalar ratio_at_entry_{-1};
+    bool has_cut_ = false;  // since the tool was last in air
     Scalar demand_{0};
     Limit demand_limit_ = Limit::force;
     Scalar travel_in_state_mm_{0};

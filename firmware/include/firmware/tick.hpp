@@ -57,12 +57,13 @@ class ForceControlTick {
     [[nodiscard]] const control::ControlOutput<Scalar>& control() const { return control_; }
 
   private:
+    /// Since the last sample; 0 for the first one and where the clock went backwards.
     Scalar elapsed_s(std::uint32_t time_us) {
-        const Scalar dt_s = has_time_ ? static_cast<Scalar>(time_us - last_time_us_) * static_cast<Scalar>(1e-6L)
-                                      : Scalar(0);
+        const auto elapsed_us = static_cast<std::int32_t>(time_us - last_time_us_);
+        const bool forward = has_time_ && elapsed_us > 0;
         last_time_us_ = time_us;
         has_time_ = true;
-        return dt_s;
+        return forward ? static_cast<Scalar>(elapsed_us) * static_cast<Scalar>(1e-6L) : Scalar(0);
     }
 
     [[nodiscard]] static bool is_finite(float value) { return value - value == 0.0F; }
@@ -108,6 +109,7 @@ class ForceControlTick {
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
         control::ControlInput<Scalar> input;
         input.dt_s = dt_s;
+        input.time_since_sample_s = dt_s;
         input.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
         input.operator_override = Scalar(program.operator_override);
         input.rapid = program.rapid;
