@@ -14,10 +14,11 @@ namespace millforce::sim {
 namespace {
 
 constexpr double most_cells = 64e6;
+constexpr double most_steps = 1e6;  // of a sloping way: more than any machine's travel
 constexpr std::uint8_t whole = 255;
 
 std::uint8_t in_steps(double share) {
-    return static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0) + 0.5);
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
 /// Share of the cell about `centre` (of unit width) between two borders.
@@ -157,11 +158,12 @@ void HeightMap::remove(const Cutter& cutter, const Eigen::Vector3d& from_mm, con
     }
     const bool level = from_mm.z() == to_mm.z();
     const double way_mm = (to_mm - from_mm).head<2>().norm();
-    const double steps = level ? 1.0 : std::max(1.0, std::ceil(way_mm / (0.5 * cell_mm_)));
+    const long steps = level ? 1L : std::lround(std::clamp(std::ceil(way_mm / (0.5 * cell_mm_)), 1.0, most_steps));
     Eigen::Vector3d before_mm = from_mm;
     bool already_there = goes_on(cutter, from_mm);
-    for (double k = 1.0; k <= steps; k += 1.0) {
-        const Eigen::Vector3d tip_mm = k == steps ? to_mm : (from_mm + (to_mm - from_mm) * (k / steps)).eval();
+    for (long k = 1; k <= steps; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(steps);
+        const Eigen::Vector3d tip_mm = k == steps ? to_mm : (from_mm + (to_mm - from_mm) * share).eval();
         // A way that rises sinks no deeper anywhere than its start did; one that falls covers all anew.
         sweep(cutter, before_mm, tip_mm, already_there && tip_mm.z() >= before_mm.z());
         already_there = true;
@@ -183,9 +185,12 @@ void HeightMap::sweep(const Cutter& cutter, const Eigen::Vector3d& from_mm, cons
     };
     const SweptDisc disc(in_cells(from_mm), in_cells(to_mm));
     const double reach = shape.radius + 0.5;
-    const double last_row = std::min(static_cast<double>(rows_) - 1.0, std::floor(disc.highest_y() + reach));
-    for (double y = std::max(0.0, std::ceil(disc.lowest_y() - reach)); y <= last_row; y += 1.0) {
-        sweep_row(disc, shape, y, goes_on);
+    const auto row_at = [&](double y) {
+        return static_cast<std::size_t>(std::clamp(y, 0.0, static_cast<double>(rows_)));
+    };
+    const std::size_t end = row_at(std::floor(disc.highest_y() + reach) + 1.0);
+    for (std::size_t row = row_at(std::ceil(disc.lowest_y() - reach)); row < end; ++row) {
+        sweep_row(disc, shape, static_cast<double>(row), goes_on);
     }
 }
 

@@ -172,7 +172,8 @@ class ToothPeakTable {
 
     static constexpr Scalar first_rad = static_cast<Scalar>(0.2L);  // R_r 0.02
     static constexpr Scalar step_rad = (pi<Scalar> - first_rad) / static_cast<Scalar>(ImmersionNodes - 1);
-    static constexpr Scalar corner_node = static_cast<Scalar>((SweepNodes - 1) / 2);
+    static constexpr int corner_index = (SweepNodes - 1) / 2;
+    static constexpr Scalar corner_node = static_cast<Scalar>(corner_index);
     static constexpr Scalar most_sweeps = static_cast<Scalar>(20);
 
     [[nodiscard]] static Scalar immersion_of(Scalar node) {

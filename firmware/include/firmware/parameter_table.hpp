@@ -33,8 +33,11 @@ inline constexpr std::array<const char*, 3> axis_tables{"x", "y", "z"};
 
 // The rows are data; one row a line keeps them readable as the table that they are.
 // clang-format off
+// NOLINTBEGIN(bugprone-macro-parentheses): a lambda is one expression already
 #define MILLFORCE_FIELD(member) [](Parameters<Scalar>& p, std::size_t) -> Scalar& { return p.member; }
 #define MILLFORCE_AXIS(member) [](Parameters<Scalar>& p, std::size_t axis) -> Scalar& { return p.machine.axes[axis].member; }
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 template <typename Scalar>
 inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({

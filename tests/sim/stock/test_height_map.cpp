@@ -277,6 +277,8 @@ TEST(HeightMap, ways_in_the_air_outside_or_nowhere_leave_the_block_alone) {
     map.remove(cutter, {-5.0, 0.0, 0.0}, {5.0, 0.0, 0.0});
     map.remove(cutter, {-50.0, -16.0, -5.0}, {50.0, -16.0, -5.0});
     map.remove(cutter, {1e9, 1e9, -5.0}, {2e9, 1e9, -5.0});
+    map.remove(cutter, {1e308, -1e308, -5.0}, {2e9, 1e308, -5.0});
+    map.remove(cutter, {1e12, 1e12, -5.0}, {1e12, 2e12, -9.0});
     map.remove(cutter, {not_a_number, 0.0, -5.0}, {5.0, 0.0, -5.0});
     map.remove(cutter, {0.0, 0.0, -5.0}, {5.0, std::numeric_limits<double>::infinity(), -5.0});
     DOUBLES_EQUAL(0.0, largest_difference(before, map), 0.0);
