@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// What a paper's system gives here, beside what the paper prints. A reproduction is plain data: the command prints it,
+/// the report page draws it, the tests judge it.
+
+namespace millforce::sim {
+
+/// One published figure and ours. A figure that the paper does not print, but that is promised here, has no published
+/// value (NaN).
+struct Figure {
+    std::string name;  ///< with where the paper prints it: "Table 1, row 7: immersion"
+    std::string unit;  ///< "" for a ratio
+    double published;
+    double ours;
+    enum class Judged {
+        difference,          ///< |ours − published| ≤ bound, in the figure's unit
+        relative_difference, ///< |ours / published − 1| ≤ bound
+        at_most,             ///< ours ≤ bound (an error)
+        at_least,            ///< ours ≥ bound (a share)
+        within,              ///< bound_low ≤ ours ≤ bound (a coverage)
+        shown,               ///< no bound: shown for comparison only
+    } judged = Judged::difference;
+    double bound = 0.0;
+    double bound_low = 0.0;
+
+    [[nodiscard]] bool holds() const;          ///< false for NaN, unless it is only shown
+    [[nodiscard]] std::string difference() const;  ///< as printed: "+1.3 %", "−0.02", "" without a published value
+    [[nodiscard]] std::string bound_text() const;  ///< as printed: "± 3 %", "≤ 0.10", ""
+};
+
+/// A drawing of the report page.
+struct Plot {
+    struct Series {
+        std::string name;
+        enum class Style { line, points, band_low, band_high } style = Style::line;
+        std::vector<double> x;
+        std::vector<double> y;
+    };
+    std::string title;  ///< what it shows and the paper's figure: "Tooth force against rotation (Fig. 9)"
+    std::string x_label;
+    std::string y_label;
+    std::string caption;  ///< what to see in it, readable without the paper
+    std::vector<Series> series;
+};
+
+struct Reproduction {
+    std::string name;   ///< as typed: "hwang"
+    std::string title;  ///< what the system is, with the paper's authors
+    std::vector<Figure> figures;
+    std::vector<Plot> plots;
+    std::vector<std::string> deviations;  ///< where this project differs from print, and why
+    [[nodiscard]] bool holds() const;
+};
+
+/// The systems. Deterministic: every random number is seeded.
+[[nodiscard]] Reproduction reproduce_hwang();
+[[nodiscard]] Reproduction reproduce_yang();
+[[nodiscard]] Reproduction reproduce_kim();
+[[nodiscard]] Reproduction reproduce_roughness();
+[[nodiscard]] Reproduction reproduce_guan();
+
+}  // namespace millforce::sim
