@@ -16,6 +16,7 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_estimate(CLI::App& app, int& exit_code);
 void add_cut_table(CLI::App& app, int& exit_code);
+void add_ensemble(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_parameters(CLI::App& app, int& exit_code);
 

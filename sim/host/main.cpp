@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     add_calibrate(app, exit_code);
     add_estimate(app, exit_code);
     add_cut_table(app, exit_code);
+    add_ensemble(app, exit_code);
     add_bench(app, exit_code);
     add_parameters(app, exit_code);
     set_common_rules(app, "millforce " MILLFORCE_VERSION);

@@ -34,13 +34,14 @@ void MillforceController::describe(TracePoint& point) const {
     if (!in_contact) {
         return;
     }
-    if (e.engagement.immersion_valid) {
-        point.radial_immersion = static_cast<double>(e.engagement.radial_immersion);
-        point.radial_immersion_sd = static_cast<double>(e.engagement.radial_immersion_sd);
+    const estimation::EngagementEstimate<float> engagement = tick_.engagement();
+    if (engagement.immersion_valid) {
+        point.radial_immersion = static_cast<double>(engagement.radial_immersion);
+        point.radial_immersion_sd = static_cast<double>(engagement.radial_immersion_sd);
     }
-    if (e.engagement.depth_valid) {
-        point.axial_depth_mm = static_cast<double>(e.engagement.axial_depth_mm);
-        point.axial_depth_sd_mm = static_cast<double>(e.engagement.axial_depth_sd_mm);
+    if (engagement.depth_valid) {
+        point.axial_depth_mm = static_cast<double>(engagement.axial_depth_mm);
+        point.axial_depth_sd_mm = static_cast<double>(engagement.axial_depth_sd_mm);
     }
     point.tooth_force_N = value_or_none(e.tooth_force_N);
     if (e.tooth_force_N.valid) {

@@ -9,7 +9,7 @@ namespace millforce::sim {
 namespace {
 
 constexpr double band = 1.96;
-constexpr double revolution = 2.0 * std::numbers::pi;
+constexpr double turn_rad = 2.0 * std::numbers::pi;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void RunJudge::observe(double dt_s, const Motion& motion, const CuttingLoad& loa
     }
     revolution_rad_ += motion.spindle_speed_rad_s * dt_s;
     revolution_s_ += dt_s;
-    if (revolution_rad_ >= revolution) {
+    if (revolution_rad_ >= turn_rad) {
         const bool over = revolution_peak_N_ > limit_N_;
         over_since_s_ = over ? over_since_s_ + revolution_s_ : 0.0;
         figures.time_over_limit_s += over ? revolution_s_ : 0.0;
@@ -72,7 +72,7 @@ void RunJudge::follow(double time_s, const hal::FeedOverride& output, const Over
     if (output.fault != 0) {
         result_.figures.fault = control::name(static_cast<control::Fault>(output.fault));
     }
-    if (interval_s_ >= trace_interval_s && interval_angle_rad_ >= revolution) {
+    if (interval_s_ >= trace_interval_s && interval_angle_rad_ >= turn_rad) {
         close_interval(time_s, output, controller);
     }
 }

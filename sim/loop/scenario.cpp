@@ -135,6 +135,7 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
 void read_deviation(Table& root, PlantDeviation& deviation) {
     Table table = root.table("plant");
     deviation.cutting_force_scale = table.number("cutting_force_scale", 0.1, 10.0, 1.0);
+    deviation.radial_force_scale = table.number("radial_force_scale", 0.1, 10.0, 1.0);
     deviation.friction_scale = table.number("friction_scale", 0.0, 10.0, 1.0);
     deviation.current_noise_share = table.number("current_noise_share", 0.0, 0.5, 0.01);
     deviation.spindle_gain_scale = table.number("spindle_gain_scale", 0.1, 10.0, 1.0);
@@ -181,6 +182,8 @@ Scenario deviated(const Scenario& scenario, const PlantDeviation& deviation, std
     for (double* value : {&k.K_tc_N_mm2, &k.K_rc_N_mm2, &k.K_ac_N_mm2, &k.K_te_N_mm, &k.K_re_N_mm, &k.K_ae_N_mm}) {
         *value *= deviation.cutting_force_scale;
     }
+    k.K_rc_N_mm2 *= deviation.radial_force_scale;
+    k.K_re_N_mm *= deviation.radial_force_scale;
     result.machine.seed = seed;
     result.machine.current_noise_share = deviation.current_noise_share;
     result.machine.spindle.friction_scale = deviation.friction_scale;

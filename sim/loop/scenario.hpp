@@ -54,6 +54,7 @@ struct ProfileSettings {
 /// How the plant differs from what the controller believes. All of it is written into the report.
 struct PlantDeviation {
     double cutting_force_scale = 1.0;  ///< K_s true / K_s of the coefficients in the scenario
+    double radial_force_scale = 1.0;   ///< r_1 true / r_1 of the coefficients in the scenario
     double friction_scale = 1.0;       ///< of the feed drives and the spindle bearing
     double current_noise_share = 0.01; ///< of rated current, per sample
     double spindle_gain_scale = 1.0;   ///< torque constant true / believed

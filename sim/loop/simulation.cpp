@@ -113,7 +113,7 @@ class Loop {
         while (!cnc_.finished() && machine_.time_s() < settings_.longest_run_s && !judge_.fault_stopped()) {
             step_plant();
             if (++steps_ % steps_per_sample_ == 0) {
-                sample(simulated);
+                sample();
             }
             if (settings_.progress && machine_.time_s() > next_report_s) {
                 next_report_s += 1.0;
@@ -186,17 +186,13 @@ class Loop {
         load_.spindle_torque_Nm = cutting_load_.spindle_torque_Nm;
     }
 
-    void sample(Simulated& simulated) {
+    void sample() {
         const hal::DriveSample drives = machine_.sample();
         hal::ProgramStatus program;
         program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
         program.rapid = cnc_.is_rapid();
         override_ = controller_.step(drives, program);
         judge_.follow(machine_.time_s(), override_, controller_, settings_.trace_interval_s);
-        if (settings_.record) {
-            simulated.recording.push_back(
-                {drives, machine_.spindle_angle_rad(), static_cast<double>(override_.ratio)});
-        }
     }
 
     Scenario scenario_;

@@ -12,20 +12,12 @@ struct SimulationSettings {
     double plant_step_s = 0.25e-3;
     double trace_interval_s = 0.02;  ///< one revolution where that is longer
     double longest_run_s = 3600.0;   ///< a program that has not ended by then is an error of the run, not of the user
-    bool record = false;             ///< keep every drive sample
     /// Called about every simulated second with the share of the path done; false stops the run.
     std::function<bool(double share)> progress;
 };
 
-struct RecordedSample {
-    hal::DriveSample sample;
-    double spindle_angle_rad = 0.0;
-    double override_ratio = 0.0;
-};
-
 struct Simulated {
     RunResult result;
-    std::vector<RecordedSample> recording;
     bool interrupted = false;
 };
 

@@ -27,8 +27,8 @@ struct FeedControllerParameters {
     Scalar tooth_force_limit_N{1000};      ///< F_tooth,max
     Scalar setpoint_share{static_cast<Scalar>(0.97L)};          ///< of the limit that steady cutting is held at; the rest is for noise
     Scalar override_min{static_cast<Scalar>(0.1L)};
-    Scalar override_max{1.5F};
-    Scalar recovery_per_rev{0.25F};        ///< share of the way up that one revolution goes
+    Scalar override_max{static_cast<Scalar>(1.5L)};
+    Scalar recovery_per_rev{static_cast<Scalar>(0.25L)};        ///< share of the way up that one revolution goes
     Scalar slew_up_per_s{2};               ///< largest rise of the override per second
     Scalar slew_down_per_s{40};            ///< largest fall
     Scalar entry_feed_per_tooth_mm{static_cast<Scalar>(0.05L)}; ///< ceiling from contact until the estimate stands
@@ -44,7 +44,7 @@ struct FeedControllerParameters {
     Scalar surge_share{static_cast<Scalar>(1.05L)};             ///< of the limit that such a surge may reach
     Scalar overload_share{static_cast<Scalar>(1.35L)};          ///< of the limit above which the feed is held and the fault latched
     Scalar overload_revolutions{3};        ///< for so long, though the override already falls
-    Scalar no_estimate_hold_s{0.5F};       ///< in cut without estimate for longer: state hold
+    Scalar no_estimate_hold_s{static_cast<Scalar>(0.5L)};       ///< in cut without estimate for longer: state hold
     Scalar stale_s{static_cast<Scalar>(0.05L)};                 ///< without a sample for longer: fault
     Scalar teeth{4};
     bool monitor_only{false};              ///< estimate and watch, leave the override to the operator
@@ -62,7 +62,7 @@ struct CutEstimateForControl {
     Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
     Scalar cutting_share{1};           ///< c: share of the force that is not edge force
     Scalar surge_cutting_share{1};     ///< the same after a surge
-    Scalar feed_exponent{Scalar(0.75F)};  ///< 1 + p_s
+    Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s
     Scalar feed_mm_s{0};               ///< path speed over the same window
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;

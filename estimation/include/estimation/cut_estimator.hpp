@@ -61,7 +61,7 @@ struct CutEstimate {
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
     Scalar cutting_share{1};            ///< of F_at: what is not edge force
     Scalar surge_cutting_share{1};      ///< the same at the surge immersion
-    Scalar feed_exponent{Scalar(0.75F)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
+    Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     Scalar surge_ratio{1};
     Scalar feed_mm_s{0};  ///< path speed over the window
     Scalar feed_per_tooth_mm{0};

@@ -14,11 +14,11 @@ namespace millforce::firmware {
 /// The CNC and its override input.
 template <typename Scalar>
 struct CncParameters {
-    Scalar override_min{0.1F};
-    Scalar override_max{1.5F};
-    Scalar override_latency_s{0.01F};
+    Scalar override_min{static_cast<Scalar>(0.1L)};
+    Scalar override_max{static_cast<Scalar>(1.5L)};
+    Scalar override_latency_s{static_cast<Scalar>(0.01L)};
     Scalar acceleration_mm_s2{2000};
-    Scalar stale_s{0.05F};
+    Scalar stale_s{static_cast<Scalar>(0.05L)};
     Scalar sample_rate_hz{1000};
 };
 
@@ -42,9 +42,9 @@ struct ToolParameters {
     Scalar side{0};  ///< index into estimation::CutSide
     Scalar centre_offset_mm{0};
     Scalar tooth_force_limit_N{0};
-    Scalar break_share{1.5F};
+    Scalar break_share{static_cast<Scalar>(1.5L)};
     Scalar declared_axial_depth_mm{0};
-    Scalar law_relative_sd{0.02F};
+    Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
     estimation::CuttingLaw<Scalar> law{};
     control::FeedControllerParameters<Scalar> control{};
     Scalar monitor_only{0};
