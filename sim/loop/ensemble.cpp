@@ -50,10 +50,14 @@ PlantDeviation drawn_deviation(const Scenario& scenario, std::uint64_t seed) {
     std::normal_distribution<double> normal;
     const auto& machine = scenario.parameters.machine;
     PlantDeviation deviation = scenario.deviation;
-    const auto log_normal = [&](float sd) { return std::exp(static_cast<double>(sd) * normal(random)); };
-    deviation.cutting_force_scale *= log_normal(scenario.parameters.tool.law.K_s_relative_sd);
-    deviation.radial_force_scale *= log_normal(scenario.parameters.tool.law.r_1_relative_sd);
-    const auto scale = [&](float sd) { return std::clamp(1.0 + static_cast<double>(sd) * normal(random), 0.1, 3.0); };
+    const estimation::CuttingLaw<float>& law = scenario.parameters.tool.law;
+    const auto drawn = [&](float sd) { return static_cast<double>(sd) * normal(random); };
+    const auto scale = [&](float sd) { return std::clamp(1.0 + drawn(sd), 0.1, 3.0); };
+    deviation.cutting_force_scale *= std::exp(drawn(law.K_s_relative_sd));
+    deviation.radial_force_scale *= std::exp(drawn(law.r_1_relative_sd));
+    deviation.size_effect_shift = drawn(law.K_s_exponent_sd);
+    deviation.radial_size_effect_shift = drawn(law.r_1_exponent_sd);
+    deviation.size_effect_pivot_mm = std::max(static_cast<double>(law.reference_chip_thickness_mm), 1e-3);
     deviation.friction_scale *= scale(machine.axes[0].friction_relative_sd);
     deviation.spindle_gain_scale *= scale(machine.spindle.gain_relative_sd);
     deviation.axis_gain_scale *= scale(machine.axes[0].gain_relative_sd);

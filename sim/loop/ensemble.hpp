@@ -11,7 +11,7 @@
 namespace millforce::sim {
 
 /// Draws how a plant differs from what the controller believes, from the deviations that its parameters state:
-/// K_s and r_1 log-normal (K_s_relative_sd, r_1_relative_sd), friction normal (friction_relative_sd), torque and force
+/// K_s and r_1 log-normal (K_s_relative_sd, r_1_relative_sd), their exponents normal (…_exponent_sd), friction normal (friction_relative_sd), torque and force
 /// constants normal (gain_relative_sd). Deterministic in `seed`.
 [[nodiscard]] PlantDeviation drawn_deviation(const Scenario& scenario, std::uint64_t seed);
 

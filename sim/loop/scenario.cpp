@@ -143,6 +143,19 @@ void read_deviation(Table& root, PlantDeviation& deviation) {
     table.reject_unknown_keys();
 }
 
+/// K (h/h_0)^e becomes K (h/h_0)^e (h/h_p)^δ, h_p the pivot: the same form with another K and e.
+void tilt(CuttingCoefficients& k, const PlantDeviation& deviation) {
+    const double shift = deviation.size_effect_shift;
+    const double radial_shift = shift + deviation.radial_size_effect_shift;
+    const double reference_in_pivots = k.size_effect.reference_mm / deviation.size_effect_pivot_mm;
+    k.K_tc_N_mm2 *= std::pow(reference_in_pivots, shift);
+    k.K_ac_N_mm2 *= std::pow(reference_in_pivots, shift);
+    k.K_rc_N_mm2 *= std::pow(reference_in_pivots, radial_shift);
+    k.size_effect.tangential_exponent += shift;
+    k.size_effect.axial_exponent += shift;
+    k.size_effect.radial_exponent += radial_shift;
+}
+
 }  // namespace
 
 Scenario read_scenario(const std::string& path) {
@@ -184,6 +197,7 @@ Scenario deviated(const Scenario& scenario, const PlantDeviation& deviation, std
     }
     k.K_rc_N_mm2 *= deviation.radial_force_scale;
     k.K_re_N_mm *= deviation.radial_force_scale;
+    tilt(k, deviation);
     result.machine.seed = seed;
     result.machine.current_noise_share = deviation.current_noise_share;
     result.machine.spindle.friction_scale = deviation.friction_scale;
