@@ -7,10 +7,12 @@
 #include "estimation/peak_factors.hpp"
 #include "estimation/spindle_drive.hpp"
 #include "estimation/synchronous_average.hpp"
+#include "estimation/warm_up_tracker.hpp"
 
 namespace millforce::estimation {
 
 template class DriftTracker<float>;
+template class WarmUpTracker<float>;
 template class EncoderAngle<float>;
 template class SynchronousAverage<float, 7>;
 template class SpindleDrive<float>;

@@ -91,8 +91,7 @@ EnsembleFigures summarise_ensemble(const std::vector<RunFigures>& runs) {
         ++all.runs;
         all.unfinished += run.finished ? 0 : 1;
         all.teeth_broken += run.teeth_broken;
-        all.longest_over_limit_s_worst = std::max(all.longest_over_limit_s_worst, run.longest_over_limit_s);
-        all.reaction_time_s = std::max(all.reaction_time_s, run.reaction_time_s);
+        all.late_over_limit_s_worst = std::max(all.late_over_limit_s_worst, run.late_over_limit_s);
         peaks.push_back(run.peak_over_limit);
         time.add(run.time_s);
         share.add(run.estimate_share);

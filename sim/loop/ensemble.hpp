@@ -21,8 +21,7 @@ struct EnsembleFigures {
     int teeth_broken = 0;
     double peak_over_limit_median = 0.0;
     double peak_over_limit_worst = 0.0;
-    double longest_over_limit_s_worst = 0.0;
-    double reaction_time_s = 0.0;          ///< largest of the runs
+    double late_over_limit_s_worst = 0.0;  ///< see RunFigures
     double time_s_mean = 0.0;
     double estimate_share = 0.0;           ///< of the time in cut: with an immersion
     double immersion_rms = no_estimate;

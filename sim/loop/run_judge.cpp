@@ -52,18 +52,48 @@ void RunJudge::observe(double dt_s, const Motion& motion, const CuttingLoad& loa
     }
     revolution_rad_ += motion.spindle_speed_rad_s * dt_s;
     revolution_s_ += dt_s;
-    if (revolution_rad_ >= turn_rad) {
-        const bool over = revolution_peak_N_ > limit_N_;
-        over_since_s_ = over ? over_since_s_ + revolution_s_ : 0.0;
-        figures.time_over_limit_s += over ? revolution_s_ : 0.0;
-        figures.longest_over_limit_s = std::max(figures.longest_over_limit_s, over_since_s_);
-        use_sum_ += truth.cutting ? revolution_peak_N_ / limit_N_ * revolution_s_ : 0.0;
-        const double reaction_s = override_latency_s_ + motion.feed_mm_s / acceleration_mm_s2_ + 2.0 * revolution_s_;
-        figures.reaction_time_s = std::max(figures.reaction_time_s, truth.cutting ? reaction_s : 0.0);
-        revolution_peak_N_ = 0.0;
-        revolution_rad_ = 0.0;
-        revolution_s_ = 0.0;
+    if (truth.cutting) {
+        section_mm2_ = std::max(section_mm2_, truth.radial_immersion * radius_mm_ * truth.axial_depth_mm);
     }
+    if (revolution_rad_ >= turn_rad) {
+        close_revolution(truth.cutting);
+    }
+}
+
+void RunJudge::close_revolution(bool cutting) {
+    RunFigures& figures = result_.figures;
+    revolutions_[revolution_count_++ % revolutions_.size()] = {revolution_s_, section_mm2_};
+    const double reaction_s = override_latency_s_ + motion_.feed_mm_s / acceleration_mm_s2_ + 2.0 * revolution_s_;
+    figures.reaction_time_s = std::max(figures.reaction_time_s, cutting ? reaction_s : 0.0);
+    const bool over = revolution_peak_N_ > limit_N_;
+    over_since_s_ = over ? over_since_s_ + revolution_s_ : 0.0;
+    figures.time_over_limit_s += over ? revolution_s_ : 0.0;
+    figures.longest_over_limit_s = std::max(figures.longest_over_limit_s, over_since_s_);
+    figures.late_over_limit_s += over && !engagement_has_grown(reaction_s) ? revolution_s_ : 0.0;
+    use_sum_ += cutting ? revolution_peak_N_ / limit_N_ * revolution_s_ : 0.0;
+    section_mm2_ = 0.0;
+    revolution_peak_N_ = 0.0;
+    revolution_rad_ = 0.0;
+    revolution_s_ = 0.0;
+}
+
+/// Whether the chip section grew by more than 1 % from any revolution within that time to a later one.
+bool RunJudge::engagement_has_grown(double within_s) const {
+    const std::size_t known = std::min(revolution_count_, revolutions_.size());
+    double age_s = 0.0;
+    double largest_since_mm2 = 0.0;
+    for (std::size_t back = 1; back <= known; ++back) {
+        const Revolution& revolution = revolutions_[(revolution_count_ - back) % revolutions_.size()];
+        if (largest_since_mm2 > 1.01 * revolution.section_mm2) {
+            return true;
+        }
+        largest_since_mm2 = std::max(largest_since_mm2, revolution.section_mm2);
+        if (age_s > within_s) {
+            return false;
+        }
+        age_s += revolution.duration_s;
+    }
+    return true;  // the run has only begun
 }
 
 void RunJudge::follow(double time_s, const hal::FeedOverride& output, const OverrideSource& controller,

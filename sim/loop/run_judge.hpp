@@ -38,6 +38,8 @@ class RunJudge {
   private:
     void close_interval(double time_s, const hal::FeedOverride& output, const OverrideSource& controller);
     void judge_estimate(const TracePoint& point);
+    void close_revolution(bool cutting);
+    [[nodiscard]] bool engagement_has_grown(double within_s) const;
     void count_teeth(const CuttingLoad& load);
 
     double limit_N_;
@@ -61,6 +63,15 @@ class RunJudge {
     double peak_total_N_ = 0.0;
     double radius_mm_;
     Motion motion_{};
+
+    /// The largest chip section (width × depth in front of the tool) of each of the last revolutions.
+    struct Revolution {
+        double duration_s = 0.0;
+        double section_mm2 = 0.0;
+    };
+    std::array<Revolution, 16> revolutions_{};
+    std::size_t revolution_count_ = 0;
+    double section_mm2_ = 0.0;
 
     double revolution_peak_N_ = 0.0;
     double revolution_rad_ = 0.0;

@@ -31,19 +31,6 @@ std::vector<Move> profile_moves(const Scenario& scenario) {
     return {move};
 }
 
-std::vector<Move> moves_of(const Scenario& scenario) {
-    if (!scenario.has_program()) {
-        return profile_moves(scenario);
-    }
-    std::ifstream file(scenario.program_file);
-    if (!file) {
-        throw InputError(fmt::format("{}: no such file", scenario.program_file));
-    }
-    GcodeSettings settings;
-    settings.start_mm = {scenario.stock.start_x_mm, scenario.stock.start_y_mm, scenario.stock.start_z_mm};
-    return parse_gcode(file, scenario.program_file, settings);
-}
-
 CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& settings) {
     CncSettings cnc;
     cnc.servo_period_s = settings.plant_step_s;
@@ -214,6 +201,19 @@ class Loop {
 };
 
 }  // namespace
+
+std::vector<Move> moves_of(const Scenario& scenario) {
+    if (!scenario.has_program()) {
+        return profile_moves(scenario);
+    }
+    std::ifstream file(scenario.program_file);
+    if (!file) {
+        throw InputError(fmt::format("{}: no such file", scenario.program_file));
+    }
+    GcodeSettings settings;
+    settings.start_mm = {scenario.stock.start_x_mm, scenario.stock.start_y_mm, scenario.stock.start_z_mm};
+    return parse_gcode(file, scenario.program_file, settings);
+}
 
 Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,
                    const SimulationSettings& settings) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
+#include "cnc/move.hpp"
 #include "loop/override_source.hpp"
 #include "loop/scenario.hpp"
 #include "report/run_result.hpp"
@@ -20,6 +22,9 @@ struct Simulated {
     RunResult result;
     bool interrupted = false;
 };
+
+/// The moves of the scenario's part program, or the one straight move of a profile. Throws InputError.
+std::vector<Move> moves_of(const Scenario& scenario);
 
 /// Runs a scenario against a controller, in closed loop: CNC → drives → tool and workpiece → cutting force → drives →
 /// samples → controller → override → CNC. Deterministic: the same scenario, deviation and seed give the same bits.

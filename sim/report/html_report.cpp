@@ -118,13 +118,17 @@ std::string verdict_html(std::span<const RunResult> runs) {
                            figures.teeth_broken == 0 ? "none broke" : "but a tooth broke");
         return out;
     }
-    const bool unavoidable = figures.longest_over_limit_s <= figures.reaction_time_s;
     out += fmt::format(
-        "The limit was exceeded for {:.2f} s in total, {:.3f} s at a stretch: {} the {:.3f} s that latency, "
-        "deceleration "
-        "and two revolutions need. Teeth broken: {}.",
-        figures.time_over_limit_s, figures.longest_over_limit_s, unavoidable ? "within" : "longer than",
-        figures.reaction_time_s, figures.teeth_broken);
+        "The limit was exceeded for {:.2f} s in total, {:.3f} s at a stretch: {}. Teeth broken: {}.",
+        figures.time_over_limit_s, figures.longest_over_limit_s,
+        figures.late_over_limit_s > 0.0
+            ? fmt::format("{:.3f} s of it when the engagement had not grown for the {:.3f} s that latency, deceleration "
+                          "and two revolutions need",
+                          figures.late_over_limit_s, figures.reaction_time_s)
+            : fmt::format("only while the engagement grew, and within the {:.3f} s after it that latency, deceleration "
+                          "and two revolutions need",
+                          figures.reaction_time_s),
+        figures.teeth_broken);
     return out;
 }
 

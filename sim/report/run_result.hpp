@@ -56,6 +56,7 @@ struct RunFigures {
     double time_over_limit_s = 0.0;     ///< true tooth force above its limit
     double longest_over_limit_s = 0.0;  ///< longest stretch of revolutions with a peak above the limit
     double reaction_time_s = 0.0;       ///< override latency + deceleration + 2 revolutions: what physics allows
+    double late_over_limit_s = 0.0;     ///< above the limit though the engagement has not grown for the reaction time
     int teeth_broken = 0;               ///< teeth whose force reached limit × break_share
     double mean_override = 0.0;         ///< over cutting time
     double mean_force_use = 0.0;        ///< mean of true tooth force / limit over cutting time

@@ -51,6 +51,8 @@ constexpr FigureColumn figure_columns[] = {
      [](const RunResult& run, auto) { return with_unit(run.figures.longest_over_limit_s, 3, " s"); }},
     {"reaction time", "What physics allows: override latency, deceleration and two revolutions.",
      [](const RunResult& run, auto) { return with_unit(run.figures.reaction_time_s, 3, " s"); }},
+    {"over limit, late", "Above the limit though the engagement has not grown for the reaction time.",
+     [](const RunResult& run, auto) { return with_unit(run.figures.late_over_limit_s, 3, " s"); }},
     {"teeth broken", "Teeth whose force reached the breaking share of the limit.",
      [](const RunResult& run, auto) { return fmt::to_string(run.figures.teeth_broken); }},
     {"mean force / limit", "Mean of true tooth force over limit while cutting: how much of the tooth is used.",

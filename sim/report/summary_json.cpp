@@ -17,6 +17,7 @@ constexpr struct {
     {"time_over_limit_s", &RunFigures::time_over_limit_s},
     {"longest_over_limit_s", &RunFigures::longest_over_limit_s},
     {"reaction_time_s", &RunFigures::reaction_time_s},
+    {"late_over_limit_s", &RunFigures::late_over_limit_s},
     {"mean_override", &RunFigures::mean_override},
     {"mean_force_use", &RunFigures::mean_force_use},
     {"immersion_rms", &RunFigures::immersion_rms},

@@ -95,11 +95,8 @@ class CutEstimator {
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
              const DriveSignals<Scalar>& signals) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
-        spindle_.predict(dt_s);
-        for (FeedDrive<Scalar>& axis : axes_) {
-            axis.predict(dt_s);
-        }
         since_period_s_ += dt_s;
+        since_prediction_s_ += dt_s;
         if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
             reading.event == EncoderEvent::index_slipped) {
             average_.restart();
@@ -110,6 +107,7 @@ class CutEstimator {
             return false;
         }
         since_period_s_ = Scalar(0);
+        predict_drifts();
         update();
         return true;
     }
@@ -171,6 +169,14 @@ class CutEstimator {
     static constexpr int channels = 7;
     using Averager = SynchronousAverage<Scalar, channels>;
     using Signals = typename Averager::Signals;
+
+    void predict_drifts() {
+        spindle_.predict(since_prediction_s_);
+        for (FeedDrive<Scalar>& axis : axes_) {
+            axis.predict(since_prediction_s_);
+        }
+        since_prediction_s_ = Scalar(0);
+    }
 
     [[nodiscard]] PeakFactorSettings<Scalar> peak_settings(CutSide side) const {
         PeakFactorSettings<Scalar> peak;
@@ -397,6 +403,7 @@ class CutEstimator {
     Scalar last_exponent_{Scalar(0.75F)};
     CutEstimate<Scalar> estimate_{};
     Scalar since_period_s_{0};
+    Scalar since_prediction_s_{0};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
     Scalar last_immersion_{0};

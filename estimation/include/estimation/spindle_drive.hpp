@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimation/drift_tracker.hpp"
+#include "estimation/warm_up_tracker.hpp"
 
 namespace millforce::estimation {
 
@@ -14,6 +14,9 @@ struct SpindleDriveParameters {
     Scalar gain_relative_sd{static_cast<Scalar>(0.02L)};       ///< of K_t1, from its calibration
     Scalar idle_torque_sd_Nm{static_cast<Scalar>(0.2L)};       ///< of the idle torque before the first re-zeroing in air
     Scalar idle_walk_Nm_per_sqrt_s{static_cast<Scalar>(0.01L)};  ///< drift of the idle torque
+    Scalar warm_up_torque_Nm{0};          ///< idle torque of the cold spindle above that of the warm one
+    Scalar warm_up_torque_sd_Nm{0};
+    Scalar warm_up_time_s{0};             ///< time constant of the warming; 0: not known
     Scalar current_sd_A{static_cast<Scalar>(0.1L)};            ///< noise of one current sample
 };
 
@@ -22,14 +25,15 @@ struct SpindleDriveParameters {
 ///   F_at = (K_t1(ω) I + K_t2 − k ω − δ − J dω/dt) / R            Kim & Chung Eq. 8, with inertia, speed and drift
 ///   K_t1(ω) = K_t1 for ω ≤ ω_base, K_t1 ω_base/ω above           field weakening: constant power
 ///
-/// δ is the idle torque's drift, re-zeroed in air by rezero(). Averages over whole tooth periods are meant: between
+/// δ is the idle torque's drift, re-zeroed in air by rezero(); between two such moments it falls as the bearing warms up. Averages over whole tooth periods are meant: between
 /// teeth the rotor stores what the current does not show. R > 0 in mm, ω in rad/s, I in A. Not thread-safe.
 template <typename Scalar>
 class SpindleDrive {
   public:
     explicit SpindleDrive(const SpindleDriveParameters<Scalar>& parameters = {})
         : parameters_(parameters),
-          drift_Nm_(Scalar(0), square(parameters.idle_torque_sd_Nm), square(parameters.idle_walk_Nm_per_sqrt_s)) {}
+          drift_Nm_({parameters.idle_torque_sd_Nm, square(parameters.idle_walk_Nm_per_sqrt_s),
+                     parameters.warm_up_torque_Nm, parameters.warm_up_torque_sd_Nm, parameters.warm_up_time_s}) {}
 
     struct Average {
         Scalar current_A{0};
@@ -80,7 +84,7 @@ class SpindleDrive {
     }
 
     SpindleDriveParameters<Scalar> parameters_;
-    DriftTracker<Scalar> drift_Nm_;
+    WarmUpTracker<Scalar> drift_Nm_;
 };
 
 }  // namespace millforce::estimation
