@@ -148,13 +148,31 @@ EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Ei
     return result;
 }
 
+namespace {
+
+/// Of the thickest bin's height: what is thinner is the floor's own skin, which a tool pressed down by some micrometres
+/// scrapes off with its end, and no wall.
+constexpr float skin_share = 0.02F;
+
+float thickest_mm(const EngagementMap& map) {
+    float thickest = 0.0F;
+    for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
+        const EngagementMap::Bin& bin = map.bins[k];
+        thickest = holds_material(bin) ? std::max(thickest, bin.top_mm - bin.bottom_mm) : thickest;
+    }
+    return thickest;
+}
+
+}  // namespace
+
 TrueEngagement summarise(const EngagementMap& map) {
     TrueEngagement truth;
     double weighted_depth = 0.0;
     bool inside = false;
+    const float skin_mm = skin_share * thickest_mm(map);
     for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
         const EngagementMap::Bin& bin = map.bins[k];
-        if (!holds_material(bin)) {
+        if (!holds_material(bin) || bin.top_mm - bin.bottom_mm < skin_mm) {
             inside = false;
             continue;
         }

@@ -24,7 +24,8 @@ namespace millforce::sim {
 EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& tip_mm,
                             const Eigen::Vector3d& direction);
 
-/// The engagement in the terms of the estimators: the truth that they are judged against.
+/// The engagement in the terms of the estimators: the truth that they are judged against. Material of less than 2 % of
+/// the greatest height is left out: the floor's skin, which the end scrapes off, is no width of cut.
 struct TrueEngagement {
     bool cutting = false;
     double entry_rad = 0.0;  ///< of the hull of all that is engaged

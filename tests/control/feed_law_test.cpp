@@ -109,7 +109,8 @@ TEST(FeedLaw, lowers_the_feed_so_that_a_surge_stays_below_its_share_of_the_limit
     bring_into_cut(controller, input);
     const Output output = controller.step(input);
     CHECK(output.limit == Limit::surge);
-    DOUBLES_EQUAL(1050.0, static_cast<double>(force_at(output.ratio, 1500.0F, 0.8F, 0.75F)), 0.2);
+    const float allowed_N = p.surge_share * p.tooth_force_limit_N;
+    DOUBLES_EQUAL(1.0, static_cast<double>(force_at(output.ratio, 1500.0F, 0.8F, 0.75F) / allowed_N), 2e-4);
 }
 
 TEST(FeedLaw, ignores_surges_where_none_can_come) {
@@ -129,4 +130,77 @@ TEST(FeedLaw, never_exceeds_what_edge_and_chip_space_allow) {
     const Output output = controller.step(input);
     CHECK(output.limit == Limit::feed_per_tooth);
     DOUBLES_EQUAL(static_cast<double>(ratio_of(0.1F, input)), static_cast<double>(output.ratio), 1e-5);
+}
+
+namespace {
+
+/// A machine that goes as told, along x or y.
+Output follow(Controller& controller, Input& input, const Output& last, bool along_y) {
+    input.path_speed_mm_s = last.ratio * input.programmed_feed_mm_s;
+    input.velocity_x_mm_s = along_y ? 0.0F : input.path_speed_mm_s;
+    input.velocity_y_mm_s = along_y ? input.path_speed_mm_s : 0.0F;
+    return controller.step(input);
+}
+
+Output settle(Controller& controller, Input& input) {
+    Output output = bring_into_cut(controller, input);
+    for (int k = 0; k < 2000; ++k) {
+        output = follow(controller, input, output, false);
+    }
+    return output;
+}
+
+}  // namespace
+
+TEST(FeedLaw, takes_the_feed_that_a_slot_would_allow_after_a_sharp_turn) {
+    const Parameters p = immediate();
+    Input input = in_contact();
+    input.cut.tooth_force_N = 600.0F;
+    input.cut.turn_ratio = 2.0F;
+    input.cut.turn_cutting_share = 0.8F;
+    Controller controller(p);
+    const Output straight = settle(controller, input);
+    const Output turned = follow(controller, input, straight, true);
+    CHECK(straight.limit == Limit::force);
+    CHECK(turned.limit == Limit::surge);
+    const float allowed_N = p.surge_share * p.tooth_force_limit_N;
+    DOUBLES_EQUAL(1.0, static_cast<double>(force_at(turned.ratio, 1200.0F, 0.8F, 0.75F) / allowed_N), 2e-4);
+    float way_mm = 0.0F;
+    for (Output output = turned; output.limit == Limit::surge && way_mm < 100.0F;) {
+        output = follow(controller, input, output, true);
+        way_mm += input.path_speed_mm_s * input.dt_s;
+    }
+    DOUBLES_EQUAL(static_cast<double>(p.turn_travel_mm), static_cast<double>(way_mm), 0.1);
+}
+
+TEST(FeedLaw, does_not_raise_the_feed_while_the_cut_fades) {
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    Controller controller(immediate());
+    Output output = settle(controller, input);
+    const float before = output.ratio;
+    for (float way_mm = 0.0F; way_mm < 5.0F; way_mm += input.path_speed_mm_s * input.dt_s) {
+        const float share = 1.0F - way_mm / 5.0F;
+        input.cut.section_mm2 = 10.0F * share;
+        input.cut.tooth_force_N = force_at(output.ratio, 500.0F * share, 1.0F, 0.75F);
+        input.cut.feed_mm_s = output.ratio * input.programmed_feed_mm_s;
+        output = follow(controller, input, output, false);
+        CHECK(output.ratio < 1.3F * before);  // a little was raised before the fall was known for a fade
+    }
+    input.cut.section_mm2 = 0.0F;  // without its trend
+    CHECK(settled_ratio(immediate(), input) > 3.0F * before);
+}
+
+TEST(FeedLaw, forgets_at_a_sharp_turn_out_of_the_cut_what_was_cut_before) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 100.0F;
+    Input input = in_contact();
+    Controller controller(p);
+    Output output = settle(controller, input);
+    input.cut.tangential_N = 0.0F;
+    for (int k = 0; k < 20; ++k) {
+        output = follow(controller, input, output, false);
+    }
+    CHECK(output.state == CutState::exit);
+    CHECK(follow(controller, input, output, true).state == CutState::air);
 }

@@ -7,10 +7,10 @@ namespace millforce::control {
 /// Where the tool is in relation to the cut, as far as the forces tell. Each line says how the state is entered and
 /// how it is left.
 enum class CutState : std::uint8_t {
-    air = 0,     ///< start; from `exit` after the exit travel without contact. Left by contact → entry.
+    air = 0,     ///< start; from `exit` after the exit travel without contact or a sharp turn. Left by contact → entry.
     entry = 1,   ///< contact, from air, exit or hold. Left after entry revolutions and travel → in_cut, or → exit.
     in_cut = 2,  ///< a full window of cutting is behind. Left by lost contact → exit, no estimate for long → hold.
-    exit = 3,    ///< contact lost. Left by contact → entry (if it had cut: at that feed), by the exit travel → air.
+    exit = 3,    ///< contact lost. Left by contact → entry (if it had cut: at that feed), by the exit travel or a turn → air.
     hold = 4,    ///< nothing to judge by, or the feed is held: the override is not raised. Left when estimates return.
     fault = 5,   ///< latched. Left only by reset(), at standstill.
 };

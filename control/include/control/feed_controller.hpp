@@ -1,6 +1,8 @@
 #pragma once
 
 #include "control/cut_state.hpp"
+#include "control/cut_trend.hpp"
+#include "control/path_turn.hpp"
 
 #include <cmath>
 
@@ -41,7 +43,10 @@ struct FeedControllerParameters {
     Scalar contact_force_N{40};            ///< F_at that counts as contact, beside its noise
     Scalar contact_significance{4};        ///< … and this many standard deviations
     Scalar surge_radial_immersion{0};      ///< largest immersion that may come without warning; 0: none does
-    Scalar surge_share{static_cast<Scalar>(1.05L)};             ///< of the limit that such a surge may reach
+    Scalar surge_share{static_cast<Scalar>(1.03L)};           ///< of the limit that such a surge may reach
+    Scalar turn_radial_immersion{2};       ///< … after a sharp turn of the path; 0: a turn changes nothing
+    Scalar turn_travel_mm{2};              ///< for so long after a turn
+    Scalar worst_share{0};  ///< of the limit that turn_radial_immersion may reach where nothing told of it; 0: any
     Scalar overload_share{static_cast<Scalar>(1.35L)};          ///< of the limit above which the feed is held and the fault latched
     Scalar overload_revolutions{3};        ///< for so long, though the override already falls
     Scalar no_estimate_hold_s{static_cast<Scalar>(0.5L)};       ///< in cut without estimate for longer: state hold
@@ -62,7 +67,11 @@ struct CutEstimateForControl {
     Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
     Scalar cutting_share{1};           ///< c: share of the force that is not edge force
     Scalar surge_cutting_share{1};     ///< the same after a surge
+    Scalar turn_ratio{1};              ///< as surge_ratio, to turn_radial_immersion
+    Scalar turn_cutting_share{1};
     Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s
+    Scalar section_mm2{0};             ///< of the cut, width × depth: its trend is watched, not its size; 0: not known
+    Scalar section_noise_mm2{0};       ///< the part of its deviation that differs from one window to the next
     Scalar feed_mm_s{0};               ///< path speed over the same window
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
@@ -74,6 +83,8 @@ struct ControlInput {
     Scalar programmed_feed_mm_s{0};
     Scalar operator_override{1};
     Scalar path_speed_mm_s{0};
+    Scalar velocity_x_mm_s{0};
+    Scalar velocity_y_mm_s{0};
     Scalar time_since_sample_s{0};
     bool rapid = false;
     bool plunging = false;  ///< the way goes mainly along the tool's axis
@@ -121,6 +132,7 @@ class FeedController {
         input.dt_s = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
         input.path_speed_mm_s = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
         update_state(input);
+        watch_turns(input);
         Limit limit = Limit::none;
         const Scalar wanted = wanted_ratio(input, limit);
         approach(wanted, input);
@@ -148,7 +160,9 @@ class FeedController {
                positive(p.max_feed_per_tooth_mm) && not_negative(p.highest_programmed_feed_mm_s) &&
                not_negative(p.entry_revolutions) && not_negative(p.entry_travel_mm) &&
                not_negative(p.exit_travel_mm) && positive(p.contact_force_N) && not_negative(p.contact_significance) &&
-               not_negative(p.surge_radial_immersion) && positive(p.surge_share) && positive(p.overload_share) &&
+               not_negative(p.surge_radial_immersion) && positive(p.surge_share) &&
+               not_negative(p.turn_radial_immersion) && not_negative(p.turn_travel_mm) &&
+               not_negative(p.worst_share) && positive(p.overload_share) &&
                not_negative(p.overload_revolutions) && not_negative(p.no_estimate_hold_s) && positive(p.stale_s) &&
                is_finite(p.teeth) && p.teeth >= Scalar(1);
     }
@@ -278,6 +292,19 @@ class FeedController {
         }
     }
 
+    void watch_turns(const ControlInput<Scalar>& input) {
+        way_since_estimate_mm_ += input.path_speed_mm_s * input.dt_s;
+        const bool turned = turn_.update({input.dt_s, input.velocity_x_mm_s, input.velocity_y_mm_s,
+                                          input.path_speed_mm_s, ratio_ * input.programmed_feed_mm_s,
+                                          input.programmed_feed_mm_s});
+        const Scalar left_mm = turn_travel_left_mm_ - input.path_speed_mm_s * input.dt_s;
+        turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
+        turned_now_ = turned;
+        if (turned && state_ == CutState::exit) {
+            go_to(CutState::air);  // what was cut before says nothing about what lies in the new direction
+        }
+    }
+
     [[nodiscard]] Scalar ratio_of_feed_per_tooth(Scalar feed_per_tooth_mm, const ControlInput<Scalar>& input) const {
         constexpr Scalar per_rad = static_cast<Scalar>(0.159154943091895336L);
         const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s * per_rad;
@@ -371,6 +398,7 @@ class FeedController {
         const CutEstimateForControl<Scalar>& cut = input.cut;
         if (state_ == CutState::air || state_ == CutState::exit) {
             demand_ = parameters_.override_max;
+            trend_.clear();
             return;
         }
         const bool usable = cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
@@ -383,16 +411,48 @@ class FeedController {
             if (parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1)) {
                 const Scalar before_surge = feed_for(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
                                                      cut.surge_cutting_share, input);
-                if (before_surge < demand_) {
-                    demand_ = before_surge;
-                    demand_limit_ = Limit::surge;
-                }
+                cap_demand_before_surge(before_surge);
             }
+            if (parameters_.worst_share > Scalar(0) && cut.turn_ratio > Scalar(1)) {
+                cap_demand_before_surge(feed_for(parameters_.worst_share, cut.tooth_force_N * cut.turn_ratio,
+                                                 cut.turn_cutting_share, input));
+            }
+        }
+        if (cut.fresh && usable) {
+            trend_.update(cut.section_mm2, cut.section_noise_mm2, way_since_estimate_mm_);
+            way_since_estimate_mm_ = Scalar(0);
         }
         if (!usable || !cut.tooth_force_valid) {
             wish.cap(ratio_, Limit::no_estimate);
         }
+        if (trend_.fading()) {
+            wish.cap(ratio_, Limit::surge);
+        }
         wish.cap(demand_, demand_limit_);
+        cap_after_turn(wish, input, usable);
+    }
+
+    void cap_demand_before_surge(Scalar ceiling) {
+        if (ceiling < demand_) {
+            demand_ = ceiling;
+            demand_limit_ = Limit::surge;
+        }
+    }
+
+    /// After a sharp turn the tool may meet anything up to the turn's immersion: the feed that such a cut would allow.
+    void cap_after_turn(Wish& wish, const ControlInput<Scalar>& input, bool usable) {
+        const CutEstimateForControl<Scalar>& cut = input.cut;
+        if (!(turn_travel_left_mm_ > Scalar(0)) || !(parameters_.turn_radial_immersion > Scalar(0))) {
+            turn_demand_ = parameters_.override_max;
+            return;
+        }
+        const bool known = usable && is_finite(cut.turn_ratio) && is_finite(cut.turn_cutting_share);
+        if (known && (turned_now_ || cut.fresh)) {
+            turn_demand_ = cut.turn_ratio > Scalar(1) ? feed_for(parameters_.surge_share, cut.tooth_force_N * cut.turn_ratio,
+                                                                 cut.turn_cutting_share, input)
+                                                      : parameters_.override_max;
+        }
+        wish.cap(turn_demand_, Limit::surge);
     }
 
     void approach(Scalar wanted, const ControlInput<Scalar>& input) {
@@ -427,6 +487,12 @@ class FeedController {
     Scalar silent_s_{0};
     Scalar stopped_s_{0};
     Scalar overload_revolutions_{0};
+    CutTrend<Scalar> trend_{};
+    Scalar way_since_estimate_mm_{0};
+    PathTurn<Scalar> turn_{};
+    bool turned_now_ = false;
+    Scalar turn_travel_left_mm_{0};
+    Scalar turn_demand_{0};
 };
 
 }  // namespace millforce::control

@@ -29,6 +29,7 @@ struct CutEstimatorSettings {
     Scalar nominal_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};
     Scalar assumed_immersion{1};     ///< used for peaks (never to speed up) until an immersion is known
     Scalar surge_immersion{0};       ///< see FeedControllerParameters::surge_radial_immersion
+    Scalar turn_immersion{0};        ///< … and turn_radial_immersion
     Scalar tooth_force_limit_N{1000};
     Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
@@ -60,9 +61,16 @@ struct CutEstimate {
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
     Scalar cutting_share{1};            ///< of F_at: what is not edge force
-    Scalar surge_cutting_share{1};      ///< the same at the surge immersion
     Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
-    Scalar surge_ratio{1};
+    /// The force of a tooth at another immersion, at the same depth and feed.
+    struct Change {
+        Scalar ratio{1};          ///< over its force now
+        Scalar cutting_share{1};  ///< of it: what is not edge force
+    };
+    Scalar section_mm2{0};        ///< width × depth that F_at stands for at the known K_s; 0: no F_at
+    Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
+    Change surge{};  ///< to settings.surge_immersion, where that is larger than now
+    Change turn{};   ///< to settings.turn_immersion
     Scalar feed_mm_s{0};  ///< path speed over the window
     Scalar feed_per_tooth_mm{0};
     Scalar spindle_speed_rad_s{0};
@@ -336,6 +344,11 @@ class CutEstimator {
             // The window's middle is half a window old, the last tooth's nearly now.
             estimate_.tangential_growth_N_per_s = (tooth.value - window.value) / half_window_s;
         }
+        if (model.mean.tangential_N > Scalar(0)) {
+            const Scalar width_per_F_mm_N = immersion * settings_.cutter_radius_mm / model.mean.tangential_N;
+            estimate_.section_mm2 = window.value * width_per_F_mm_N;
+            estimate_.section_noise_mm2 = sqrt(window.noise) * width_per_F_mm_N;
+        }
         const Scalar runout = runout_factor();
         estimate_.worst_tooth_force_N = newest * factor * runout;
         if (e.immersion_valid) {
@@ -359,7 +372,8 @@ class CutEstimator {
             const Scalar worst = newest * runout * (bound > factor ? bound : factor);
             estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
         }
-        estimate_surge(immersion, depth, factor, model.mean.tangential_N);
+        estimate_.surge = change_to(settings_.surge_immersion, immersion, depth, factor, model.mean.tangential_N);
+        estimate_.turn = change_to(settings_.turn_immersion, immersion, depth, factor, model.mean.tangential_N);
     }
 
     /// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
@@ -374,15 +388,17 @@ class CutEstimator {
         return exp(last_exponent_ * log(chip));
     }
 
-    void estimate_surge(Scalar immersion, Scalar depth_mm, Scalar factor_now, Scalar F_at_now) {
-        if (!(settings_.surge_immersion > immersion) || !(F_at_now > Scalar(0))) {
-            return;
+    [[nodiscard]] typename CutEstimate<Scalar>::Change change_to(Scalar immersion_then, Scalar immersion, Scalar depth_mm,
+                                                               Scalar factor_now, Scalar F_at_now) const {
+        typename CutEstimate<Scalar>::Change change;
+        if (!(immersion_then > immersion) || !(F_at_now > Scalar(0))) {
+            return change;
         }
-        const Scalar factor_then = tooth_factor(last_side_, settings_.surge_immersion, depth_mm);
-        const auto then = solver_.forces_per_mm(last_side_, settings_.surge_immersion, estimate_.feed_per_tooth_mm);
-        const Scalar F_at_then = then.mean.tangential_N;
-        estimate_.surge_cutting_share = then.per_ln_K_s.tangential_N / F_at_then;
-        estimate_.surge_ratio = F_at_then * factor_then / (F_at_now * factor_now);
+        const Scalar factor_then = tooth_factor(last_side_, immersion_then, depth_mm);
+        const auto then = solver_.forces_per_mm(last_side_, immersion_then, estimate_.feed_per_tooth_mm);
+        change.cutting_share = then.per_ln_K_s.tangential_N / then.mean.tangential_N;
+        change.ratio = then.mean.tangential_N * factor_then / (F_at_now * factor_now);
+        return change;
     }
 
     CutEstimatorSettings<Scalar> settings_{};

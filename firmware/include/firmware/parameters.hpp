@@ -70,6 +70,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.largest_depth_mm = p.tool.flute_length_mm;
     s.nominal_feed_per_tooth_mm = p.tool.control.entry_feed_per_tooth_mm;
     s.surge_immersion = p.tool.control.surge_radial_immersion;
+    s.turn_immersion = p.tool.control.turn_radial_immersion;
     s.tooth_force_limit_N = p.tool.tooth_force_limit_N;
     s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;

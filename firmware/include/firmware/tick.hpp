@@ -127,6 +127,8 @@ class ForceControlTick {
         input.feed_hold = program.feed_hold;
         const auto& v = signals.axis_velocity_mm_s;
         input.path_speed_mm_s = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        input.velocity_x_mm_s = v[0];
+        input.velocity_y_mm_s = v[1];
         input.plunging = v[2] * v[2] > v[0] * v[0] + v[1] * v[1] && v[2] * v[2] > Scalar(0.25F);
         control::CutEstimateForControl<Scalar>& cut = input.cut;
         cut.fresh = fresh;
@@ -145,9 +147,13 @@ class ForceControlTick {
             const Scalar lead_s = reaction_s_ + Scalar(0.5F) * e.window_s;
             cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
         }
-        cut.surge_ratio = e.surge_ratio;
         cut.cutting_share = e.cutting_share;
-        cut.surge_cutting_share = e.surge_cutting_share;
+        cut.surge_ratio = e.surge.ratio;
+        cut.surge_cutting_share = e.surge.cutting_share;
+        cut.turn_ratio = e.turn.ratio;
+        cut.turn_cutting_share = e.turn.cutting_share;
+        cut.section_mm2 = e.section_mm2;
+        cut.section_noise_mm2 = e.section_noise_mm2;
         cut.feed_exponent = e.feed_exponent;
         cut.feed_mm_s = e.feed_mm_s;
         cut.spindle_speed_rad_s = e.spindle_speed_rad_s;

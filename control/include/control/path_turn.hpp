@@ -1,0 +1,71 @@
+#pragma once
+
+/// Notices that the path turns sharply, so that what the tool has met says little about what it meets next: a step over
+/// into the wall, a corner of a pocket.
+///
+/// Two signs, either suffices:
+///  - the direction of travel differs by more than 30° from its mean over the last 0.5 mm. An arc of 2 mm radius and
+///    more turns by less;
+///  - the axes slow down to less than 60 % of what override and program ask for: a CNC brakes before a corner, and so
+///    tells of it before it comes. (A twentieth of F is left for its lag behind a rising override.)
+/// Speeds in mm/s, of any sign; below 0.5 mm/s there is no direction. Some twenty operations. Not thread-safe.
+
+namespace millforce::control {
+
+template <typename Scalar>
+class PathTurn {
+  public:
+    struct Motion {
+        Scalar dt_s{0};
+        Scalar velocity_x_mm_s{0};
+        Scalar velocity_y_mm_s{0};
+        Scalar path_speed_mm_s{0};
+        Scalar commanded_mm_s{0};        ///< override × F; 0: not known
+        Scalar programmed_feed_mm_s{0};  ///< F; 0: not known
+    };
+
+    /// Whether a sharp turn is noticed in this step.
+    bool update(const Motion& motion) {
+        const bool slowed = has_slowed(motion);
+        return has_turned(motion) || slowed;
+    }
+
+  private:
+    bool has_turned(const Motion& m) {
+        constexpr Scalar memory_mm = static_cast<Scalar>(0.5L);
+        constexpr Scalar cos2_of_turn = static_cast<Scalar>(0.75L);
+        const Scalar v2 = m.velocity_x_mm_s * m.velocity_x_mm_s + m.velocity_y_mm_s * m.velocity_y_mm_s;
+        if (!(v2 > static_cast<Scalar>(0.25L)) || !(m.path_speed_mm_s > Scalar(0))) {
+            return false;
+        }
+        // v weighted by the way gone: only its direction is used, so |v| may stay in it.
+        const Scalar way_mm = m.path_speed_mm_s * m.dt_s;
+        const Scalar share = way_mm / (way_mm + memory_mm);
+        const Scalar along = m.velocity_x_mm_s * mean_x_ + m.velocity_y_mm_s * mean_y_;
+        const Scalar mean2 = mean_x_ * mean_x_ + mean_y_ * mean_y_;
+        const bool known = mean2 > Scalar(0);
+        const bool turned = known && (along < Scalar(0) || along * along < cos2_of_turn * v2 * mean2);
+        const Scalar taken = turned || !known ? Scalar(1) : share;
+        mean_x_ += (m.velocity_x_mm_s - mean_x_) * taken;
+        mean_y_ += (m.velocity_y_mm_s - mean_y_) * taken;
+        return turned;
+    }
+
+    bool has_slowed(const Motion& m) {
+        const Scalar lag = static_cast<Scalar>(0.05L) * m.programmed_feed_mm_s;
+        const Scalar expected = m.commanded_mm_s - lag;
+        if (!(expected > Scalar(0))) {
+            return false;
+        }
+        const bool at_speed = m.path_speed_mm_s > static_cast<Scalar>(0.8L) * expected;
+        const bool slowed = was_at_speed_ && m.path_speed_mm_s < static_cast<Scalar>(0.6L) * expected;
+        was_at_speed_ = at_speed || (was_at_speed_ && !slowed);
+        return slowed;
+    }
+
+    Scalar mean_x_{0};
+    Scalar mean_y_{0};
+    bool was_at_speed_ = false;
+};
+
+}  // namespace millforce::control

@@ -1,0 +1,76 @@
+#include "control/cut_trend.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+#include <random>
+
+using Trend = millforce::control::CutTrend<float>;
+
+namespace {
+
+/// Steps of 0.05 mm along a cut whose section is `section(s)`, seen with noise; returns the way until it is called
+/// fading, or a negative number.
+template <typename Section>
+double way_until_fading(Section section, double length_mm, double noise_share = 0.0) {
+    Trend trend;
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (double s = 0.0; s < length_mm; s += 0.05) {
+        const double noise = noise_share * section(0.0);
+        trend.update(static_cast<float>(section(s) + noise * normal(random)), static_cast<float>(noise), 0.05F);
+        if (trend.fading()) {
+            return s;
+        }
+    }
+    return -1.0;
+}
+
+}  // namespace
+
+TEST_GROUP(CutTrend){};
+
+TEST(CutTrend, takes_a_steady_cut_and_a_growing_one_for_no_fade) {
+    CHECK(way_until_fading([](double) { return 10.0; }, 50.0) < 0.0);
+    CHECK(way_until_fading([](double s) { return 1.0 + s; }, 50.0) < 0.0);
+}
+
+TEST(CutTrend, takes_a_ramp_in_depth_for_no_fade) {
+    CHECK(way_until_fading([](double s) { return 9.0 - 7.0 * s / 110.0; }, 110.0) < 0.0);
+}
+
+TEST(CutTrend, sees_a_cut_that_ends_over_a_cutters_radius_before_half_of_it_is_gone) {
+    const double seen_mm = way_until_fading([](double s) { return 10.0 * std::fmax(1.0 - s / 5.0, 0.0); }, 5.0);
+    CHECK(seen_mm > 0.0);
+    CHECK(seen_mm < 2.5);
+    const double with_noise_mm =
+        way_until_fading([](double s) { return 10.0 * std::fmax(1.0 - s / 5.0, 0.0); }, 5.0, 0.05);
+    CHECK(with_noise_mm > 0.0);
+    CHECK(with_noise_mm < 3.5);
+}
+
+TEST(CutTrend, ends_a_millimetre_after_a_step_down) {
+    Trend trend;
+    for (int k = 0; k < 100; ++k) {
+        trend.update(10.0F, 0.2F, 0.05F);
+    }
+    trend.update(3.0F, 0.2F, 0.05F);
+    CHECK(trend.fading());
+    double way_mm = 0.0;
+    while (trend.fading() && way_mm < 10.0) {
+        trend.update(3.0F, 0.2F, 0.05F);
+        way_mm += 0.05;
+    }
+    DOUBLES_EQUAL(1.0, way_mm, 0.1);
+}
+
+TEST(CutTrend, is_not_moved_by_what_is_no_number) {
+    Trend trend;
+    trend.update(10.0F, 0.2F, 0.05F);
+    trend.update(NAN, 0.2F, 0.05F);
+    trend.update(10.0F, 0.2F, NAN);
+    trend.update(-1.0F, 0.2F, 0.05F);
+    CHECK_FALSE(trend.fading());
+    trend.update(1.0F, 0.2F, 0.05F);
+    CHECK(trend.fading());
+}

@@ -1,0 +1,97 @@
+#include "control/path_turn.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+#include <numbers>
+
+using Turn = millforce::control::PathTurn<float>;
+
+namespace {
+
+constexpr double feed_mm_s = 20.0;
+constexpr double dt_s = 0.001;
+
+Turn::Motion motion_at(double direction_rad, double speed_mm_s = feed_mm_s, double commanded_mm_s = feed_mm_s) {
+    return {static_cast<float>(dt_s), static_cast<float>(speed_mm_s * std::cos(direction_rad)),
+            static_cast<float>(speed_mm_s * std::sin(direction_rad)), static_cast<float>(speed_mm_s),
+            static_cast<float>(commanded_mm_s), static_cast<float>(feed_mm_s)};
+}
+
+int turns_on_an_arc(double radius_mm) {
+    Turn turn;
+    int turns = 0;
+    for (double angle = 0.0; angle < 2.0 * std::numbers::pi; angle += feed_mm_s * dt_s / radius_mm) {
+        turns += turn.update(motion_at(angle)) ? 1 : 0;
+    }
+    return turns;
+}
+
+/// Goes straight, then turns by `angle_rad` as a drive does whose position loop follows at 80 /s: the way after the
+/// corner until it is noticed.
+double way_until_noticed_mm(double angle_rad) {
+    Turn turn;
+    for (int k = 0; k < 100; ++k) {
+        CHECK_FALSE(turn.update(motion_at(0.3)));
+    }
+    for (double t = 0.0; t < 0.2; t += dt_s) {
+        const double share = 1.0 - std::exp(-80.0 * t);
+        const double x = (1.0 - share) + share * std::cos(angle_rad);
+        const double y = share * std::sin(angle_rad);
+        if (turn.update(motion_at(0.3 + std::atan2(y, x), feed_mm_s * std::hypot(x, y), 0.0))) {
+            return feed_mm_s * t;
+        }
+    }
+    return -1.0;
+}
+
+}  // namespace
+
+TEST_GROUP(PathTurn){};
+
+TEST(PathTurn, notices_a_corner_within_a_third_of_a_millimetre) {
+    for (const double angle : {60.0, 90.0, 120.0, 179.0, -90.0}) {
+        const double way_mm = way_until_noticed_mm(angle * std::numbers::pi / 180.0);
+        CHECK(way_mm >= 0.0);
+        CHECK(way_mm < 0.34);
+    }
+}
+
+TEST(PathTurn, takes_no_arc_of_two_millimetres_or_more_for_a_corner) {
+    LONGS_EQUAL(0, turns_on_an_arc(2.0));
+    LONGS_EQUAL(0, turns_on_an_arc(25.0));
+    CHECK(turns_on_an_arc(0.2) > 0);
+}
+
+TEST(PathTurn, notices_that_the_machine_brakes_unasked_once) {
+    Turn turn;
+    int noticed = 0;
+    for (int k = 0; k < 100; ++k) {
+        const double speed = k < 50 ? 20.0 : 20.0 - 2.0 * std::fmin(k - 50, 8.0);
+        noticed += turn.update(motion_at(0.0, speed)) ? 1 : 0;
+    }
+    LONGS_EQUAL(1, noticed);
+}
+
+TEST(PathTurn, does_not_take_a_falling_or_rising_override_for_braking) {
+    Turn turn;
+    double speed = 20.0;
+    double commanded = 20.0;
+    for (int k = 0; k < 4000; ++k) {
+        const bool falling = (k / 500) % 2 == 0;
+        commanded = falling ? std::fmax(commanded - 0.8, 2.0) : std::fmin(commanded + 0.04, 20.0);
+        // 10 ms behind, at most 2000 mm/s² faster or slower.
+        speed += std::fmax(std::fmin((commanded - speed) * dt_s / 0.010, 2.0), -2.0);
+        CHECK_FALSE(turn.update(motion_at(0.0, speed, commanded)));
+    }
+}
+
+TEST(PathTurn, is_not_misled_by_standing_still_or_by_what_is_no_number) {
+    Turn turn;
+    CHECK_FALSE(turn.update(motion_at(0.0)));
+    CHECK_FALSE(turn.update(motion_at(2.0, 0.1, 0.0)));
+    CHECK_FALSE(turn.update(motion_at(std::nan(""))));
+    CHECK_FALSE(turn.update({}));
+    CHECK_FALSE(turn.update(motion_at(0.0)));
+    CHECK(turn.update(motion_at(2.0)));
+}
