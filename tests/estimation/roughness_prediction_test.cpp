@@ -168,10 +168,10 @@ TEST(RoughnessPrediction, finds_the_feed_at_which_the_upper_bound_meets_the_limi
     };
     const double limit = upper(0.017);
     const auto ceiling = predictor.feed_ceiling(middle, f_x, f_z, limit);
-    CHECK(ceiling.valid && ceiling.reachable);
+    CHECK(ceiling.valid && ceiling.reachable && ceiling.in_range);
     DOUBLES_EQUAL(0.017, ceiling.feed_mm_rev, 1e-5);
     CHECK(upper(ceiling.feed_mm_rev) <= limit);
-    DOUBLES_EQUAL(0.03, predictor.feed_ceiling(middle, f_x, f_z, upper(0.03) * 2.0).feed_mm_rev, 0.0);
+    DOUBLES_EQUAL(0.03, predictor.feed_ceiling(middle, f_x, f_z, upper(0.03) * 2.0).feed_mm_rev, 1e-12);
 }
 
 TEST(RoughnessPrediction, stays_at_the_lowest_fitted_feed_where_no_feed_keeps_the_limit) {
@@ -180,6 +180,15 @@ TEST(RoughnessPrediction, stays_at_the_lowest_fitted_feed_where_no_feed_keeps_th
     CHECK(ceiling.valid);
     CHECK(!ceiling.reachable);
     DOUBLES_EQUAL(0.01, ceiling.feed_mm_rev, 0.0);
+}
+
+TEST(RoughnessPrediction, gives_a_ceiling_out_of_range_where_the_cut_is) {
+    const RoughnessPredictor<double> predictor(fitted_model());
+    const auto ceiling = predictor.feed_ceiling({14000, 0.02, 6, 0.4, 1}, force(90), force(-100), 3.0);
+    CHECK(ceiling.valid);
+    CHECK(!ceiling.in_range);
+    // The feed itself may be out: the ceiling is another one.
+    CHECK(predictor.feed_ceiling({10000, 0.002, 6, 0.4, 1}, force(90), force(-100), 3.0).in_range);
 }
 
 TEST(RoughnessPrediction, gives_no_ceiling_where_a_slower_feed_would_not_help) {

@@ -158,11 +158,13 @@ class RoughnessPredictor {
     struct FeedCeiling {
         bool valid = false;      ///< feed_mm_rev is a ceiling
         bool reachable = false;  ///< the limit can be kept within the fitted feeds; else feed_mm_rev is the lowest of them
+        bool in_range = false;   ///< the cut at this feed is like those of the tests
         Scalar feed_mm_rev{0};
     };
 
     /// No ceiling without an interval, without a told range of feeds, or where R does not grow with the feed (a₂ ≤ 0:
-    /// a slower feed would not help). Cost: 18 times 15 products and a root.
+    /// a slower feed would not help). Cost: 18 times 15 products and a root, and
+    /// two predictions.
     [[nodiscard]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
                                            const Measurement<Scalar>& f_z, Scalar limit_um) const;
 
@@ -171,6 +173,7 @@ class RoughnessPredictor {
 
     [[nodiscard]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
                                                             Scalar ratio_ln_variance) const;
+    [[nodiscard]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z, Scalar ratio_ln_variance) const;
     [[nodiscard]] static bool are_usable(const RoughnessConditions<Scalar>& cut);
     [[nodiscard]] RoughnessValues<Scalar> logarithms(const RoughnessConditions<Scalar>& cut) const;
     [[nodiscard]] Scalar ln_roughness(const RoughnessValues<Scalar>& z) const;
@@ -300,6 +303,32 @@ RoughnessPrediction<Scalar> RoughnessPredictor<Scalar>::prediction_of(const Roug
     return prediction;
 }
 
+/// The feed, as ln(f/reference), at which the upper bound of R meets its limit, by bisection; `z` is at the highest fitted
+/// feed. Where none does: below the lowest fitted feed.
+template <typename Scalar>
+Scalar RoughnessPredictor<Scalar>::highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
+                                                       Scalar ratio_ln_variance) const {
+    using std::log;
+    const auto keeps_limit = [&](Scalar z_feed) {
+        z[roughness_feed] = z_feed;
+        return ln_roughness(z) + half_interval(leverage(z), ratio_ln_variance) <= ln_limit;
+    };
+    Scalar broken = z[roughness_feed];
+    if (keeps_limit(broken)) {
+        return broken;
+    }
+    Scalar kept = log(model_.minimum[roughness_feed]) - ln_reference_[roughness_feed];
+    if (!keeps_limit(kept)) {
+        return kept - Scalar(1);
+    }
+    constexpr int halvings = 16;
+    for (int k = 0; k < halvings; ++k) {
+        const Scalar middle = Scalar(0.5F) * (kept + broken);
+        (keeps_limit(middle) ? kept : broken) = middle;
+    }
+    return kept;
+}
+
 template <typename Scalar>
 typename RoughnessPredictor<Scalar>::FeedCeiling RoughnessPredictor<Scalar>::feed_ceiling(
     RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z,
@@ -315,27 +344,17 @@ typename RoughnessPredictor<Scalar>::FeedCeiling RoughnessPredictor<Scalar>::fee
     if (!has_interval_ || !ratio.valid || !has_feeds || !(limit_um > Scalar(0)) || !are_usable(cut)) {
         return {};
     }
-    const Scalar ln_limit = log(limit_um);
     const Scalar ratio_ln_variance = ratio.variance / square(ratio.value);
-    RoughnessValues<Scalar> z = logarithms(cut);
-    const auto keeps_limit = [&](Scalar z_feed) {
-        z[roughness_feed] = z_feed;
-        return ln_roughness(z) + half_interval(leverage(z), ratio_ln_variance) <= ln_limit;
-    };
-    Scalar kept = log(lowest) - ln_reference_[roughness_feed];
-    Scalar broken = z[roughness_feed];
-    if (keeps_limit(broken)) {
-        return {true, true, highest};
-    }
-    if (!keeps_limit(kept)) {
-        return {true, false, lowest};
-    }
-    constexpr int halvings = 16;
-    for (int k = 0; k < halvings; ++k) {
-        const Scalar middle = Scalar(0.5F) * (kept + broken);
-        (keeps_limit(middle) ? kept : broken) = middle;
-    }
-    return {true, true, exp(kept + ln_reference_[roughness_feed])};
+    const Scalar feed =
+        exp(highest_feed_within(log(limit_um), logarithms(cut), ratio_ln_variance) + ln_reference_[roughness_feed]);
+    FeedCeiling ceiling;
+    ceiling.reachable = feed > lowest * (Scalar(1) - static_cast<Scalar>(0.01L));
+    ceiling.feed_mm_rev = clamp(feed, lowest, highest);
+    cut[roughness_feed] = ceiling.feed_mm_rev;
+    const RoughnessPrediction<Scalar> there = prediction_of(cut, ratio_ln_variance);
+    ceiling.valid = there.has_interval;
+    ceiling.in_range = there.is_sure();
+    return ceiling;
 }
 
 }  // namespace millforce::estimation
