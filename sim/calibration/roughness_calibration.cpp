@@ -203,6 +203,19 @@ bool check_left_out(std::ostream& out, const std::vector<TestRow>& rows, unsigne
     return holds;
 }
 
+/// C holds for 1 rpm, 1 mm/rev and so on, far outside of the tests: neither it nor its error need be numbers that a tool
+/// file takes. Where C is none, the data are no cutting tests.
+double constant_standard_error(const RoughnessFit<double>& fit) {
+    constexpr double smallest_um = 1e-30;  // float keeps it
+    constexpr double largest_error_um = 1e12;
+    if (!(fit.model.constant_um >= smallest_um)) {
+        throw InputError(fmt::format("the data give 'constant_um' = {:.6g} um; expected a value from {} to {}",
+                                     fit.model.constant_um, smallest_um, constant_key.maximum));
+    }
+    const double error_um = fit.model.constant_um * fit.constant_ln_standard_error;
+    return error_um <= largest_error_um ? error_um : no_estimate;
+}
+
 void write_model(const RoughnessCalibrationOptions& options, const std::string& measure,
                  const RoughnessFit<double>& fit) {
     AtomicFile file(options.output);
@@ -223,7 +236,7 @@ void write_model(const RoughnessCalibrationOptions& options, const std::string& 
         if (exponent != exponent_keys.end()) {
             standard_error = fit.exponent_standard_error[static_cast<std::size_t>(exponent - exponent_keys.begin())];
         } else if (key.name == constant_key.name) {
-            standard_error = fit.model.constant_um * fit.constant_ln_standard_error;
+            standard_error = constant_standard_error(fit);
         }
         if (row.choices != nullptr) {
             toml.key(key.name, measure);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+#include <random>
 
 #include <CppUTest/TestHarness.h>
 
@@ -168,4 +168,55 @@ TEST(RoughnessTick, does_not_raise_the_feed_under_a_limit_without_a_prediction) 
     CHECK(other.roughness().valid);
     cut(other, p, 800);
     CHECK(other.control().ratio <= at_contact);
+}
+
+TEST(RoughnessTick, keeps_the_upper_bound_below_its_limit_in_a_loop_whose_surface_grows_rough) {
+    Parameters p = parameters_with(model());
+    p.tool.control.Ra_limit_um = 2.0F;
+    ForceControlTick<float> tick(p);
+    float speed_share = 0.5F;  // of the programmed feed; follows the override with a lag of 20 ms
+    float slowest = 10.0F;
+    for (int k = 0; k < 6000; ++k) {
+        const float z_share = k < 3000 ? 1.0F : 1.15F;  // F_x/F_z falls from 0.75 to 0.65: R_a grows by a fourth
+        hal::DriveSample sample = sample_of(k, p);
+        sample.axis_current_A[2] += k < 200 ? 0.0F : (z_share - 1.0F) * f_z_N / 120.0F;
+        for (float& velocity : sample.axis_velocity_mm_s) {
+            velocity *= speed_share;
+        }
+        speed_share += 0.05F * (tick.step(sample, program()).ratio - speed_share);
+        const bool is_settled = (k > 2000 && k < 3000) || k > 3500;
+        if (is_settled) {
+            CHECK(tick.roughness().is_sure());
+            CHECK(tick.roughness().high_um < 1.005F * 2.0F);
+            CHECK(tick.roughness().high_um > 0.97F * 2.0F);  // and no slower than that takes
+            CHECK(tick.control().limit == Limit::roughness);
+        }
+        slowest = k < 3000 ? speed_share : slowest;
+    }
+    CHECK(speed_share < 0.9F * slowest);
+}
+
+TEST(RoughnessTick, gives_a_sound_ratio_and_no_rise_for_the_roughness_sake_whatever_the_sample_says) {
+    std::mt19937 engine(815);
+    const auto anything = [&engine](float sensible) {
+        const float extremes[] = {std::nanf(""), INFINITY, -INFINITY, 3e38F, -3e38F, 1e-40F, 0.0F, -1.0F};
+        return engine() % 8U == 0U ? extremes[engine() % 8U] : sensible;
+    };
+    Parameters p = parameters_with(model());
+    ForceControlTick<float> free(p);
+    p.tool.control.Ra_limit_um = 1.8F;
+    ForceControlTick<float> limited(p);
+    for (int k = 0; k < 20000; ++k) {
+        hal::DriveSample sample = sample_of(k % 3000, p);
+        sample.spindle_count = static_cast<std::uint32_t>(static_cast<float>(k) * 273.07F);
+        sample.time_us = static_cast<std::uint32_t>(k) * 1000U;
+        sample.axis_current_A[2] = anything(sample.axis_current_A[2]);
+        sample.axis_current_A[0] = anything(sample.axis_current_A[0]);
+        sample.axis_velocity_mm_s[2] = anything(sample.axis_velocity_mm_s[2]);
+        const float ratio = limited.step(sample, program()).ratio;
+        CHECK(ratio >= 0.1F && ratio <= free.step(sample, program()).ratio + 1e-6F);
+        if (limited.roughness().valid) {
+            CHECK(limited.roughness().roughness_um > 0.0F && std::isfinite(limited.roughness().roughness_um));
+        }
+    }
 }
