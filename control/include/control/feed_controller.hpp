@@ -323,7 +323,9 @@ class FeedController {
             cap_by_state(wish, input);
             wish.cap(ratio_of_feed_per_tooth(parameters_.max_feed_per_tooth_mm, input), Limit::feed_per_tooth);
             cap_by_force(wish, input);
-            cap_by_surface(wish, input);
+            if (parameters_.Ra_limit_um > Scalar(0)) {
+                cap_by_surface(wish, input);
+            }
         }
         if (input.rapid) {
             wish = {Scalar(1), Limit::none};  // a rapid is the program's word that nothing is in the way
@@ -409,9 +411,6 @@ class FeedController {
     /// Remembers the last ceiling of the cut. Without a prediction, or outside the range of its tests, the feed may fall
     /// but not rise.
     void cap_by_surface(Wish& wish, const ControlInput<Scalar>& input) {
-        if (!(parameters_.Ra_limit_um > Scalar(0))) {
-            return;
-        }
         if (state_ == CutState::air || state_ == CutState::exit) {
             surface_ceiling_ = parameters_.override_max;
             return;

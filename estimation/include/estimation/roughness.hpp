@@ -28,7 +28,7 @@
 /// h₀ is held as 1/n + zᵀ M z: z the logarithms of the variables over their geometric means in the tests, M = (ZᵀZ)⁻¹
 /// of the centred tests. This is the same number, and float keeps it.
 ///
-/// Memory: 40 scalars of model, 12 of the predictor. No heap. Not thread-safe. Valid from 1 degree of freedom.
+/// Memory: 49 scalars, the model included. No heap. Not thread-safe. Valid from 1 degree of freedom.
 
 namespace millforce::estimation {
 

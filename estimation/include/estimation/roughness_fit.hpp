@@ -17,7 +17,7 @@
 /// than 2 % (rms): then the tests hold nothing of it, and another scatter would give another exponent. A shop with one
 /// tool holds its diameter: an exponent that is held is 0 and no parameter, and the model is for that diameter alone.
 ///
-/// Cost: three passes over the tests, one 6 × 6 decomposition. Memory: 150 scalars and the caller's tests. No heap.
+/// Cost: three passes over the tests, one 6 × 6 decomposition. Memory: 160 scalars and the caller's tests. No heap.
 
 namespace millforce::estimation {
 

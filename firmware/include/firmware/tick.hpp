@@ -112,8 +112,8 @@ class ForceControlTick {
     }
 
     /// From F_x/F_z, F_z by the z drive's current: where z stands its force hides in static friction, and there is no
-    /// prediction. F_x is the force along the feed.
-    void predict_roughness(const estimation::DriveSignals<Scalar>& signals) {
+    /// prediction. F_x is the force along the feed. Not inlined: once per tooth period, and every tick is shorter for it.
+    [[gnu::noinline]] void predict_roughness(const estimation::DriveSignals<Scalar>& signals) {
         using std::sqrt;
         if (!roughness_model_.has_model()) {
             return;
