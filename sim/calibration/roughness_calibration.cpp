@@ -46,9 +46,9 @@ const char* column_of(int variable) {
 }
 
 std::string measure_of(const RoughnessCalibrationOptions& options) {
-    return !options.measure.empty()                                      ? options.measure
+    return !options.measure.empty()                                    ? options.measure
            : CsvReader(options.data.front()).find("Ra_um").has_value() ? "Ra"
-                                                                         : "Rz";
+                                                                       : "Rz";
 }
 
 /// |F_x/F_z| of a row: as it is given, or from the two forces.
@@ -127,9 +127,10 @@ RoughnessFit<double> fit_without(const std::vector<TestRow>& rows, std::size_t l
 /// An exponent that the tests cannot determine, and the variation that is missing.
 std::string what_the_tests_lack(const RoughnessFit<double>& fit) {
     if (fit.degrees_of_freedom < 1) {
-        return fmt::format("'residual_ln_sd' cannot be determined: {} tests with a measured roughness; expected at least "
-                           "{}, one more than parameters",
-                           fit.tests, fit.tests + 1 - fit.degrees_of_freedom);
+        return fmt::format(
+            "'residual_ln_sd' cannot be determined: {} tests with a measured roughness; expected at least "
+            "{}, one more than parameters",
+            fit.tests, fit.tests + 1 - fit.degrees_of_freedom);
     }
     for (int j = 0; j < variables; ++j) {
         if (fit.determined(j)) {
@@ -143,9 +144,10 @@ std::string what_the_tests_lack(const RoughnessFit<double>& fit) {
                 "values, or --hold {}",
                 exponent_keys[k].name, column_of(j), fit.model.reference[k], column_of(j));
         }
-        return fmt::format("'{}' cannot be determined: {} changes only along with other columns, {} above all; expected "
-                           "tests that change {} alone",
-                           exponent_keys[k].name, column_of(j), column_of(other), column_of(j));
+        return fmt::format(
+            "'{}' cannot be determined: {} changes only along with other columns, {} above all; expected "
+            "tests that change {} alone",
+            exponent_keys[k].name, column_of(j), column_of(other), column_of(j));
     }
     return {};
 }
@@ -166,8 +168,8 @@ void print_model(std::ostream& out, const std::string& measure, const RoughnessF
         }
     }
     print_fitted(out, {middle_key, fit.reference_um, fit.reference_um * fit.reference_ln_standard_error});
-    const double half = estimation::student_t_975(model.degrees_of_freedom) * model.residual_ln_sd *
-                        std::sqrt(1.0 + 1.0 / model.tests);
+    const double half =
+        estimation::student_t_975(model.degrees_of_freedom) * model.residual_ln_sd * std::sqrt(1.0 + 1.0 / model.tests);
     out << fmt::format("  tests scatter {:.1f} % about the model, which explains {:.1f} % of the variance of ln {}\n",
                        100.0 * model.residual_ln_sd, 100.0 * fit.determination, measure);
     out << fmt::format("  95 % of new tests lie within {:.3f} to {:.3f} times the prediction, at the tests' middle\n",
@@ -203,8 +205,8 @@ bool check_left_out(std::ostream& out, const std::vector<TestRow>& rows, unsigne
     return holds;
 }
 
-/// C holds for 1 rpm, 1 mm/rev and so on, far outside of the tests: neither it nor its error need be numbers that a tool
-/// file takes. Where C is none, the data are no cutting tests.
+/// C holds for 1 rpm, 1 mm/rev and so on, far outside of the tests: neither it nor its error need be numbers that a
+/// tool file takes. Where C is none, the data are no cutting tests.
 double constant_standard_error(const RoughnessFit<double>& fit) {
     constexpr double smallest_um = 1e-30;  // float keeps it
     constexpr double largest_error_um = 1e12;

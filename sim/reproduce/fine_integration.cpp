@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-/// Force on the workpiece per mm² of chip section (width along `across` × thickness): `velocity` of the edge, `out` of the
-/// workpiece towards the chip, both unit vectors; the edge is inclined by `inclination` against `across`, trailing.
+/// Force on the workpiece per mm² of chip section (width along `across` × thickness): `velocity` of the edge, `out` of
+/// the workpiece towards the chip, both unit vectors; the edge is inclined by `inclination` against `across`, trailing.
 Vector3d pressure_of(const ShearedEdge& edge, double inclination, const Vector3d& velocity, const Vector3d& out,
                      const Vector3d& across) {
     const Vector3d along_edge = std::cos(inclination) * across - std::sin(inclination) * velocity;

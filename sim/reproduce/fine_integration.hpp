@@ -1,7 +1,7 @@
 #pragma once
 
-/// The cutting force of a helical end mill a second time, by brute force: the judge of the plant (sim/cutting), of which
-/// it uses nothing. It is slow and simple on purpose.
+/// The cutting force of a helical end mill a second time, by brute force: the judge of the plant (sim/cutting), of
+/// which it uses nothing. It is slow and simple on purpose.
 ///
 /// - The chip is where the ray from the axis meets the path of the tooth before, found on that path by bisection.
 /// - The force on an edge element comes from vectors: the tool pushes along the normal of its rake face and rubs along
@@ -9,8 +9,8 @@
 /// - Each edge is clipped to the arc [φ_st, φ_ex] and summed in equal steps; the average over a tooth pitch is a sum in
 ///   equal steps between the angles where an edge's end enters or leaves.
 ///
-/// Straight cut, equal teeth, no runout, no edge forces. Angles as everywhere: from +y, clockwise, x = feed; forces on the
-/// workpiece.
+/// Straight cut, equal teeth, no runout, no edge forces. Angles as everywhere: from +y, clockwise, x = feed; forces on
+/// the workpiece.
 
 namespace millforce::sim {
 

@@ -138,11 +138,11 @@ void add_exponents(const Published& paper, Reproduction& result) {
     }
     for (std::size_t j = 0; j < symbols.size(); ++j) {
         const double standard_error = sum_of_errors[j] / series;
-        result.figures.push_back({fmt::format("{}: exponent of {}, mean of {} series of 36 tests (standard error of one: "
-                                              "{:.3f}; bound: a tenth of it)",
-                                              paper.equation, symbols[j], series, standard_error),
-                                  "", paper.model.exponent[j], sum[j] / series, Judged::difference,
-                                  0.1 * standard_error});
+        result.figures.push_back(
+            {fmt::format("{}: exponent of {}, mean of {} series of 36 tests (standard error of one: "
+                         "{:.3f}; bound: a tenth of it)",
+                         paper.equation, symbols[j], series, standard_error),
+             "", paper.model.exponent[j], sum[j] / series, Judged::difference, 0.1 * standard_error});
         result.figures.push_back({fmt::format("{}: exponent of {}, series in which it is recovered within two standard "
                                               "errors (Student's t: 94.5 %)",
                                               paper.equation, symbols[j]),
@@ -212,7 +212,8 @@ void add_loop_coverage(const Published& paper, Reproduction& result) {
 
 /// Fig. 2 in kind: R_a over the ratio at V 10 000 rpm, f 0.03 mm/rev, D 0.3 mm.
 void add_figure_2(const Published& paper, Reproduction& result) {
-    Plot plot{fmt::format("{} over the cutting force ratio (Fig. 2)", paper.name), "F_x/F_z",
+    Plot plot{fmt::format("{} over the cutting force ratio (Fig. 2)", paper.name),
+              "F_x/F_z",
               fmt::format("{} in µm", paper.name),
               "V 10 000 rpm, f 0.03 mm/rev, D 0.3 mm. Lines: the published model for each tool diameter. Points: tests "
               "made with it. The larger the ratio, the smoother the surface.",
@@ -241,10 +242,8 @@ void add_figures_3_and_4(const Published& paper, const char* where, Reproduction
     Scatter scatter(paper.seed + 5U);
     const Predictor predictor(fit(table_1(paper.model, scatter)).model);
     constexpr int new_tests = 30;
-    std::vector<Test> tests;
-    for (int k = 0; k < new_tests; ++k) {
-        tests.push_back(held_out(paper.model, scatter));
-    }
+    std::vector<Test> tests(new_tests);
+    std::generate(tests.begin(), tests.end(), [&] { return held_out(paper.model, scatter); });
     std::sort(tests.begin(), tests.end(), [&](const Test& a, const Test& b) {
         return predictor.predict(a.cut).roughness_um < predictor.predict(b.cut).roughness_um;
     });
@@ -263,12 +262,13 @@ void add_figures_3_and_4(const Published& paper, const char* where, Reproduction
         low.y.push_back(prediction.low_um);
         high.y.push_back(prediction.high_um);
     }
-    result.plots.push_back({fmt::format("{} of {} new tests, measured and predicted ({})", paper.name, new_tests, where),
-                            "test, by predicted roughness",
-                            fmt::format("{} in µm", paper.name),
-                            "The model was fitted to 36 other tests. One new test in twenty is to fall outside of the "
-                            "band.",
-                            {low, high, predicted, measured}});
+    result.plots.push_back(
+        {fmt::format("{} of {} new tests, measured and predicted ({})", paper.name, new_tests, where),
+         "test, by predicted roughness",
+         fmt::format("{} in µm", paper.name),
+         "The model was fitted to 36 other tests. One new test in twenty is to fall outside of the "
+         "band.",
+         {low, high, predicted, measured}});
 }
 
 /// R_z/R_a by the two published models over Table 1, at the ratio 1.
@@ -280,17 +280,18 @@ void add_consistency(const std::array<Published, 2>& papers, Reproduction& resul
             for (const double phi : diameters_mm) {
                 for (const double D : depths_mm) {
                     const Cut cut{V, f, phi, D, 1.0};
-                    const double quotient = by_power_law_um(papers[1].model, cut) / by_power_law_um(papers[0].model, cut);
+                    const double quotient =
+                        by_power_law_um(papers[1].model, cut) / by_power_law_um(papers[0].model, cut);
                     smallest = std::min(smallest, quotient);
                     largest = std::max(largest, quotient);
                 }
             }
         }
     }
-    result.figures.push_back({"Eqs. 3 and 4: smallest R_z/R_a over Table 1, at F_x/F_z = 1", "", not_printed, smallest,
-                              Judged::shown});
-    result.figures.push_back({"Eqs. 3 and 4: largest R_z/R_a over Table 1, at F_x/F_z = 1", "", not_printed, largest,
-                              Judged::shown});
+    result.figures.push_back(
+        {"Eqs. 3 and 4: smallest R_z/R_a over Table 1, at F_x/F_z = 1", "", not_printed, smallest, Judged::shown});
+    result.figures.push_back(
+        {"Eqs. 3 and 4: largest R_z/R_a over Table 1, at F_x/F_z = 1", "", not_printed, largest, Judged::shown});
     result.deviations.push_back(fmt::format(
         "The two published models together give R_z/R_a from {:.1f} to {:.0f} over Table 1, mostly by the tool "
         "diameter's exponents (2.69 and 1.25). Milled surfaces have some 4 to 8: at small diameters the two models "
@@ -305,7 +306,8 @@ Reproduction reproduce_roughness() {
     using namespace roughness_reproduction;
     Reproduction result;
     result.name = "roughness";
-    result.title = "Surface roughness from the cutting force ratio in ball-end milling (Tangjitsitcharoen & Senjuntichaj)";
+    result.title =
+        "Surface roughness from the cutting force ratio in ball-end milling (Tangjitsitcharoen & Senjuntichaj)";
     const auto papers = published();
     for (const Published& paper : papers) {
         add_exponents(paper, result);
@@ -317,18 +319,20 @@ Reproduction reproduce_roughness() {
     add_figures_3_and_4(papers[1], "Fig. 3", result);
     add_figures_3_and_4(papers[0], "Fig. 4", result);
     const std::array<const char*, 6> deviations{
-        "The paper calls its power law an exponential function, and names the steel AISI 1045 in the text, 1050 in Table "
-        "1.",
+        "The paper calls its power law an exponential function, and names the steel AISI 1045 in the text, 1050 in "
+        "Table 1.",
         "It prints no measured roughness, no scatter, no number of tests and no range of F_x/F_z. Here: all 36 "
-        "combinations of Table 1, ln R scattering by 0.15, the ratio from 0.5 to 1.5. The published models enter the tool "
-        "library without an interval, and with a range that is not told for the ratio.",
-        "It draws the 95 % prediction interval and prints no formula. Here: Student's t with n − p degrees of freedom and "
-        "the leverage of the cut, in logarithms; so it is not symmetric in R, and R itself is the median.",
-        "The paper's forces come from a dynamometer. Here F_z is the z drive's current: the doubt of both forces is added "
-        "to the interval, and where z stands there is no prediction, since a standing drive hides force in friction.",
+        "combinations of Table 1, ln R scattering by 0.15, the ratio from 0.5 to 1.5. The published models enter the "
+        "tool library without an interval, and with a range that is not told for the ratio.",
+        "It draws the 95 % prediction interval and prints no formula. Here: Student's t with n − p degrees of "
+        "freedom and the leverage of the cut, in logarithms; so it is not symmetric in R, and R itself is the "
+        "median.",
+        "The paper's forces come from a dynamometer. Here F_z is the z drive's current: the doubt of both forces is "
+        "added to the interval, and where z stands there is no prediction, since a standing drive hides force in "
+        "friction.",
         "F_x is called the tangential force there. Here it is the force along the feed, whose drive moves.",
-        "A coverage holds over series of tests. Of one series of 36 the interval may cover less or more, since its own s "
-        "is known to 13 % only: it is shown beside.",
+        "A coverage holds over series of tests. Of one series of 36 the interval may cover less or more, since its "
+        "own s is known to 13 % only: it is shown beside.",
     };
     result.deviations.insert(result.deviations.begin(), deviations.begin(), deviations.end());
     return result;

@@ -6,7 +6,6 @@
 
 #include <CppUTest/TestHarness.h>
 
-
 #include <array>
 
 using namespace millforce::estimation;
@@ -95,8 +94,8 @@ TEST(RoughnessFit, is_the_textbooks_least_squares_with_its_prediction_interval) 
         DOUBLES_EQUAL(static_cast<double>(textbook.s * std::sqrt(textbook.inverse(j + 1, j + 1))),
                       found.exponent_standard_error[static_cast<std::size_t>(j)], 1e-10);
     }
-    DOUBLES_EQUAL(static_cast<double>(textbook.s * std::sqrt(textbook.inverse(0, 0))),
-                  found.constant_ln_standard_error, 1e-8);
+    DOUBLES_EQUAL(static_cast<double>(textbook.s * std::sqrt(textbook.inverse(0, 0))), found.constant_ln_standard_error,
+                  1e-8);
 }
 
 TEST(RoughnessFit, recovers_the_published_exponents_within_two_standard_errors_in_95_of_100_series_of_tests) {

@@ -138,8 +138,8 @@ TEST(RoughnessTick, holds_the_feed_where_the_upper_bound_of_R_a_meets_its_limit)
     const float feed_mm_rev = tick.control().ratio * program().programmed_feed_mm_s / turns_per_s;
     auto predicted = model();
     const millforce::estimation::RoughnessPredictor<float> predictor(predicted);
-    const auto then = predictor.predict({4000.0F, feed_mm_rev, 10.0F, 5.0F, 0.75F}, tick.estimate().feed_N,
-                                        tick.estimate().z_N);
+    const auto then =
+        predictor.predict({4000.0F, feed_mm_rev, 10.0F, 5.0F, 0.75F}, tick.estimate().feed_N, tick.estimate().z_N);
     DOUBLES_EQUAL(1.8, static_cast<double>(then.high_um), 0.01);
 }
 

@@ -37,8 +37,8 @@ TEST(Guan, every_figure_of_the_paper_and_every_promise_about_it_holds) {
 }
 
 TEST(Guan, fine_integration_has_the_orthogonal_force_of_a_thin_chip_in_closed_form) {
-    // Straight teeth, h → f_z sin φ: F_t per width = τ_s h cos(β − γ) / (sin φ_c cos(φ_c + β − γ)); mean torque of a slot
-    // N a_p R f_z K/π.
+    // Straight teeth, h → f_z sin φ: F_t per width = τ_s h cos(β − γ) / (sin φ_c cos(φ_c + β − γ)); mean torque of a
+    // slot N a_p R f_z K/π.
     const FineCut cut = slot(0.0, 1e-4);
     const double K = 600.0 * std::cos(0.3) / (std::sin(0.5) * std::cos(0.8));
     const double torque_Nm = 1e-3 * 4.0 * 2.0 * 5.0 * 1e-4 * K / pi;

@@ -11,8 +11,8 @@
 ///
 ///   R = C V^a₁ f^a₂ φ^a₃ D^a₄ ρ^a₅,   ρ = F_x/F_z
 ///
-/// V spindle speed (rpm), f feed (mm/rev), φ tool diameter and D depth of cut (mm), R is R_a or R_z (µm). The paper calls
-/// this power law an exponential function. Its two published models (ball end, AISI 1050):
+/// V spindle speed (rpm), f feed (mm/rev), φ tool diameter and D depth of cut (mm), R is R_a or R_z (µm). The paper
+/// calls this power law an exponential function. Its two published models (ball end, AISI 1050):
 ///
 ///   R_a = 7.5e-6 V^0.964 f^0.195 φ^2.69 D^0.917 ρ^−2.6     R_z = 2.91 V^0.16 f^0.438 φ^1.25 D^0.474 ρ^−2.84
 ///
@@ -54,15 +54,15 @@ enum class RoughnessMeasure : unsigned char { Ra, Rz };
 template <typename Scalar>
 struct RoughnessModel {
     static constexpr std::size_t pairs = 15;
-    Scalar measure{0};                   ///< index into RoughnessMeasure
-    Scalar constant_um{0};               ///< C; 0: there is no model
-    RoughnessValues<Scalar> exponent{};  ///< a₁ … a₅
-    RoughnessValues<Scalar> minimum{};   ///< range of the tests …
-    RoughnessValues<Scalar> maximum{};   ///< … 0: not told
-    RoughnessValues<Scalar> reference{};  ///< geometric means of the tests
-    Scalar tests{0};                     ///< n
-    Scalar degrees_of_freedom{0};        ///< n − p; 0: no interval
-    Scalar residual_ln_sd{0};            ///< s
+    Scalar measure{0};                     ///< index into RoughnessMeasure
+    Scalar constant_um{0};                 ///< C; 0: there is no model
+    RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
+    RoughnessValues<Scalar> minimum{};     ///< range of the tests …
+    RoughnessValues<Scalar> maximum{};     ///< … 0: not told
+    RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
+    Scalar tests{0};                       ///< n
+    Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
+    Scalar residual_ln_sd{0};              ///< s
     std::array<Scalar, pairs> leverage{};  ///< M, lower triangle by rows; see pair()
     Scalar largest_leverage{0};            ///< of a test on the fit; 0: not told
 
@@ -113,8 +113,8 @@ struct RoughnessPrediction {
     Scalar roughness_um{0};
     Scalar low_um{0};
     Scalar high_um{0};
-    Scalar leverage{0};      ///< h₀
-    unsigned outside{0};     ///< bit j: variable j lies outside the range of the tests; see also hidden_extrapolation
+    Scalar leverage{0};        ///< h₀
+    unsigned outside{0};       ///< bit j: variable j lies outside the range of the tests; see also hidden_extrapolation
     unsigned range_untold{0};  ///< bit j: nobody told the range of variable j
 
     /// Each variable is in its range, but no test had them together: h₀ is beyond that of any test.
@@ -157,7 +157,7 @@ class RoughnessPredictor {
     /// `cut`. Within the fitted feeds: what others would do to the surface nobody has measured.
     struct FeedCeiling {
         bool valid = false;      ///< feed_mm_rev is a ceiling
-        bool reachable = false;  ///< the limit can be kept within the fitted feeds; else feed_mm_rev is the lowest of them
+        bool reachable = false;  ///< a fitted feed keeps the limit; else feed_mm_rev is the lowest of them
         bool in_range = false;   ///< the cut at this feed is like those of the tests
         Scalar feed_mm_rev{0};
     };
@@ -173,7 +173,8 @@ class RoughnessPredictor {
 
     [[nodiscard]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
                                                             Scalar ratio_ln_variance) const;
-    [[nodiscard]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z, Scalar ratio_ln_variance) const;
+    [[nodiscard]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
+                                             Scalar ratio_ln_variance) const;
     [[nodiscard]] static bool are_usable(const RoughnessConditions<Scalar>& cut);
     [[nodiscard]] RoughnessValues<Scalar> logarithms(const RoughnessConditions<Scalar>& cut) const;
     [[nodiscard]] Scalar ln_roughness(const RoughnessValues<Scalar>& z) const;
@@ -303,8 +304,8 @@ RoughnessPrediction<Scalar> RoughnessPredictor<Scalar>::prediction_of(const Roug
     return prediction;
 }
 
-/// The feed, as ln(f/reference), at which the upper bound of R meets its limit, by bisection; `z` is at the highest fitted
-/// feed. Where none does: below the lowest fitted feed.
+/// The feed, as ln(f/reference), at which the upper bound of R meets its limit, by bisection; `z` is at the highest
+/// fitted feed. Where none does: below the lowest fitted feed.
 template <typename Scalar>
 Scalar RoughnessPredictor<Scalar>::highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
                                                        Scalar ratio_ln_variance) const {

@@ -32,15 +32,15 @@ template <typename Scalar>
 struct RoughnessFit {
     RoughnessModel<Scalar> model{};
     RoughnessValues<Scalar> exponent_standard_error{};
-    Scalar constant_ln_standard_error{0};  ///< of ln C, far outside the tests: R at their middle is known far better
-    Scalar reference_um{0};                ///< R at the geometric means of the tests …
+    Scalar constant_ln_standard_error{0};   ///< of ln C, far outside the tests: R at their middle is known far better
+    Scalar reference_um{0};                 ///< R at the geometric means of the tests …
     Scalar reference_ln_standard_error{0};  ///< … and how well it is known: s/√n
-    Scalar determination{0};               ///< share of the variance of ln R that the model explains, 0…1
+    Scalar determination{0};                ///< share of the variance of ln R that the model explains, 0…1
     int tests{0};
     int degrees_of_freedom{0};
-    int worst_test{-1};                    ///< index of the test furthest from the model …
-    Scalar worst_residual{0};              ///< … in standard deviations of its own residual, s √(1 − h)
-    unsigned undetermined{0};              ///< bit j: the tests cannot determine exponent j
+    int worst_test{-1};        ///< index of the test furthest from the model …
+    Scalar worst_residual{0};  ///< … in standard deviations of its own residual, s √(1 − h)
+    unsigned undetermined{0};  ///< bit j: the tests cannot determine exponent j
     std::array<int, static_cast<std::size_t>(roughness_variable_count)> goes_with{};  ///< see variable_it_goes_with
 
     /// False: too few tests, or an exponent is not determined. `model` is then not to be used.
@@ -276,7 +276,7 @@ void RoughnessFitSolver<Scalar>::compare_with_tests() {
     for (const RoughnessTest<Scalar>& test : tests_) {
         if (is_usable(test)) {
             const Vector row = row_of(test);
-            const Scalar leverage = row.dot(inverse_.lazyProduct(row));
+            const Scalar leverage = clamp(row.dot(inverse_.lazyProduct(row)), Scalar(0), Scalar(1));
             Scalar residual = log(test.roughness_um / result_.reference_um);
             for (int j = 0; j < count; ++j) {
                 residual -= model.exponent[static_cast<std::size_t>(j)] * row(1 + j);

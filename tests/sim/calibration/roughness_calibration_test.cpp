@@ -29,7 +29,8 @@ using Change = std::function<void(CuttingTest&)>;
 
 /// The 36 combinations of the paper's Table 1 with both published models, 10 % of scatter. Each sixth surface is by
 /// `odd` too rough or too smooth, in turn.
-std::string published_tests(const Change& change = [](CuttingTest&) {}, unsigned seed = 1, double odd = 1.0) {
+std::string published_tests(
+    const Change& change = [](CuttingTest&) {}, unsigned seed = 1, double odd = 1.0) {
     std::mt19937 engine(seed);
     int number = 0;
     std::normal_distribution<double> normal(0.0, 1.0);
@@ -45,8 +46,7 @@ std::string published_tests(const Change& change = [](CuttingTest&) {}, unsigned
                     const double Ra = 7.5e-6 * std::pow(t.V, 0.964) * std::pow(t.f, 0.195) * std::pow(t.phi, 2.69) *
                                       std::pow(t.D, 0.917) * std::pow(t.ratio, -2.6) * std::exp(0.1 * normal(engine));
                     const double Rz = 2.91 * std::pow(t.V, 0.16) * std::pow(t.f, 0.438) * std::pow(t.phi, 1.25) *
-                                      std::pow(t.D, 0.474) * std::pow(t.ratio, -2.84) *
-                                      std::exp(0.1 * normal(engine));
+                                      std::pow(t.D, 0.474) * std::pow(t.ratio, -2.84) * std::exp(0.1 * normal(engine));
                     ++number;
                     const double oddness = number % 12 == 0 ? odd : (number % 6 == 0 ? 1.0 / odd : 1.0);
                     text << t.V << ',' << t.f << ',' << t.phi << ',' << t.D << ',' << 20.0 * t.ratio << ",-20,"
@@ -134,16 +134,18 @@ TEST(RoughnessCalibration, writes_a_table_that_the_tool_file_takes_as_it_is) {
     const millforce::estimation::RoughnessPredictor<float> predictor(parameters.tool.roughness);
     const auto prediction = predictor.predict({10000.0F, 0.02F, 6.0F, 0.4F, 1.0F});
     CHECK(prediction.is_sure());
-    const double truth = 7.5e-6 * std::pow(1e4, 0.964) * std::pow(0.02, 0.195) * std::pow(6, 2.69) * std::pow(0.4, 0.917);
+    const double truth =
+        7.5e-6 * std::pow(1e4, 0.964) * std::pow(0.02, 0.195) * std::pow(6, 2.69) * std::pow(0.4, 0.917);
     DOUBLES_EQUAL(truth, static_cast<double>(prediction.roughness_um), 0.1 * truth);
     CHECK(prediction.high_um > 1.15F * prediction.roughness_um && prediction.high_um < 1.35F * prediction.roughness_um);
 }
 
 TEST(RoughnessCalibration, names_the_column_that_does_not_vary_and_holds_it_where_it_is_told_to) {
     const std::string data = published_tests([](CuttingTest& t) { t.phi = 6.0; });
-    CHECK(contains(calibrate(data).error,
-                   "'tool_diameter_exponent' cannot be determined: all tests have tool_diameter_mm of about 6; expected "
-                   "tests at clearly different values, or --hold tool_diameter_mm"));
+    CHECK(
+        contains(calibrate(data).error,
+                 "'tool_diameter_exponent' cannot be determined: all tests have tool_diameter_mm of about 6; expected "
+                 "tests at clearly different values, or --hold tool_diameter_mm"));
     const Run held = calibrate(data, "Ra", {"tool_diameter_mm"});
     LONGS_EQUAL(0, held.code);
     DOUBLES_EQUAL(0.0, held.value("tool_diameter_exponent"), 0.0);
@@ -154,8 +156,9 @@ TEST(RoughnessCalibration, names_the_column_that_does_not_vary_and_holds_it_wher
 
 TEST(RoughnessCalibration, names_the_columns_that_change_only_together) {
     const Run run = calibrate(published_tests([](CuttingTest& t) { t.D = 0.05 * t.phi; }));
-    CHECK(contains(run.error, "'tool_diameter_exponent' cannot be determined: tool_diameter_mm changes only along with "
-                              "other columns, axial_depth_mm above all"));
+    CHECK(contains(run.error,
+                   "'tool_diameter_exponent' cannot be determined: tool_diameter_mm changes only along with "
+                   "other columns, axial_depth_mm above all"));
 }
 
 TEST(RoughnessCalibration, refuses_too_few_tests) {
@@ -181,7 +184,8 @@ TEST(RoughnessCalibration, leaves_out_rows_without_a_measurement_and_points_at_t
 }
 
 TEST(RoughnessCalibration, takes_a_ratio_in_place_of_the_two_forces) {
-    const std::string ratio_header = "force_ratio,spindle_speed_rpm,feed_mm_rev,tool_diameter_mm,axial_depth_mm,Rz_um\n";
+    const std::string ratio_header =
+        "force_ratio,spindle_speed_rpm,feed_mm_rev,tool_diameter_mm,axial_depth_mm,Rz_um\n";
     CHECK(contains(calibrate(ratio_header + "1,1000,0.1,6,0.3,2\n").error, "1 tests with a measured roughness"));
     CHECK(contains(calibrate(ratio_header + "0,1000,0.1,6,0.3,2\n").error, ":2: column 'force_ratio': '0' is out of"));
 }
