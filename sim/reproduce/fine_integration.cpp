@@ -9,6 +9,7 @@
 #include <vector>
 
 namespace millforce::sim {
+namespace brute_force {
 namespace {
 
 using Eigen::Vector3d;
@@ -91,9 +92,10 @@ std::vector<double> events_in_pitch(const FineCut& cut) {
 }
 
 }  // namespace
+}  // namespace brute_force
 
 double fine_chip_mm(const FineCut& cut, double phi_rad) {
-    const double pitch = full_turn / cut.teeth;
+    const double pitch = brute_force::full_turn / cut.teeth;
     const double R = cut.radius_mm;
     const double advance_per_rad = cut.feed_per_tooth_mm / pitch;
     // Where the tooth before stood, in the frame of the present axis, when it was at `angle`.
@@ -114,6 +116,7 @@ double fine_chip_mm(const FineCut& cut, double phi_rad) {
 }
 
 FineForce fine_force(const FineCut& cut, double spindle_angle_rad, int axial_steps) {
+    using namespace brute_force;
     const double pitch = full_turn / cut.teeth;
     FineForce total;
     for (int tooth = 0; tooth < cut.teeth; ++tooth) {
@@ -126,8 +129,8 @@ FineForce fine_force(const FineCut& cut, double spindle_angle_rad, int axial_ste
 }
 
 FineForce fine_average(const FineCut& cut, int angle_steps, int axial_steps) {
-    const double pitch = full_turn / cut.teeth;
-    const std::vector<double> events = events_in_pitch(cut);
+    const double pitch = brute_force::full_turn / cut.teeth;
+    const std::vector<double> events = brute_force::events_in_pitch(cut);
     FineForce mean;
     for (std::size_t part = 0; part + 1 < events.size(); ++part) {
         const double step = (events[part + 1] - events[part]) / angle_steps;

@@ -138,7 +138,7 @@ void add_chisel_edge(Reproduction& result) {
 
 /// Angle over which points of the periphery lie in a strip of this width, by counting.
 double counted_engagement_deg(double radial_width_mm) {
-    constexpr int points = 3600000;
+    constexpr int points = 360000;
     int inside = 0;
     for (int k = 0; k < points; ++k) {
         const double phi = pi * (k + 0.5) / points;  // the half in front of the axis
@@ -273,7 +273,7 @@ double average_difference(const FineCut& cut, bool with_bottom) {
 
 double momentary_difference(const FineCut& cut, bool with_bottom) {
     constexpr int angles = 90;
-    constexpr int axial_steps = 400;
+    constexpr int axial_steps = 200;
     const CuttingForce plant = plant_of(cut, with_bottom);
     const EngagementMap map = map_of(cut);
     double size_N = 0.0;
