@@ -308,8 +308,8 @@ void add_integration_of_cases(Reproduction& result) {
             {fmt::format("Plant against fine integration, five cases, {}: mean forces and torque", edges), "%",
              not_printed, 100.0 * average, Judged::at_most, 0.1});
         result.figures.push_back(
-            {fmt::format("Plant against fine integration, five cases, {}: at every angle, of the peak", edges), "%",
-             not_printed, 100.0 * momentary, Judged::at_most, 0.1});
+            {fmt::format("Plant against fine integration, five cases, {}: at 90 angles of a pitch, of the peak", edges),
+             "%", not_printed, 100.0 * momentary, Judged::at_most, 0.1});
     }
 }
 
