@@ -1,5 +1,7 @@
 #include "files/parameter_files.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -113,12 +115,25 @@ void read_file(ParameterFile file, const std::string& path, firmware::Parameters
     root.reject_unknown_keys();
 }
 
+/// A limit of R_a without a prediction of it would hold the feed where contact found it, and tell nobody why.
+void refuse_a_limit_that_cannot_be_kept(const std::string& path, const firmware::ToolParameters<float>& tool) {
+    const estimation::RoughnessPredictor<float> predictor(tool.roughness);
+    const bool is_Ra = tool.roughness.measure < 0.5F;
+    if (tool.control.Ra_limit_um > 0.0F && !(predictor.has_interval() && is_Ra)) {
+        throw InputError(fmt::format(
+            "{}: control.Ra_limit_um = {}: the file has no model of R_a with an interval; expected a [roughness] table as "
+            "'millforce calibrate roughness --measure Ra' writes it, or 0",
+            path, tool.control.Ra_limit_um));
+    }
+}
+
 }  // namespace
 
 firmware::Parameters<float> read_parameters(const std::string& machine_path, const std::string& tool_path) {
     firmware::Parameters<float> parameters;
     read_file(ParameterFile::machine, machine_path, parameters);
     read_file(ParameterFile::tool, tool_path, parameters);
+    refuse_a_limit_that_cannot_be_kept(tool_path, parameters.tool);
     return parameters;
 }
 

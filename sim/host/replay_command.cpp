@@ -33,7 +33,7 @@ struct ReplayOptions {
 
 constexpr std::string_view header =
     "time_s,state,tangential_force_N,feed_force_N,radial_immersion,radial_immersion_sd,axial_depth_mm,"
-    "axial_depth_sd_mm,peak_force_N,force_limit_N,override\n";
+    "axial_depth_sd_mm,peak_force_N,force_limit_N,override";
 
 void write_row(std::ostream& out, double time_s, const TracePoint& p, float ratio) {
     std::string line = CsvWriter::cell(time_s);
@@ -44,8 +44,42 @@ void write_row(std::ostream& out, double time_s, const TracePoint& p, float rati
         line += ',';
         line += CsvWriter::cell(static_cast<float>(estimate));
     }
-    out << line << ',' << CsvWriter::cell(ratio) << '\n';
+    out << line << ',' << CsvWriter::cell(ratio);
 }
+
+/// The columns of the roughness, where the tool has a model of it: value, 95 % interval, and 1 within the range of the
+/// model's tests or 0 outside.
+class RoughnessCells {
+  public:
+    explicit RoughnessCells(const estimation::RoughnessModel<float>& model)
+        : is_there_(model.constant_um > 0.0F), name_(model.measure < 0.5F ? "Ra" : "Rz") {}
+
+    void write_header(std::ostream& out) const {
+        out << (is_there_ ? fmt::format(",{0}_um,{0}_low_um,{0}_high_um,{0}_in_range", name_) : std::string());
+    }
+    void write(std::ostream& out, const estimation::RoughnessPrediction<float>& roughness) {
+        if (!is_there_) {
+            return;
+        }
+        const auto cell = [](bool is_known, float value) { return is_known ? CsvWriter::cell(value) : std::string(); };
+        out << ',' << cell(roughness.valid, roughness.roughness_um) << ','
+            << cell(roughness.has_interval, roughness.low_um) << ',' << cell(roughness.has_interval, roughness.high_um)
+            << ',' << (roughness.valid ? (roughness.in_range() ? "1" : "0") : "");
+        predicted_ += roughness.valid ? 1U : 0U;
+        outside_ += roughness.valid && !roughness.in_range() ? 1U : 0U;
+    }
+    [[nodiscard]] std::string summary() const {
+        return is_there_ ? fmt::format("{}: {} rows with a prediction, {} of them outside the fitted range\n", name_,
+                                       predicted_, outside_)
+                         : std::string();
+    }
+
+  private:
+    bool is_there_;
+    std::string name_;
+    std::size_t predicted_ = 0;
+    std::size_t outside_ = 0;
+};
 
 /// The program's status of each row: the recording's own, with F from the command line where it was given.
 hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOptions& options) {
@@ -69,7 +103,10 @@ int replay(const ReplayOptions& options) {
     // Without a file, an error in the last row must not leave half a table behind: rows go out when all are good.
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
+    RoughnessCells roughness(parameters.tool.roughness);
     out << header;
+    roughness.write_header(out);
+    out << '\n';
     Progress progress("replaying");
     std::size_t rows = 0;
     double next_row_s = -std::numeric_limits<double>::infinity();
@@ -80,6 +117,8 @@ int replay(const ReplayOptions& options) {
             TracePoint point;
             controller.describe(point);
             write_row(out, recording.time_s(), point, output.ratio);
+            roughness.write(out, controller.roughness());
+            out << '\n';
             next_row_s = recording.time_s() + options.interval_s;
             ++rows;
         }
@@ -89,7 +128,7 @@ int replay(const ReplayOptions& options) {
     }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n", options.output, rows);
+        fmt::print("{}: {} rows\n{}", options.output, rows, roughness.summary());
     } else {
         std::cout << held_back.str();
     }
@@ -105,7 +144,8 @@ void add_replay(CLI::App& app, int& exit_code) {
         "Columns of the recording: time_s, spindle_angle_rad, spindle_current_A, and AXIS_current_A and\n"
         "AXIS_velocity_mm_s for x, y, z as they are there. A recording of 'simulate --record' holds besides the index\n"
         "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
-        "An empty cell of the estimates is \"no estimate\".");
+        "An empty cell of the estimates is \"no estimate\". A tool with a [roughness] table adds its prediction with\n"
+        "the 95 % interval, and whether the cut is in the range of the model's tests.");
     command->add_option("log", options->log, "Recording")->required()->type_name("LOG.csv");
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");

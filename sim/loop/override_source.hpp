@@ -28,6 +28,7 @@ class MillforceController : public OverrideSource {
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(TracePoint& point) const override;
     [[nodiscard]] const estimation::CutEstimate<float>& estimate() const { return tick_.estimate(); }
+    [[nodiscard]] const estimation::RoughnessPrediction<float>& roughness() const { return tick_.roughness(); }
 
   private:
     firmware::ForceControlTick<float> tick_;

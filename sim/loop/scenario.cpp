@@ -126,7 +126,6 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
     };
     read("surge_radial_immersion", control.surge_radial_immersion, 0.0, 2.0);
     read("turn_radial_immersion", control.turn_radial_immersion, 0.0, 2.0);
-    read("worst_share", control.worst_share, 0.0, 10.0);
     read("turn_travel_mm", control.turn_travel_mm, 0.0, 1e3);
     read("entry_feed_per_tooth_mm", control.entry_feed_per_tooth_mm, 1e-4, 10.0);
     read("declared_axial_depth_mm", tool.declared_axial_depth_mm, 0.0, 300.0);

@@ -36,6 +36,7 @@ enum class Limit : std::uint8_t {
     operator_limit = 7,
     no_estimate = 8,  ///< held where it was for want of an estimate
     feed_per_tooth = 9,
+    roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
 };
 
 constexpr const char* name(CutState state) {
@@ -50,8 +51,9 @@ constexpr const char* name(Fault fault) {
 
 constexpr const char* name(Limit limit) {
     constexpr const char* names[] = {"none",       "force", "override_max",   "override_min", "air_feed",
-                                     "entry_feed", "surge", "operator_limit", "no_estimate",  "feed_per_tooth"};
-    return names[static_cast<unsigned>(limit) % 10U];
+                                     "entry_feed", "surge", "operator_limit", "no_estimate",  "feed_per_tooth",
+                                     "roughness"};
+    return names[static_cast<unsigned>(limit) % 11U];
 }
 
 }  // namespace millforce::control

@@ -46,9 +46,9 @@ struct FeedControllerParameters {
     Scalar surge_share{static_cast<Scalar>(1.03L)};           ///< of the limit that such a surge may reach
     Scalar turn_radial_immersion{2};       ///< … after a sharp turn of the path; 0: a turn changes nothing
     Scalar turn_travel_mm{2};              ///< for so long after a turn
-    Scalar worst_share{0};  ///< of the limit that turn_radial_immersion may reach where nothing told of it; 0: any
     Scalar overload_share{static_cast<Scalar>(1.35L)};          ///< of the limit above which the feed is held and the fault latched
     Scalar overload_revolutions{3};        ///< for so long, though the override already falls
+    Scalar Ra_limit_um{0};                 ///< that the predicted R_a's upper bound may reach; 0: none
     Scalar no_estimate_hold_s{static_cast<Scalar>(0.5L)};       ///< in cut without estimate for longer: state hold
     Scalar stale_s{static_cast<Scalar>(0.05L)};                 ///< without a sample for longer: fault
     Scalar teeth{4};
@@ -77,6 +77,14 @@ struct CutEstimateForControl {
     bool spindle_turning = false;
 };
 
+/// What the roughness model says, for Ra_limit_um. It may hold the feed down; for want of it nothing speeds up.
+template <typename Scalar>
+struct SurfaceForControl {
+    bool valid = false;           ///< feed_ceiling_mm_s is a ceiling
+    bool in_range = false;        ///< the cut is like those that the model was fitted to: the ceiling may rise
+    Scalar feed_ceiling_mm_s{0};  ///< at which the upper bound of R_a meets its limit, within the fitted feeds
+};
+
 template <typename Scalar>
 struct ControlInput {
     Scalar dt_s{static_cast<Scalar>(0.001L)};
@@ -90,6 +98,7 @@ struct ControlInput {
     bool plunging = false;  ///< the way goes mainly along the tool's axis
     bool feed_hold = false;
     CutEstimateForControl<Scalar> cut{};
+    SurfaceForControl<Scalar> surface{};
 };
 
 template <typename Scalar>
@@ -161,9 +170,9 @@ class FeedController {
                not_negative(p.entry_revolutions) && not_negative(p.entry_travel_mm) &&
                not_negative(p.exit_travel_mm) && positive(p.contact_force_N) && not_negative(p.contact_significance) &&
                not_negative(p.surge_radial_immersion) && positive(p.surge_share) &&
-               not_negative(p.turn_radial_immersion) && not_negative(p.turn_travel_mm) &&
-               not_negative(p.worst_share) && positive(p.overload_share) &&
-               not_negative(p.overload_revolutions) && not_negative(p.no_estimate_hold_s) && positive(p.stale_s) &&
+               not_negative(p.turn_radial_immersion) && not_negative(p.turn_travel_mm) && positive(p.overload_share) &&
+               not_negative(p.overload_revolutions) && not_negative(p.no_estimate_hold_s) &&
+               not_negative(p.Ra_limit_um) && positive(p.stale_s) &&
                is_finite(p.teeth) && p.teeth >= Scalar(1);
     }
 
@@ -340,6 +349,9 @@ class FeedController {
             cap_by_state(wish, input);
             wish.cap(ratio_of_feed_per_tooth(parameters_.max_feed_per_tooth_mm, input), Limit::feed_per_tooth);
             cap_by_force(wish, input);
+            if (parameters_.Ra_limit_um > Scalar(0)) {
+                cap_by_surface(wish, input);
+            }
         }
         if (input.rapid) {
             wish = {Scalar(1), Limit::none};  // a rapid is the program's word that nothing is in the way
@@ -411,11 +423,10 @@ class FeedController {
             if (parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1)) {
                 const Scalar before_surge = feed_for(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
                                                      cut.surge_cutting_share, input);
-                cap_demand_before_surge(before_surge);
-            }
-            if (parameters_.worst_share > Scalar(0) && cut.turn_ratio > Scalar(1)) {
-                cap_demand_before_surge(feed_for(parameters_.worst_share, cut.tooth_force_N * cut.turn_ratio,
-                                                 cut.turn_cutting_share, input));
+                if (before_surge < demand_) {
+                    demand_ = before_surge;
+                    demand_limit_ = Limit::surge;
+                }
             }
         }
         if (cut.fresh && usable) {
@@ -432,13 +443,6 @@ class FeedController {
         cap_after_turn(wish, input, usable);
     }
 
-    void cap_demand_before_surge(Scalar ceiling) {
-        if (ceiling < demand_) {
-            demand_ = ceiling;
-            demand_limit_ = Limit::surge;
-        }
-    }
-
     /// After a sharp turn the tool may meet anything up to the turn's immersion: the feed that such a cut would allow.
     void cap_after_turn(Wish& wish, const ControlInput<Scalar>& input, bool usable) {
         const CutEstimateForControl<Scalar>& cut = input.cut;
@@ -453,6 +457,25 @@ class FeedController {
                                                       : parameters_.override_max;
         }
         wish.cap(turn_demand_, Limit::surge);
+    }
+
+    /// Remembers the last ceiling of the cut. Without a prediction, or outside the range of its tests, the feed may fall
+    /// but not rise.
+    void cap_by_surface(Wish& wish, const ControlInput<Scalar>& input) {
+        if (state_ == CutState::air || state_ == CutState::exit) {
+            surface_ceiling_ = parameters_.override_max;
+            return;
+        }
+        const SurfaceForControl<Scalar>& surface = input.surface;
+        const bool usable = surface.valid && surface.feed_ceiling_mm_s > Scalar(0) && is_finite(surface.feed_ceiling_mm_s);
+        if (usable && input.cut.fresh) {
+            const Scalar ceiling = surface.feed_ceiling_mm_s / input.programmed_feed_mm_s;
+            surface_ceiling_ = surface.in_range || ceiling < surface_ceiling_ ? ceiling : surface_ceiling_;
+        }
+        if (!usable || !surface.in_range) {
+            wish.cap(ratio_, Limit::no_estimate);
+        }
+        wish.cap(surface_ceiling_, Limit::roughness);
     }
 
     void approach(Scalar wanted, const ControlInput<Scalar>& input) {
@@ -482,6 +505,7 @@ class FeedController {
     bool has_cut_ = false;  // since the tool was last in air
     Scalar demand_{0};
     Limit demand_limit_ = Limit::force;
+    Scalar surface_ceiling_{0};
     Scalar travel_in_state_mm_{0};
     Scalar revolutions_in_state_{0};
     Scalar silent_s_{0};

@@ -105,6 +105,9 @@ class LeastSquares {
 
     int rows() const { return rows_; }
 
+    /// R of RᵀR = XᵀX, upper triangular: what the rows say apart from their values.
+    const Matrix& triangle() const { return R_; }
+
     /// Σe² of the best fit so far, weighted.
     Scalar residual_sum_of_squares() const { return residual_sum_of_squares_; }
 

@@ -2,6 +2,7 @@
 
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
+#include "estimation/roughness.hpp"
 
 #include <array>
 #include <cstddef>
@@ -48,6 +49,7 @@ struct ToolParameters {
     estimation::CuttingLaw<Scalar> law{};
     control::FeedControllerParameters<Scalar> control{};
     Scalar monitor_only{0};
+    estimation::RoughnessModel<Scalar> roughness{};
 };
 
 template <typename Scalar>

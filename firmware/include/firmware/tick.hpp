@@ -2,6 +2,7 @@
 
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
+#include "estimation/roughness.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
@@ -23,6 +24,9 @@ class ForceControlTick {
                      parameters.tool.law),
           controller_(controller_parameters(parameters)),
           control_parameters_(controller_parameters(parameters)),
+          roughness_model_(parameters.tool.roughness),
+          tool_diameter_mm_(parameters.tool.diameter_mm),
+          declared_depth_mm_(parameters.tool.declared_axial_depth_mm),
           reaction_s_(parameters.machine.cnc.override_latency_s) {}
 
     /// A new drive sample. Cost: accumulation, and once per tooth period the estimate.
@@ -37,6 +41,7 @@ class ForceControlTick {
                                                        sample.spindle_index_number, signals);
         if (fresh) {
             rezero_in_air(program.rapid);
+            predict_roughness(signals);
         }
         return output_of(controller_.step(control_input(dt_s, signals, program, fresh)));
     }
@@ -46,6 +51,7 @@ class ForceControlTick {
         control::ControlInput<Scalar> input = control_input(Scalar(dt_s), {}, program, false);
         input.time_since_sample_s = Scalar(silent_s);
         input.cut.force_valid = false;
+        input.surface.valid = false;
         has_time_ = false;
         return output_of(controller_.step(input));
     }
@@ -66,6 +72,8 @@ class ForceControlTick {
         return shown;
     }
     [[nodiscard]] const control::ControlOutput<Scalar>& control() const { return control_; }
+    /// R_a or R_z (the tool's `measure`) of the surface in work; not valid without a model or without both forces.
+    [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return roughness_; }
 
   private:
     /// Since the last sample; 0 for the first one and where the clock went backwards.
@@ -114,6 +122,36 @@ class ForceControlTick {
         }
     }
 
+    /// From F_x/F_z, F_z by the z drive's current: where z stands its force hides in static friction, and there is no
+    /// prediction. F_x is the force along the feed. Not inlined: once per tooth period, and every tick is shorter for it.
+    [[gnu::noinline]] void predict_roughness(const estimation::DriveSignals<Scalar>& signals) {
+        using std::sqrt;
+        if (!roughness_model_.has_model()) {
+            return;
+        }
+        const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+        constexpr Scalar turn = Scalar(2) * estimation::pi<Scalar>;
+        const Scalar turns_per_s = e.spindle_speed_rad_s / turn;
+        const Scalar path_mm_s =
+            sqrt(estimation::square(e.feed_mm_s) + estimation::square(signals.axis_velocity_mm_s[2]));
+        const Scalar estimated_depth_mm = e.engagement.depth_valid ? e.engagement.axial_depth_mm : Scalar(0);
+        const estimation::RoughnessConditions<Scalar> cut{
+            Scalar(60) * turns_per_s, turns_per_s > Scalar(0) ? path_mm_s / turns_per_s : Scalar(0), tool_diameter_mm_,
+            declared_depth_mm_ > Scalar(0) ? declared_depth_mm_ : estimated_depth_mm, Scalar(1)};
+        roughness_ = roughness_model_.predict(cut, e.feed_N, e.z_N);
+        surface_ = {};
+        const bool is_Ra = !(roughness_model_.model().measure > Scalar(0.5F));
+        if (is_Ra && control_parameters_.Ra_limit_um > Scalar(0)) {
+            const auto ceiling = roughness_model_.feed_ceiling(cut, e.feed_N, e.z_N, control_parameters_.Ra_limit_um);
+            surface_.valid = ceiling.valid;
+            surface_.in_range = ceiling.in_range;
+            // Where even the lowest fitted feed is too fast, it is no reason to speed up towards it.
+            const bool is_below = !ceiling.reachable && cut[estimation::roughness_feed] < ceiling.feed_mm_rev;
+            surface_.feed_ceiling_mm_s =
+                turns_per_s * (is_below ? cut[estimation::roughness_feed] : ceiling.feed_mm_rev);
+        }
+    }
+
     control::ControlInput<Scalar> control_input(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals,
                                                 const hal::ProgramStatus& program, bool fresh) const {
         using std::sqrt;
@@ -157,6 +195,7 @@ class ForceControlTick {
         cut.feed_exponent = e.feed_exponent;
         cut.feed_mm_s = e.feed_mm_s;
         cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
+        input.surface = surface_;
         return input;
     }
 
@@ -174,8 +213,13 @@ class ForceControlTick {
     estimation::CutEstimator<Scalar> estimator_;
     control::FeedController<Scalar> controller_;
     control::FeedControllerParameters<Scalar> control_parameters_;
+    estimation::RoughnessPredictor<Scalar> roughness_model_;
+    Scalar tool_diameter_mm_;
+    Scalar declared_depth_mm_;
     Scalar reaction_s_;
     control::ControlOutput<Scalar> control_{};
+    estimation::RoughnessPrediction<Scalar> roughness_{};
+    control::SurfaceForControl<Scalar> surface_{};
     std::uint32_t last_time_us_ = 0;
     std::uint32_t heartbeat_ = 0;
     bool has_time_ = false;
