@@ -42,6 +42,28 @@ struct ForceIndices {
     Scalar valley_rad{0};              ///< where the valley stands in the pitch
 };
 
+/// Which of the indices a category is read from.
+template <typename Scalar>
+constexpr Scalar ForceIndices<Scalar>::* index_of(CutCategory category) {
+    if (category.type == FluteForceType::III) {
+        return &ForceIndices<Scalar>::valley_to_peak_rad;
+    }
+    const bool flat_top = category.type == FluteForceType::II &&
+                          (category.overlap == FluteOverlap::none || category.overlap == FluteOverlap::low);
+    return flat_top ? &ForceIndices<Scalar>::flat_top_to_valley_rad : &ForceIndices<Scalar>::valley_to_corner_rad;
+}
+
+/// Reads indices against those of the cut that K was taken from, for which Table 1 says what the angle should be: what
+/// filter, rounded corners and the vectors' sum shift at the nominal depths is taken off. Only the nominal category's
+/// own index is shifted.
+template <typename Scalar>
+ForceIndices<Scalar> read_against(const ForceIndices<Scalar>& nominal, const FluteAngles<Scalar>& nominal_angles,
+                                  ForceIndices<Scalar> indices) {
+    const auto index = index_of<Scalar>(cut_category(nominal_angles));
+    indices.*index += published_peak_angle_rad(nominal_angles) - nominal.*index;
+    return indices;
+}
+
 /// Indices of a profile (channel `channel` of it). Up milling: the profile is read backwards.
 template <typename Scalar, int Channels, int Bins>
 class ForceIndexFinder {

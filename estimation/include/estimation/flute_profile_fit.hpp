@@ -37,7 +37,7 @@ struct FluteProfileEstimate {
     CutSide side = CutSide::unknown;
     CutCategory category{};
     Scalar misfit{0};  ///< of the weighted profile, what is not explained: √(misfit/energy)
-    Scalar misfit_per_freedom{0};
+    Scalar residual_variance{0};  ///< against the assumed errors
 };
 
 template <typename Scalar, int Harmonics = 10>
@@ -91,7 +91,7 @@ class FluteProfileFit {
     static constexpr int sweep_nodes = 40;
     static constexpr int engagement_nodes = 14;
     static constexpr int shift_nodes = 32;
-    static constexpr std::size_t most_starts = 4;
+    static constexpr std::size_t grid_starts = 5;
 
     [[nodiscard]] Model model_for(const Spectrum& spectrum, CutSide side) const {
         int used = 0;
@@ -199,35 +199,63 @@ class FluteProfileFit {
             knowledge.mean(2) = known_shift();
             knowledge.sd(2) = Scalar(settings_.cutter.teeth) * sqrt(settings_.tip_angle_rad.variance);
         }
-        Minimum best;
-        std::array<Minimum, most_starts> minima;
+        Minima minima;
+        while (minima.count < grid_starts && take_start(row, minima.start)) {
+            minima.add(fit.refine(minima.start, range, knowledge));
+        }
+        const Point best = minima.best.point;
+        for (const Scalar pitches : {Scalar(-1), Scalar(1)}) {
+            minima.start = best;
+            minima.start(0) += pitches * model.pitch_rad();
+            if (minima.start(0) > range.low(0) && minima.start(0) < range.high(0)) {
+                minima.add(fit.refine(minima.start, range, knowledge));
+            }
+        }
+        return estimate_at(minima.with_doubt(), range, side, fit.energy(), model);
+    }
+
+    /// What the starts led to.
+    struct Minima {
+        std::array<Minimum, grid_starts + 2> all{};
         std::size_t count = 0;
-        for (; count < most_starts; ++count) {
-            Node* top = nullptr;
-            for (std::size_t i = 0; i < row.size(); ++i) {
-                const bool peak = row[i].explained >= Scalar(0) && (i == 0 || row[i - 1].explained <= row[i].explained) &&
-                                  (i + 1 == row.size() || row[i + 1].explained <= row[i].explained);
-                if (peak && (top == nullptr || row[i].explained > top->explained)) {
-                    top = &row[i];
+        Minimum best{};
+        Point start = Point::Zero();
+
+        void add(const Minimum& minimum) {
+            all[count++] = minimum;
+            if (minimum.solved && (!best.solved || minimum.misfit < best.misfit)) {
+                best = minimum;
+            }
+        }
+        /// The best one; another that explains the data about as well is part of its doubt.
+        [[nodiscard]] Minimum with_doubt() const {
+            Minimum result = best;
+            const Scalar as_good = best.misfit + Scalar(9) * best.residual_variance;
+            for (std::size_t s = 0; s < count; ++s) {
+                if (all[s].solved && all[s].misfit < as_good) {
+                    result.variance = result.variance.cwiseMax((all[s].point - best.point).cwiseAbs2() * Scalar(0.25F));
                 }
             }
-            if (top == nullptr) {
-                break;
-            }
-            minima[count] = fit.refine(top->point, range, knowledge);
-            top->explained = Scalar(-2);
-            if (minima[count].solved && (!best.solved || minima[count].misfit < best.misfit)) {
-                best = minima[count];
+            return result;
+        }
+    };
+
+    /// Takes the highest local maximum off the row. False where there is none left.
+    [[nodiscard]] static bool take_start(Row& row, Point& start) {
+        Node* top = nullptr;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const bool peak = row[i].explained >= Scalar(0) && (i == 0 || row[i - 1].explained <= row[i].explained) &&
+                              (i + 1 == row.size() || row[i + 1].explained <= row[i].explained);
+            if (peak && (top == nullptr || row[i].explained > top->explained)) {
+                top = &row[i];
             }
         }
-        Point variance = best.variance;
-        for (std::size_t s = 0; s < count; ++s) {
-            if (minima[s].solved && minima[s].misfit < best.misfit + Scalar(9) * best.variance_scale) {
-                variance = variance.cwiseMax((minima[s].point - best.point).cwiseAbs2() * Scalar(0.25F));
-            }
+        if (top == nullptr) {
+            return false;
         }
-        best.variance = variance;
-        return estimate_at(best, range, side, fit.energy(), model);
+        start = top->point;
+        top->explained = Scalar(-1);
+        return true;
     }
 
     [[nodiscard]] Estimate estimate_at(const Minimum& best, const FluteLimits<Scalar>& range, CutSide side,
@@ -238,7 +266,7 @@ class FluteProfileFit {
         Estimate estimate;
         estimate.side = side;
         estimate.misfit = energy > Scalar(0) ? sqrt(best.misfit / energy) : Scalar(1);
-        estimate.misfit_per_freedom = best.variance_scale;
+        estimate.residual_variance = best.residual_variance;
         if (!best.solved) {
             return estimate;
         }

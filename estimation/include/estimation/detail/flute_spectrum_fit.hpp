@@ -33,7 +33,7 @@ struct FluteMinimum {
     FlutePoint<Scalar> point = FlutePoint<Scalar>::Zero();
     Scalar misfit{0};  ///< sum of squared weighted residuals, knowledge included
     FlutePoint<Scalar> variance = FlutePoint<Scalar>::Zero();
-    Scalar variance_scale{1};  ///< by how much the residuals exceed the assumed errors, at least 1
+    Scalar residual_variance{1};  ///< of the weighted residuals, 1 where the assumed errors are right
     bool solved = false;
 };
 
@@ -143,6 +143,8 @@ class FluteSpectrumFit {
 
   private:
     static constexpr int linear = 2 * static_cast<int>(Model::laws);
+    /// Residuals far below the assumed errors are luck as well: two minima must differ by more than this allows.
+    static constexpr Scalar smallest_residual_variance = static_cast<Scalar>(0.03L);
     static constexpr Scalar condition_limit = Scalar(1e6F);
     using LinearFit = LeastSquares<Scalar, linear>;
     using JointFit = LeastSquares<Scalar, linear + 3>;
@@ -299,13 +301,12 @@ class FluteSpectrumFit {
 
     static void keep_variance(const LeastSquaresSolution<Scalar, linear + 3>& solution, Minimum& minimum) {
         const Scalar residual_variance = square(solution.residual_sd);
-        minimum.variance_scale = residual_variance > Scalar(1) ? residual_variance : Scalar(1);
-        minimum.solved = residual_variance > Scalar(0);
+        minimum.residual_variance = clamp(residual_variance, smallest_residual_variance, residual_variance);
+        const Scalar scale = residual_variance > Scalar(1) ? Scalar(1) : Scalar(1) / residual_variance;
         for (int j = 0; j < 3; ++j) {
-            const Scalar variance = solution.covariance(linear + j, linear + j);
-            minimum.variance(j) = variance * (minimum.variance_scale / residual_variance);
+            minimum.variance(j) = solution.covariance(linear + j, linear + j) * scale;
         }
-        minimum.solved = minimum.solved && minimum.variance.allFinite();
+        minimum.solved = residual_variance > Scalar(0) && minimum.variance.allFinite();
     }
 
     const Model& model_;
