@@ -1,262 +1,268 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
-#include <random>
+#include <string>
 #include <vector>
 
-#include "cutting/angle_units.hpp"
-#include "estimation/depth_monitor.hpp"
-#include "estimation/depth_variation.hpp"
-#include "reproduce/force_record.hpp"
 #include "reproduce/reproduction.hpp"
+#include "reproduce/yang_plots.hpp"
+#include "reproduce/yang_published.hpp"
+#include "reproduce/yang_random_cuts.hpp"
 #include "reproduce/yang_tables.hpp"
 
 /// Depth-of-cut variation from the force's shape (Yang, DeVor & Kapoor): the published tests, by the published method
 /// and by the fit of the whole profile, and a thousand cuts drawn at random.
 
 namespace millforce::sim {
-namespace {
+namespace yang {
 
-using estimation::CutSide;
-using estimation::DepthsOfCut;
-using estimation::ForceIndices;
-using estimation::Measurement;
+using Judged = Figure::Judged;
+constexpr double not_published = std::numeric_limits<double>::quiet_NaN();
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr int revolutions = 20;
-constexpr int index_bins = 720;
-constexpr std::array<const char*, 3> type_names = {"I", "II", "III"};
-using ResultantProfile = estimation::FluteAverage<float, 1, index_bins>;
+/// Mean absolute error of a method over some tests, in percent of nominal, and how many of the estimates there are.
+struct MeanError {
+    double sum_percent = 0.0;
+    int count = 0;
+    int missing = 0;
 
-float single(double value) {
-    return static_cast<float>(value);
-}
-
-// ---------------------------------------------------------------- recordings
-
-/// The profile of one signal of a record; `signal` makes it of a sample.
-template <typename Signal>
-ResultantProfile profile_of(const std::vector<ForceSample>& record, const ForceSensor& sensor, std::size_t teeth,
-                            const Signal& signal) {
-    estimation::FluteProfile<float, 1, index_bins> profile({.teeth = static_cast<int>(teeth), .revolutions = revolutions});
-    const double step_rev = 1.0 / sensor.samples_per_revolution;
-    for (std::size_t i = 0; i < record.size() && !profile.complete(); ++i) {
-        const double angle_rev = static_cast<double>(i % static_cast<std::size_t>(sensor.samples_per_revolution)) * step_rev;
-        estimation::FluteProfile<float, 1, index_bins>::Signals value;
-        value << single(signal(record[i]));
-        profile.add(single(step_rev / sensor.spindle_speed_rev_s), i > 0 ? single(step_rev) : 0.0F, single(angle_rev), value);
-    }
-    return profile.average();
-}
-
-double resultant_N(const ForceSample& sample) {
-    return std::hypot(sample.fx_N, sample.fy_N, sample.fz_N);
-}
-
-ResultantProfile resultant_of_components(const std::vector<ForceSample>& record, const ForceSensor& sensor, std::size_t teeth) {
-    const auto x = profile_of(record, sensor, teeth, [](const ForceSample& s) { return s.fx_N; });
-    const auto y = profile_of(record, sensor, teeth, [](const ForceSample& s) { return s.fy_N; });
-    const auto z = profile_of(record, sensor, teeth, [](const ForceSample& s) { return s.fz_N; });
-    ResultantProfile r = x;
-    for (std::size_t b = 0; b < r.mean.size(); ++b) r.mean[b][0] = std::hypot(x.mean[b][0], y.mean[b][0], z.mean[b][0]);
-    return r;
-}
-
-void feed(const std::vector<ForceSample>& record, const ForceSensor& sensor, estimation::DepthMonitor<float>& monitor) {
-    monitor.restart();
-    const double step_rev = 1.0 / sensor.samples_per_revolution;
-    for (std::size_t i = 0; i < record.size(); ++i) {
-        const double angle_rev = static_cast<double>(i % static_cast<std::size_t>(sensor.samples_per_revolution)) * step_rev;
-        if (monitor.add(single(step_rev / sensor.spindle_speed_rev_s), single(angle_rev * turn), single(record[i].fx_N),
-                        single(record[i].fy_N))) {
-            return;
+    void add(const Series& series, Method method) {
+        for (const Test& test : series.tests) {
+            add(test.estimate[method].axial - test.truth.axial);
+            add(test.estimate[method].radial - test.truth.radial);
         }
     }
-}
-
-estimation::FluteGeometry<float> geometry_of(const Cutter& cutter) {
-    return {static_cast<int>(cutter.teeth), single(0.5 * cutter.diameter_mm), single(cutter.helix_rad)};
-}
-
-/// A fit around nominal depths: ±55 %, so that a cut at the end of ±50 % is not at the end of the search.
-estimation::FluteProfileFitSettings<float> fit_settings(const SteadyCut& nominal, const ForceSensor& sensor) {
-    constexpr double reach = 0.55;
-    estimation::FluteProfileFitSettings<float> settings;
-    settings.cutter = geometry_of(nominal.cutter);
-    settings.feed_per_tooth_mm = single(nominal.feed_per_tooth_mm);
-    settings.side = nominal.up_milling ? CutSide::up : CutSide::down;
-    settings.axial = {single((1.0 - reach) * nominal.axial_depth_mm), single((1.0 + reach) * nominal.axial_depth_mm)};
-    settings.radial = {single((1.0 - reach) * nominal.radial_depth_mm),
-                       single(std::min((1.0 + reach) * nominal.radial_depth_mm, nominal.cutter.diameter_mm))};
-    settings.low_pass = {2, single(sensor.low_pass_Hz)};
-    return settings;
-}
-
-// ---------------------------------------------------------------- the published tests
-
-/// Steel about as 1018. K_te/K_tc makes the mean pressure grow on thin chips as Kim & Chung measured it in SM45C
-/// (exponent −0.26 at 0.012 mm), and is none of the estimator's.
-CuttingCoefficients published_steel(double hardness = 1.0) {
-    CuttingCoefficients steel;
-    steel.K_tc_N_mm2 = 1800.0 * hardness;
-    steel.K_rc_N_mm2 = 630.0 * hardness;
-    steel.K_ac_N_mm2 = 200.0 * hardness;
-    steel.K_te_N_mm = 7.5 * hardness;
-    steel.K_re_N_mm = 9.0 * hardness;
-    return steel;
-}
-
-SteadyCut published_cut(std::size_t mill_index, std::size_t type, double axial_percent, double radial_percent) {
-    const YangMill& mill = yang_mills[mill_index];
-    SteadyCut cut;
-    cut.cutter.teeth = mill.flutes;
-    cut.cutter.diameter_mm = mill.diameter_mm;
-    cut.cutter.helix_rad = mill.helix_deg * degree;
-    cut.cutter.runout_mm = 0.005;
-    cut.cutter.runout_angle_rad = 0.7;
-    cut.coefficients = published_steel();
-    cut.feed_per_tooth_mm = mill.feed_per_tooth_mm;
-    cut.axial_depth_mm = mill.nominal_axial_mm[type] * (1.0 + 0.01 * axial_percent);
-    cut.radial_depth_mm = mill.nominal_radial_mm[type] * (1.0 + 0.01 * radial_percent);
-    cut.tip_angle_rad = 0.3;
-    return cut;
-}
-
-/// Variations in percent; NaN is "no estimate".
-struct Variation {
-    double axial = none;
-    double radial = none;
-};
-
-Variation variation(const estimation::DepthVariation<float>& result) {
-    if (!result.valid) {
-        return {};
-    }
-    return {100.0 * static_cast<double>(result.best.axial_variation), 100.0 * static_cast<double>(result.best.radial_variation)};
-}
-
-Variation variation(const estimation::FluteProfileEstimate<float>& estimate, const SteadyCut& nominal) {
-    const auto percent = [](const Measurement<float>& depth, double nominal_mm) {
-        return depth.valid ? 100.0 * (static_cast<double>(depth.value) / nominal_mm - 1.0) : none;
-    };
-    return {percent(estimate.axial_depth_mm, nominal.axial_depth_mm),
-            percent(estimate.radial_depth_mm, nominal.radial_depth_mm)};
-}
-
-/// One test, by every method.
-struct PublishedTest {
-    Variation truth;
-    Variation published;
-    Variation resultant;         ///< Table 1 as printed, on the measured resultant
-    Variation scalar_sum;        ///< Table 1 as printed, on flute forces added as scalars
-    Variation scalar_corrected;  ///< III/LO and III/MO by the entry's corner
-    Variation fit;               ///< whole profile
-    Variation fit_alone;         ///< whole profile, the tip's angle not known
-    double peak_angle_formula_deg = none;
-    ForceIndices<float> resultant_indices;
-};
-
-/// One mill and type: the nominal cut teaches K and the tip's angle, the five tests follow.
-struct PublishedSeries {
-    std::size_t mill;
-    std::size_t type;
-    std::array<PublishedTest, 5> tests;
-    ResultantProfile nominal_resultant;
-    ResultantProfile nominal_scalar_sum;
-};
-
-ForceIndices<float> indices_of(const ResultantProfile& profile, std::size_t teeth) {
-    constexpr double corner_span_deg = 2.0;
-    const auto pitch_rad = single(turn / static_cast<double>(teeth));
-    return estimation::ForceIndexFinder<float, 1, index_bins>(profile, pitch_rad, CutSide::down, single(corner_span_deg * degree)).find();
-}
-
-/// The published method with K from the nominal cut's own mean.
-class PublishedMethod {
-  public:
-    PublishedMethod(const SteadyCut& nominal, const ResultantProfile& nominal_profile)
-        : geometry_(geometry_of(nominal.cutter)),
-          nominal_{single(nominal.axial_depth_mm), single(nominal.radial_depth_mm)},
-          teeth_(nominal.cutter.teeth),
-          nominal_indices_(indices_of(nominal_profile, teeth_)),
-          energy_(estimation::specific_energy_N_mm2(nominal_indices_.mean_N, nominal_)) {}
-
-    [[nodiscard]] Variation of(const ResultantProfile& profile, estimation::Characteristics characteristics) const {
-        estimation::DepthVariationSettings<float> settings;
-        settings.cutter = geometry_;
-        settings.nominal = nominal_;
-        settings.specific_energy_N_mm2 = energy_;
-        settings.characteristics = characteristics;
-        auto ix = indices_of(profile, teeth_);
-        if (getenv("AG")) ix = estimation::read_against(nominal_indices_, estimation::flute_angles(geometry_, nominal_), ix);
-        return variation(estimation::DepthVariationMethod<float>(settings).solve(ix));
-    }
+    [[nodiscard]] double percent() const { return sum_percent / count; }
+    [[nodiscard]] double answered_share() const { return static_cast<double>(count) / (count + missing); }
 
   private:
-    estimation::FluteGeometry<float> geometry_;
-    DepthsOfCut<float> nominal_;
-    std::size_t teeth_;
-    ForceIndices<float> nominal_indices_;
-    float energy_;
+    void add(double error_percent) {
+        if (std::isnan(error_percent)) {
+            ++missing;
+            return;
+        }
+        sum_percent += std::abs(error_percent);
+        ++count;
+    }
 };
 
-PublishedSeries published_series(std::size_t mill, std::size_t type) {
-    const YangMill& table = yang_mills[mill];
-    const SteadyCut nominal = published_cut(mill, type, 0.0, 0.0);
-    ForceSensor sensor;
-    sensor.seed = 100 * mill + 10 * type;
-    PublishedSeries series{.mill = mill, .type = type, .tests = {}, .nominal_resultant = {}, .nominal_scalar_sum = {}};
-    const auto scalar_sum_N = [](const ForceSample& sample) { return sample.scalar_sum_N; };
-    const auto nominal_record = record_force(force_revolution(nominal, sensor.samples_per_revolution), sensor, revolutions);
-    series.nominal_resultant = getenv("CF") ? resultant_of_components(nominal_record, sensor, table.flutes) : profile_of(nominal_record, sensor, table.flutes, resultant_N);
-    series.nominal_scalar_sum = profile_of(nominal_record, sensor, table.flutes, scalar_sum_N);
-    const PublishedMethod on_resultant(nominal, series.nominal_resultant);
-    const PublishedMethod on_scalar_sum(nominal, series.nominal_scalar_sum);
-    estimation::DepthMonitor<float> monitor(fit_settings(nominal, sensor), revolutions);
-    estimation::DepthMonitor<float> alone = monitor;
-    feed(nominal_record, sensor, monitor);
-    monitor.learn_tip_angle({single(nominal.axial_depth_mm), single(nominal.radial_depth_mm)});
-    for (std::size_t t = 0; t < series.tests.size(); ++t) {
-        PublishedTest& test = series.tests[t];
-        test.truth = {table.axial_variation_percent[t], table.radial_variation_percent[t]};
-        const YangEstimate& printed = yang_estimates[type][mill][t];
-        test.published = {printed.axial_percent, printed.radial_percent};
-        const SteadyCut cut = published_cut(mill, type, test.truth.axial, test.truth.radial);
-        ++sensor.seed;
-        const auto record = record_force(force_revolution(cut, sensor.samples_per_revolution), sensor, revolutions);
-        const ResultantProfile resultant = getenv("CF") ? resultant_of_components(record, sensor, table.flutes): profile_of(record, sensor, table.flutes, resultant_N);
-        const ResultantProfile scalar_sum = profile_of(record, sensor, table.flutes, scalar_sum_N);
-        test.resultant_indices = indices_of(resultant, table.flutes);
-        test.peak_angle_formula_deg =
-            static_cast<double>(estimation::published_peak_angle_rad(estimation::flute_angles<float>(
-                geometry_of(cut.cutter), {single(cut.axial_depth_mm), single(cut.radial_depth_mm)}))) / degree;
-        test.resultant = on_resultant.of(resultant, estimation::Characteristics::published);
-        test.scalar_sum = on_scalar_sum.of(scalar_sum, estimation::Characteristics::published);
-        test.scalar_corrected = on_scalar_sum.of(scalar_sum, estimation::Characteristics::corrected);
-        feed(record, sensor, monitor);
-        test.fit = variation(monitor.evaluate(), nominal);
-        feed(record, sensor, alone);
-        test.fit_alone = variation(alone.evaluate(), nominal);
-    }
-    return series;
-}
-
-}  // namespace
-
-Reproduction reproduce_yang() {
-    Reproduction r{.name = "yang", .title = "Depth-of-cut variation from the shape of the cutting force (Yang, DeVor, Kapoor)", .figures = {}, .plots = {}, .deviations = {}};
-    for (std::size_t type = 0; type < 3; ++type) {
-        for (std::size_t mill = 0; mill < 2; ++mill) {
-            const PublishedSeries s = published_series(mill, type);
-            for (std::size_t t = 0; t < 5; ++t) {
-                const auto& x = s.tests[t];
-                fmt::print("T{} mill {} test {}: truth {:+.0f}/{:+.0f} pub {:+.2f}/{:+.2f} resultant {:+.2f}/{:+.2f} scalar {:+.2f}/{:+.2f} corr {:+.2f}/{:+.2f} fit {:+.2f}/{:+.2f} alone {:+.2f}/{:+.2f}\n", type + 5, mill + 1, t + 1, x.truth.axial, x.truth.radial, x.published.axial - x.truth.axial, x.published.radial - x.truth.radial, x.resultant.axial - x.truth.axial, x.resultant.radial - x.truth.radial, x.scalar_sum.axial - x.truth.axial, x.scalar_sum.radial - x.truth.radial, x.scalar_corrected.axial - x.truth.axial, x.scalar_corrected.radial - x.truth.radial, x.fit.axial - x.truth.axial, x.fit.radial - x.truth.radial, x.fit_alone.axial - x.truth.axial, x.fit_alone.radial - x.truth.radial);
+MeanError mean_error(const std::vector<Series>& all, Method method, std::initializer_list<std::size_t> types) {
+    MeanError error;
+    for (const Series& series : all) {
+        for (const std::size_t type : types) {
+            if (series.type == type) {
+                error.add(series, method);
             }
         }
     }
+    return error;
+}
+
+std::string table_name(std::size_t type) {
+    return fmt::format("Table {} (type {})", type + 5, std::array{"I", "II", "III"}[type]);
+}
+
+/// Every published number beside the profile fit's: absolute error, percent of nominal.
+void add_rows(const std::vector<Series>& all, Reproduction& r) {
+    constexpr double row_bound_percent = 4.0;
+    for (const Series& series : all) {
+        for (std::size_t t = 0; t < series.tests.size(); ++t) {
+            const Test& test = series.tests[t];
+            const auto add = [&](const char* depth, double truth, double printed, double fitted) {
+                r.figures.push_back({.name = fmt::format("{}, mill {}, test {}: error of {} = {:+.0f} %, profile fit",
+                                                         table_name(series.type), series.mill + 1, t + 1, depth, truth),
+                                     .unit = "%",
+                                     .published = std::abs(printed - truth),
+                                     .ours = std::abs(fitted - truth),
+                                     .judged = Judged::at_most,
+                                     .bound = row_bound_percent});
+            };
+            add("δADOC", test.truth.axial, test.estimate[as_published].axial, test.estimate[profile_fit].axial);
+            add("δRDOC", test.truth.radial, test.estimate[as_published].radial, test.estimate[profile_fit].radial);
+        }
+    }
+}
+
+struct MethodLine {
+    Method method;
+    const char* name;
+    std::array<double, 3> bound_percent;  ///< by type; 0: shown
+};
+
+/// Mean absolute error per table and method. Type III is judged where Table 1's row for it can hold.
+void add_means(const std::vector<Series>& all, Reproduction& r) {
+    constexpr std::array<MethodLine, 6> lines = {{
+        {against_nominal, "Table 1 on the resultant, angles against the nominal cut", {3.0, 3.0, 0.0}},
+        {printed_on_vectors, "Table 1 on the resultant, angles as read", {0.0, 3.0, 0.0}},
+        {printed_on_scalars, "Table 1 on flute forces added as scalars", {3.0, 3.0, 0.0}},
+        {corrected_on_scalars, "III/LO, III/MO by α_sw, on flute forces added as scalars", {3.0, 3.0, 3.0}},
+        {profile_fit, "profile fit", {1.0, 1.0, 1.0}},
+        {profile_fit_alone, "profile fit, tip's angle unknown", {0.0, 0.0, 1.0}},
+    }};
+    for (std::size_t type = 0; type < 3; ++type) {
+        const double printed = mean_error(all, as_published, {type}).percent();
+        for (const MethodLine& line : lines) {
+            const MeanError error = mean_error(all, line.method, {type});
+            const std::string answered =
+                error.missing > 0 ? fmt::format(" ({} of {} estimated)", error.count, error.count + error.missing) : "";
+            r.figures.push_back({.name = fmt::format("{}: mean error, {}{}", table_name(type), line.name, answered),
+                                 .unit = "%",
+                                 .published = printed,
+                                 .ours = error.percent(),
+                                 .judged = line.bound_percent[type] > 0.0 ? Judged::at_most : Judged::shown,
+                                 .bound = line.bound_percent[type]});
+        }
+    }
+    const double printed = mean_error(all, as_published, {0, 1, 2}).percent();
+    r.figures.push_back({"Tables 5–7: mean error, Table 1 on the resultant, angles against the nominal cut", "%", printed,
+                         mean_error(all, against_nominal, {0, 1, 2}).percent(), Judged::at_most, 3.0});
+    const MeanError fit = mean_error(all, profile_fit, {0, 1, 2});
+    r.figures.push_back({"Tables 5–7: mean error, profile fit", "%", printed, fit.percent(), Judged::at_most, 1.0});
+    r.figures.push_back({"Tables 5–7: share of the 60 depths that the profile fit estimates", "", not_published,
+                         fit.answered_share(), Judged::at_least, 1.0});
+}
+
+/// Numbers of the paper's text and of its formulas that need no cut.
+void add_formulas(Reproduction& r) {
+    const estimation::FluteGeometry<double> mill_1{4, 9.525, 30.0 * degree};
+    const estimation::FluteAngles<double> angles{0.0, 32.5 * degree, turn / 4.0};
+    const double axial_mm = estimation::depths_of_cut(mill_1, angles).axial_mm;
+    r.figures.push_back({"Fig. 16a: δADOC from PT_doc = 32.5°", "%", 22.72,
+                         100.0 * (axial_mm / yang_mills[0].nominal_axial_mm[0] - 1.0), Judged::difference, 0.15});
+    const auto needed = [](const estimation::FluteGeometry<double>& mill, double axial, double radial) {
+        return estimation::samples_per_revolution(mill, estimation::DepthsOfCut<double>{axial, radial}, 0.01);
+    };
+    r.figures.push_back({"Eq. 13: samples per revolution for all published tests at 1 %", "", 4081.0,
+                         needed(mill_1, 2.54, 15.24), Judged::relative_difference, 0.001});
+    r.figures.push_back({"Eq. 13: samples per revolution of the paper's example (Ø18.75 mm, not printed)", "", 1021.0,
+                         needed({3, 9.375, 30.0 * degree}, 10.0, 10.0), Judged::relative_difference, 0.001});
+}
+
+double degrees(float angle_rad) {
+    return static_cast<double>(angle_rad) / degree;
+}
+
+/// PT_doc of a simulated force against Table 1, where the two agree and where they cannot.
+void add_angles(const std::vector<Series>& all, Reproduction& r) {
+    constexpr double corner_bound_deg = 1.5;  // filter and vector sum shift a corner by the slopes beside it
+    for (const Series& series : all) {
+        const double formula_deg = series.nominal_formula_rad / degree;
+        const auto add = [&](const char* what, double force_deg, double bound_deg) {
+            r.figures.push_back({fmt::format("{}, mill {}, nominal cut: PT_doc, Table 1 against {}",
+                                             table_name(series.type), series.mill + 1, what),
+                                 "°", formula_deg, force_deg, bound_deg > 0.0 ? Judged::difference : Judged::shown, bound_deg});
+        };
+        const auto& indices = series.nominal_indices;
+        if (series.type == 0) {
+            add("the force's corners", degrees(indices.valley_to_corner_rad), corner_bound_deg);
+        } else if (series.type == 1) {
+            const bool flat_top = series.mill == 0;  // II/LO; mill 2 is II/MO
+            add("the force's corners",
+                degrees(flat_top ? indices.flat_top_to_valley_rad : indices.valley_to_corner_rad), corner_bound_deg);
+        } else {
+            add("the force's peak", degrees(indices.valley_to_peak_rad), 0.0);
+            add("the force's corner", degrees(indices.valley_to_corner_rad), 0.0);
+        }
+    }
+    SteadyCut alone = published_cut(0, 1, {0.0, 0.0});  // II/NO: no published test is one
+    constexpr double engagement_deg = 26.46;
+    constexpr double sweep_deg = 50.0;
+    const auto depths = estimation::depths_of_cut(
+        geometry_of(alone.cutter), {single(engagement_deg * degree), single(sweep_deg * degree), single(turn / 4.0)});
+    alone.axial_depth_mm = static_cast<double>(depths.axial_mm);
+    alone.radial_depth_mm = static_cast<double>(depths.radial_mm);
+    const ForceSensor sensor;
+    const auto record = record_force(force_revolution(alone, sensor.samples_per_revolution), sensor, profile_revolutions);
+    const auto indices = indices_of(flute_average(record, sensor, alone.cutter.teeth, resultant_N), alone.cutter.teeth);
+    r.figures.push_back({"II/NO, α_en = 26.46°: PT_doc, Table 1 against the force's corners", "°", engagement_deg,
+                         degrees(indices.flat_top_to_valley_rad), Judged::difference, 0.5});
+}
+
+void add_hardness(Reproduction& r) {
+    const HardnessEffect effect = hardness_effect();
+    r.figures.push_back({"Hardness +20 %: shift of δRDOC by the published method", "%", not_published,
+                         effect.published_method.radial, Judged::shown});
+    r.figures.push_back({"Hardness +20 %: shift of δADOC by the profile fit", "%", not_published,
+                         std::abs(effect.profile_fit.axial), Judged::at_most, 0.1});
+    r.figures.push_back({"Hardness +20 %: shift of δRDOC by the profile fit", "%", not_published,
+                         std::abs(effect.profile_fit.radial), Judged::at_most, 0.1});
+}
+
+std::vector<RandomCutOutcome> add_random_cuts(Reproduction& r) {
+    const auto outcomes = random_cuts({});
+    const RandomCutSummary s = summary_of(outcomes);
+    const auto at_most = [&](const char* name, double percent, double bound) {
+        r.figures.push_back({fmt::format("1000 random cuts: {}", name), "%", not_published, percent, Judged::at_most, bound});
+    };
+    at_most("95th percentile of the larger error, no estimate counted as wrong", s.percentile_95_percent, 3.0);
+    at_most("the same, down milling", s.percentile_95_down_percent, 3.0);
+    at_most("mean error", s.mean_error_percent, 1.0);
+    at_most("largest error of an estimate", s.largest_answered_percent, 10.0);
+    const auto shown = [&](const std::string& name, const char* unit, double value) {
+        r.figures.push_back({name, unit, not_published, value, Judged::shown});
+    };
+    shown("1000 random cuts: 95th percentile, up milling", "%", s.percentile_95_up_percent);
+    r.figures.push_back({"1000 random cuts: share with both depths estimated", "", not_published, s.answered_share, Judged::at_least, 0.95});
+    r.figures.push_back({"1000 random cuts: share of depths within two standard deviations", "", not_published,
+                         s.within_two_sd_share, Judged::at_least, 0.95});
+    r.figures.push_back({"1000 random cuts: categories that occur, of twelve", "", not_published,
+                         static_cast<double>(s.categories), Judged::at_least, 12.0});
+    const RandomCutSummary more_runout = summary_of(random_cuts({.count = 150, .largest_runout_in_feeds = 0.3}));
+    shown("150 random cuts, runout to 0.3 feeds per tooth: mean error", "%", more_runout.mean_error_percent);
+    shown("150 random cuts, runout to 0.3 feeds per tooth: share estimated", "", more_runout.answered_share);
+    const RandomCutSummary alone = summary_of(random_cuts({.count = 150, .tip_angle_known = false}));
+    shown("150 random cuts, tip's angle unknown: mean error", "%", alone.mean_error_percent);
+    shown("150 random cuts, tip's angle unknown: share estimated", "", alone.answered_share);
+    return outcomes;
+}
+
+std::vector<std::string> deviations() {
+    return {
+        "The force is the plant's, not a dynamometer's: 1018 steel with K_tc 1800, K_rc 630 N/mm², edge forces 7.5 and 9 "
+        "N/mm (the paper prints no coefficients), runout 5 µm, noise of 1 % of the peak, a two-pole low-pass.",
+        "Valley, peak and end of a flat top are read off as corners of the profile, the same way for all tests; the paper "
+        "does not say how it reads them. K comes from the nominal cut of each series, and so does the offset of PT_doc "
+        "where a figure says so: filter and vector sum shift the corners by up to 1.5°.",
+        "Eq. 3 prints ADOC_c where the actual ADOC must stand; Eq. 6 prints α_sw < α_T where it needs α_en + α_sw < α_T.",
+        "Table 1's row for type III is a single flute's peak. Where the next flute enters before it, the sum peaks "
+        "elsewhere: for mill 1 (III/MO) at the end of that entry, α_sw after the valley, whether the flutes are added as "
+        "scalars or as vectors. For mill 2 (III/LO) the vector sum moves the valley. So the published formulas do not "
+        "give the published accuracy on a force that adds as vectors, and Table 7 is shown for them, not judged. "
+        "With α_sw in that row, flute forces added as scalars do give it.",
+        "Eq. 9's K is the force per area at one hardness and chip thickness. A harder piece looks like a wider cut; "
+        "between −20 and +20 % of width the edge forces alone are worth some 2 to 4 % of K.",
+        "The profile fit averages F_x and F_y over the flutes instead of their resultant: a magnitude is not linear, and "
+        "keeps some of the runout. It learns the angle of the tooth's tip against the encoder from the nominal cut, as "
+        "the published method learns K. Without that it still estimates the axial depth; the width then depends on "
+        "where the force ends at the thin end of the chip, where runout lifts teeth out of the cut.",
+        "A sweep of a whole number of pitches leaves a constant force, whatever the width: physics gives no estimate "
+        "there, and the fit says so.",
+    };
+}
+
+}  // namespace yang
+
+Reproduction reproduce_yang() {
+    Reproduction r{.name = "yang",
+                   .title = "Depth-of-cut variation from the shape of the cutting force (Yang, DeVor, Kapoor)",
+                   .figures = {},
+                   .plots = {},
+                   .deviations = yang::deviations()};
+    std::vector<yang::Series> all;
+    for (std::size_t type = 0; type < 3; ++type) {
+        for (std::size_t mill = 0; mill < 2; ++mill) {
+            all.push_back(yang::published_series(mill, type));
+        }
+    }
+    yang::add_means(all, r);
+    yang::add_formulas(r);
+    yang::add_angles(all, r);
+    yang::add_hardness(r);
+    const auto outcomes = yang::add_random_cuts(r);
+    yang::add_rows(all, r);
+    r.plots = yang::plots(all, outcomes);
     return r;
 }
 

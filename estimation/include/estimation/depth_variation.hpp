@@ -32,7 +32,7 @@
 
 namespace millforce::estimation {
 
-/// Both force indices. Corners that a profile does not have are NaN.
+/// Both force indices. A profile without corners (a constant) gives angles without meaning, and no candidate.
 template <typename Scalar>
 struct ForceIndices {
     Scalar valley_to_corner_rad{0};    ///< PT_doc without flat top: valley to the next downward corner
@@ -85,11 +85,14 @@ class ForceIndexFinder {
             lowest = at(b) < at(lowest) ? b : lowest;
         }
         const Scalar middle = Scalar(0.5F) * (at(highest) + at(lowest));
-        const Scalar valley = corner(Scalar(1), middle);
-        const Scalar peak = corner(Scalar(-1), middle);
+        const int valley_bin = sharpest(Scalar(1), middle);
+        const int peak_bin = sharpest(Scalar(-1), middle);
+        const Scalar valley = corner(Scalar(1), valley_bin);
+        const Scalar peak = corner(Scalar(-1), peak_bin);
+        const Scalar end_of_fall = corner(Scalar(1), first_valley_after(peak_bin, valley_bin, middle));
         indices.valley_rad = valley * bin_rad();
         indices.valley_to_corner_rad = forward(valley, peak) * bin_rad();
-        indices.flat_top_to_valley_rad = forward(peak, valley) * bin_rad();
+        indices.flat_top_to_valley_rad = forward(peak, end_of_fall) * bin_rad();
         indices.valley_to_peak_rad = forward(valley, smooth_peak(highest, middle)) * bin_rad();
         return indices;
     }
@@ -105,18 +108,38 @@ class ForceIndexFinder {
         return to >= from ? to - from : to - from + Scalar(Bins);
     }
 
-    /// The strongest corner that bends upwards (sign 1, in the lower half of the profile) or downwards (−1, upper half).
-    [[nodiscard]] Scalar corner(Scalar sign, Scalar middle) const {
-        int sharpest = 0;
-        Scalar most{0};
-        for (int b = 0; b < Bins; ++b) {
-            const Scalar value = sign * (middle - at(b)) > Scalar(0) ? sign * bend(b) : Scalar(0);
-            if (value > most) {
-                most = value;
-                sharpest = b;
+    /// How much the profile bends upwards (sign 1) in its lower half, downwards (−1) in its upper half.
+    [[nodiscard]] Scalar sharpness(Scalar sign, Scalar middle, int b) const {
+        return sign * (middle - at(b)) > Scalar(0) ? sign * bend(b) : Scalar(0);
+    }
+    [[nodiscard]] int sharpest(Scalar sign, Scalar middle) const {
+        int found = 0;
+        for (int b = 1; b < Bins; ++b) {
+            found = sharpness(sign, middle, b) > sharpness(sign, middle, found) ? b : found;
+        }
+        return found;
+    }
+    /// The first corner upwards after `from` that is not much weaker than the sharpest: where flutes do not overlap,
+    /// the force has ended before the next flute enters.
+    [[nodiscard]] int first_valley_after(int from, int sharpest_bin, Scalar middle) const {
+        const Scalar least = static_cast<Scalar>(0.35L) * sharpness(Scalar(1), middle, sharpest_bin);
+        int found = -1;
+        for (int k = 1; k < Bins; ++k) {
+            const int b = (from + k) % Bins;
+            const Scalar here = sharpness(Scalar(1), middle, b);
+            if (here >= least) {
+                found = found < 0 || here > sharpness(Scalar(1), middle, found) ? b : found;
+            } else if (found >= 0) {
+                return found;
             }
         }
-        return centre(sharpest, [&](int b) { return sign * bend(b) - Scalar(0.6F) * most; });
+        return found < 0 ? sharpest_bin : found;
+    }
+
+    /// The hump of the bend around a bin, as its centre.
+    [[nodiscard]] Scalar corner(Scalar sign, int b) const {
+        const Scalar most = sign * bend(b);
+        return centre(b, [&](int near) { return sign * bend(near) - Scalar(0.6F) * most; });
     }
 
     /// The maximum as the centre of what stands above 0.98 of it, counted from the middle of the profile's range.
@@ -143,7 +166,7 @@ class ForceIndexFinder {
         gather(1);
         gather(-1);
         const Scalar place = Scalar(top) + (sum > Scalar(0) ? moment / sum : Scalar(0));
-        return place < Scalar(0) ? place + Scalar(Bins) : place;
+        return place < Scalar(0) ? place + Scalar(Bins) : place;  // forward() takes care of the other end
     }
 
     const FluteAverage<Scalar, Channels, Bins>& profile_;
