@@ -173,11 +173,13 @@ void add_angles(const std::vector<Series>& all, Reproduction& r) {
         geometry_of(alone.cutter), {single(engagement_deg * degree), single(sweep_deg * degree), single(turn / 4.0)});
     alone.axial_depth_mm = static_cast<double>(depths.axial_mm);
     alone.radial_depth_mm = static_cast<double>(depths.radial_mm);
-    const ForceSensor sensor;
+    ForceSensor sensor;
+    sensor.noise_share = 0.0;
+    sensor.low_pass_Hz = 0.0;
     const auto record = record_force(force_revolution(alone, sensor.samples_per_revolution), sensor, profile_revolutions);
     const auto indices = indices_of(flute_average(record, sensor, alone.cutter.teeth, resultant_N), alone.cutter.teeth);
-    r.figures.push_back({"II/NO, α_en = 26.46°: PT_doc, Table 1 against the force's corners", "°", engagement_deg,
-                         degrees(indices.flat_top_to_valley_rad), Judged::difference, 0.5});
+    r.figures.push_back({"II/NO, α_en = 26.46°, no noise, no filter: PT_doc, Table 1 against the force", "°", engagement_deg,
+                         degrees(indices.flat_top_to_valley_rad), Judged::difference, corner_bound_deg});
 }
 
 void add_hardness(Reproduction& r) {

@@ -18,7 +18,8 @@
 /// the end of its rise (type I, II/MO) or of its flat top (type II) bends it down. A corner is where the second
 /// difference over ±corner_span is largest, as the centre of the hump; a low-pass delays all corners alike, while it
 /// shifts maxima and minima by the slopes beside them (1.1° of 26.5° in the paper's first test). Type III has no corner
-/// at its peak: there it is the maximum.
+/// at its peak: there it is the maximum. Without overlap the valley is a floor, and a flat top's index ends where the
+/// floor begins.
 ///
 /// Where Table 1 is not what a force shows (physics of vectors, and of a flute that falls faster than the next one
 /// rises): III/MO peaks at α_sw, with the end of the next flute's entry, not at α_en + ½(α_sw − π); the resultant of
@@ -89,7 +90,7 @@ class ForceIndexFinder {
         const int peak_bin = sharpest(Scalar(-1), middle);
         const Scalar valley = corner(Scalar(1), valley_bin);
         const Scalar peak = corner(Scalar(-1), peak_bin);
-        const Scalar end_of_fall = corner(Scalar(1), first_valley_after(peak_bin, valley_bin, middle));
+        const Scalar end_of_fall = begin_of_valley(valley, valley_bin, lowest, highest);
         indices.valley_rad = valley * bin_rad();
         indices.valley_to_corner_rad = forward(valley, peak) * bin_rad();
         indices.flat_top_to_valley_rad = forward(peak, end_of_fall) * bin_rad();
@@ -119,21 +120,19 @@ class ForceIndexFinder {
         }
         return found;
     }
-    /// The first corner upwards after `from` that is not much weaker than the sharpest: where flutes do not overlap,
-    /// the force has ended before the next flute enters.
-    [[nodiscard]] int first_valley_after(int from, int sharpest_bin, Scalar middle) const {
-        const Scalar least = static_cast<Scalar>(0.35L) * sharpness(Scalar(1), middle, sharpest_bin);
-        int found = -1;
-        for (int k = 1; k < Bins; ++k) {
-            const int b = (from + k) % Bins;
-            const Scalar here = sharpness(Scalar(1), middle, b);
-            if (here >= least) {
-                found = found < 0 || here > sharpness(Scalar(1), middle, found) ? b : found;
-            } else if (found >= 0) {
-                return found;
-            }
+    /// Where the force has come down to its valley: the corner itself, or where flutes do not overlap the begin of the
+    /// floor before it. The chip ends thin there, so that the force has no corner.
+    [[nodiscard]] Scalar begin_of_valley(Scalar valley, int valley_bin, int lowest, int highest) const {
+        const Scalar level = at(lowest) + static_cast<Scalar>(0.003L) * (at(highest) - at(lowest));
+        int floor_bins = 0;
+        while (floor_bins < Bins && at(valley_bin - span_ - floor_bins) <= level) {
+            ++floor_bins;
         }
-        return found < 0 ? sharpest_bin : found;
+        if (floor_bins < 2 * span_) {
+            return valley;
+        }
+        const int begin = valley_bin - span_ - floor_bins;
+        return Scalar(begin < 0 ? begin + Bins : begin);
     }
 
     /// The hump of the bend around a bin, as its centre.
