@@ -1,6 +1,6 @@
 // Depth-of-cut estimators from force profiles, instantiated for float.
-#include "estimation/depth_monitor.hpp"
 #include "estimation/depth_variation.hpp"
+#include "estimation/depth_monitor.hpp"
 
 namespace millforce::estimation {
 

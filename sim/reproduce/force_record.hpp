@@ -25,9 +25,9 @@ struct SteadyCut {
 struct ForceSensor {
     double spindle_speed_rev_s = 1000.0 / 60.0;
     int samples_per_revolution = 4320;
-    double low_pass_Hz = 470.0;       ///< two poles, Butterworth; 0: none
-    double noise_share = 0.01;        ///< white, standard deviation over the largest plane force, after the filter
-    bool plane_only = false;          ///< fz_N and scalar_sum_N of a record stay as the plant gives them
+    double low_pass_Hz = 470.0;  ///< two poles, Butterworth; 0: none
+    double noise_share = 0.01;   ///< white, standard deviation over the largest plane force, after the filter
+    bool plane_only = false;     ///< fz_N and scalar_sum_N of a record stay as the plant gives them
     std::uint64_t seed = 1;
 };
 

@@ -116,8 +116,8 @@ void add_means(const std::vector<Series>& all, Reproduction& r) {
         }
     }
     const double printed = mean_error(all, as_published, {0, 1, 2}).percent();
-    r.figures.push_back({"Tables 5–7: mean error, Table 1 on the resultant, angles against the nominal cut", "%", printed,
-                         mean_error(all, against_nominal, {0, 1, 2}).percent(), Judged::at_most, 3.0});
+    r.figures.push_back({"Tables 5–7: mean error, Table 1 on the resultant, angles against the nominal cut", "%",
+                         printed, mean_error(all, against_nominal, {0, 1, 2}).percent(), Judged::at_most, 3.0});
     const MeanError fit = mean_error(all, profile_fit, {0, 1, 2});
     r.figures.push_back({"Tables 5–7: mean error, profile fit", "%", printed, fit.percent(), Judged::at_most, 1.0});
     r.figures.push_back({"Tables 5–7: share of the 60 depths that the profile fit estimates", "", not_published,
@@ -152,7 +152,8 @@ void add_angles(const std::vector<Series>& all, Reproduction& r) {
         const auto add = [&](const char* what, double force_deg, double bound_deg) {
             r.figures.push_back({fmt::format("{}, mill {}, nominal cut: PT_doc, Table 1 against {}",
                                              table_name(series.type), series.mill + 1, what),
-                                 "°", formula_deg, force_deg, bound_deg > 0.0 ? Judged::difference : Judged::shown, bound_deg});
+                                 "°", formula_deg, force_deg, bound_deg > 0.0 ? Judged::difference : Judged::shown,
+                                 bound_deg});
         };
         const auto& indices = series.nominal_indices;
         if (series.type == 0) {
@@ -176,10 +177,12 @@ void add_angles(const std::vector<Series>& all, Reproduction& r) {
     ForceSensor sensor;
     sensor.noise_share = 0.0;
     sensor.low_pass_Hz = 0.0;
-    const auto record = record_force(force_revolution(alone, sensor.samples_per_revolution), sensor, profile_revolutions);
+    const auto record =
+        record_force(force_revolution(alone, sensor.samples_per_revolution), sensor, profile_revolutions);
     const auto indices = indices_of(flute_average(record, sensor, alone.cutter.teeth, resultant_N), alone.cutter.teeth);
-    r.figures.push_back({"II/NO, α_en = 26.46°, no noise, no filter: PT_doc, Table 1 against the force", "°", engagement_deg,
-                         degrees(indices.flat_top_to_valley_rad), Judged::difference, corner_bound_deg});
+    r.figures.push_back({"II/NO, α_en = 26.46°, no noise, no filter: PT_doc, Table 1 against the force", "°",
+                         engagement_deg, degrees(indices.flat_top_to_valley_rad), Judged::difference,
+                         corner_bound_deg});
 }
 
 void add_hardness(Reproduction& r) {
@@ -196,7 +199,8 @@ std::vector<RandomCutOutcome> add_random_cuts(Reproduction& r) {
     const auto outcomes = random_cuts({});
     const RandomCutSummary s = summary_of(outcomes);
     const auto at_most = [&](const char* name, double percent, double bound) {
-        r.figures.push_back({fmt::format("1000 random cuts: {}", name), "%", not_published, percent, Judged::at_most, bound});
+        r.figures.push_back(
+            {fmt::format("1000 random cuts: {}", name), "%", not_published, percent, Judged::at_most, bound});
     };
     at_most("95th percentile of the larger error, no estimate counted as wrong", s.percentile_95_percent, 3.0);
     at_most("the same, down milling", s.percentile_95_down_percent, 3.0);
@@ -206,7 +210,8 @@ std::vector<RandomCutOutcome> add_random_cuts(Reproduction& r) {
         r.figures.push_back({name, unit, not_published, value, Judged::shown});
     };
     shown("1000 random cuts: 95th percentile, up milling", "%", s.percentile_95_up_percent);
-    r.figures.push_back({"1000 random cuts: share with both depths estimated", "", not_published, s.answered_share, Judged::at_least, 0.95});
+    r.figures.push_back({"1000 random cuts: share with both depths estimated", "", not_published, s.answered_share,
+                         Judged::at_least, 0.95});
     r.figures.push_back({"1000 random cuts: share of depths within two standard deviations", "", not_published,
                          s.within_two_sd_share, Judged::at_least, 0.95});
     r.figures.push_back({"1000 random cuts: categories that occur, of twelve", "", not_published,
@@ -222,20 +227,25 @@ std::vector<RandomCutOutcome> add_random_cuts(Reproduction& r) {
 
 std::vector<std::string> deviations() {
     return {
-        "The force is the plant's, not a dynamometer's: 1018 steel with K_tc 1800, K_rc 630 N/mm², edge forces 7.5 and 9 "
+        "The force is the plant's, not a dynamometer's: 1018 steel with K_tc 1800, K_rc 630 N/mm², edge forces 7.5 and "
+        "9 "
         "N/mm (the paper prints no coefficients), runout 5 µm, noise of 1 % of the peak, a two-pole low-pass.",
-        "Valley, peak and end of a flat top are read off as corners of the profile, the same way for all tests; the paper "
+        "Valley, peak and end of a flat top are read off as corners of the profile, the same way for all tests; the "
+        "paper "
         "does not say how it reads them. K comes from the nominal cut of each series, and so does the offset of PT_doc "
         "where a figure says so: filter and vector sum shift the corners by up to 1.5°.",
-        "Eq. 3 prints ADOC_c where the actual ADOC must stand; Eq. 6 prints α_sw < α_T where it needs α_en + α_sw < α_T.",
+        "Eq. 3 prints ADOC_c where the actual ADOC must stand; Eq. 6 prints α_sw < α_T where it needs α_en + α_sw < "
+        "α_T.",
         "Table 1's row for type III is a single flute's peak. Where the next flute enters before it, the sum peaks "
-        "elsewhere: for mill 1 (III/MO) at the end of that entry, α_sw after the valley, whether the flutes are added as "
+        "elsewhere: for mill 1 (III/MO) at the end of that entry, α_sw after the valley, whether the flutes are added "
+        "as "
         "scalars or as vectors. For mill 2 (III/LO) the vector sum moves the valley. So the published formulas do not "
         "give the published accuracy on a force that adds as vectors, and Table 7 is shown for them, not judged. "
         "With α_sw in that row, flute forces added as scalars do give it.",
         "Eq. 9's K is the force per area at one hardness and chip thickness. A harder piece looks like a wider cut; "
         "between −20 and +20 % of width the edge forces alone are worth some 2 to 4 % of K.",
-        "The profile fit averages F_x and F_y over the flutes instead of their resultant: a magnitude is not linear, and "
+        "The profile fit averages F_x and F_y over the flutes instead of their resultant: a magnitude is not linear, "
+        "and "
         "keeps some of the runout. It learns the angle of the tooth's tip against the encoder from the nominal cut, as "
         "the published method learns K. Without that it still estimates the axial depth; the width then depends on "
         "where the force ends at the thin end of the chip, where runout lifts teeth out of the cut.",

@@ -41,7 +41,8 @@ IndexProfile flute_average(const std::vector<ForceSample>& record, const ForceSe
         const double angle_rev = static_cast<double>(i % per_revolution) * step_rev;
         typename Profile::Signals value;
         value << single(signal(record[i]));
-        profile.add(single(step_rev / sensor.spindle_speed_rev_s), single(i > 0 ? step_rev : 0.0), single(angle_rev), value);
+        profile.add(single(step_rev / sensor.spindle_speed_rev_s), single(i > 0 ? step_rev : 0.0), single(angle_rev),
+                    value);
     }
     return profile.average();
 }

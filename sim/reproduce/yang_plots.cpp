@@ -26,13 +26,14 @@ Plot single_flute(std::size_t type) {
     cut.tip_angle_rad = std::numbers::pi - engagement_rad;  // the flute enters at angle 0
     constexpr int samples = 720;
     const auto revolution = force_revolution(cut, samples);
-    Plot plot{.title = fmt::format("One flute's force, type {} (Fig. {})", std::array{"I", "II", "III"}[type], type + 5),
-              .x_label = "rotation, °",
-              .y_label = "resultant force, N",
-              .caption = std::array{"Rises over the sweep α_sw, falls over the engagement α_en.",
-                                    "Rises over α_en, has a flat top of α_sw − α_en, falls.",
-                                    "Peaks where the edge's middle passes half immersion, after α_sw + α_en − α_enc."}[type],
-              .series = {}};
+    Plot plot{
+        .title = fmt::format("One flute's force, type {} (Fig. {})", std::array{"I", "II", "III"}[type], type + 5),
+        .x_label = "rotation, °",
+        .y_label = "resultant force, N",
+        .caption = std::array{"Rises over the sweep α_sw, falls over the engagement α_en.",
+                              "Rises over α_en, has a flat top of α_sw − α_en, falls.",
+                              "Peaks where the edge's middle passes half immersion, after α_sw + α_en − α_enc."}[type],
+        .series = {}};
     Plot::Series force{.name = "force", .style = Style::line, .x = {}, .y = {}};
     const double shown_rad = std::min(engagement_rad + sweep_rad + 0.1, 2.0 * pitch_rad);
     const auto at = [&](double angle_rad) {
@@ -67,8 +68,9 @@ Plot flute_average_plot(const char* letter, std::size_t mill, std::size_t type, 
                                    std::array{"I", "II", "III"}[type], mill + 1, test + 1, letter),
               .x_label = "rotation, °",
               .y_label = "resultant force, N",
-              .caption = "One revolution as sampled shows runout and noise; the average over flutes and 20 revolutions, "
-                         "repeated each pitch, shows neither. PT_doc is read between its corners.",
+              .caption =
+                  "One revolution as sampled shows runout and noise; the average over flutes and 20 revolutions, "
+                  "repeated each pitch, shows neither. PT_doc is read between its corners.",
               .series = {}};
     Plot::Series raw{.name = "as sampled, one revolution", .style = Style::line, .x = {}, .y = {}};
     Plot::Series average{.name = "flute average", .style = Style::line, .x = {}, .y = {}};

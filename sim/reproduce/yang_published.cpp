@@ -44,8 +44,7 @@ class IndexMethod {
           nominal_indices_(nominal_indices) {
         settings_.cutter = geometry_of(nominal.cutter);
         settings_.nominal = depths_of(nominal);
-        settings_.specific_energy_N_mm2 =
-            estimation::specific_energy_N_mm2(nominal_indices.mean_N, settings_.nominal);
+        settings_.specific_energy_N_mm2 = estimation::specific_energy_N_mm2(nominal_indices.mean_N, settings_.nominal);
     }
     [[nodiscard]] Variation solve(const ForceIndices<float>& indices, Characteristics characteristics) const {
         auto settings = settings_;

@@ -19,13 +19,13 @@ struct Variation {
 };
 
 enum Method : std::size_t {
-    as_published,         ///< what Tables 5–7 print
-    printed_on_vectors,   ///< Table 1 as printed, on the measured resultant, angles as they are read
-    against_nominal,      ///< the same, angles read against the nominal cut's
-    printed_on_scalars,   ///< Table 1 as printed, on flute forces added as scalars
-    corrected_on_scalars, ///< the same, III/LO and III/MO by α_sw
-    profile_fit,          ///< the whole profile, the tip's angle learnt from the nominal cut
-    profile_fit_alone,    ///< the whole profile, the tip's angle unknown
+    as_published,          ///< what Tables 5–7 print
+    printed_on_vectors,    ///< Table 1 as printed, on the measured resultant, angles as they are read
+    against_nominal,       ///< the same, angles read against the nominal cut's
+    printed_on_scalars,    ///< Table 1 as printed, on flute forces added as scalars
+    corrected_on_scalars,  ///< the same, III/LO and III/MO by α_sw
+    profile_fit,           ///< the whole profile, the tip's angle learnt from the nominal cut
+    profile_fit_alone,     ///< the whole profile, the tip's angle unknown
     method_count
 };
 

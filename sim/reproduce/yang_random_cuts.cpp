@@ -165,7 +165,8 @@ RandomCutSummary summary_of(const std::vector<RandomCutOutcome>& outcomes) {
     summary.answered_share = count / static_cast<double>(outcomes.size());
     summary.percentile_95_percent = percentile_95(outcomes, [](const RandomCutOutcome&) { return true; });
     summary.percentile_95_up_percent = percentile_95(outcomes, [](const RandomCutOutcome& o) { return o.up_milling; });
-    summary.percentile_95_down_percent = percentile_95(outcomes, [](const RandomCutOutcome& o) { return !o.up_milling; });
+    summary.percentile_95_down_percent =
+        percentile_95(outcomes, [](const RandomCutOutcome& o) { return !o.up_milling; });
     summary.categories = static_cast<std::size_t>(std::count(occurs.begin(), occurs.end(), true));
     return summary;
 }

@@ -17,12 +17,12 @@ struct RandomCutOptions {
 };
 
 struct RandomCutOutcome {
-    double axial_error_percent;   ///< of the nominal depth; NaN: no estimate
+    double axial_error_percent;  ///< of the nominal depth; NaN: no estimate
     double radial_error_percent;
     double axial_error_in_sd;
     double radial_error_in_sd;
     bool up_milling;
-    std::size_t category;         ///< 4 × type + overlap, of the true depths
+    std::size_t category;  ///< 4 × type + overlap, of the true depths
 };
 
 [[nodiscard]] std::vector<RandomCutOutcome> random_cuts(const RandomCutOptions& options);
@@ -30,14 +30,14 @@ struct RandomCutOutcome {
 /// What the outcomes say. An error is the larger one of a cut's two; a cut without estimate counts as infinitely wrong
 /// in the percentile, and is left out of mean and coverage.
 struct RandomCutSummary {
-    double mean_error_percent;        ///< over both depths of the cuts with estimate
+    double mean_error_percent;  ///< over both depths of the cuts with estimate
     double percentile_95_percent;
     double percentile_95_up_percent;
     double percentile_95_down_percent;
     double answered_share;
     double largest_answered_percent;  ///< the largest error that came as an estimate
     double within_two_sd_share;
-    std::size_t categories;           ///< of the twelve that occur
+    std::size_t categories;  ///< of the twelve that occur
 };
 
 [[nodiscard]] RandomCutSummary summary_of(const std::vector<RandomCutOutcome>& outcomes);

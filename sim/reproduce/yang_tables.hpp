@@ -12,7 +12,7 @@ struct YangMill {
     double helix_deg;
     double diameter_mm;
     double feed_per_tooth_mm;
-    std::array<double, 3> nominal_axial_mm;   ///< by type I, II, III (Table 3)
+    std::array<double, 3> nominal_axial_mm;  ///< by type I, II, III (Table 3)
     std::array<double, 3> nominal_radial_mm;
     std::array<double, 5> axial_variation_percent;  ///< by test (Table 4)
     std::array<double, 5> radial_variation_percent;

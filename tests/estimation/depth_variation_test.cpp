@@ -56,15 +56,16 @@ TEST(CutCategory, turns_from_I_to_II_where_the_sweep_passes_the_engagement_and_t
 
 TEST(CutCategory, has_the_peak_angle_of_table_1) {
     const auto angle_deg = [](float engagement, float sweep, float pitch) {
-        return static_cast<double>(published_peak_angle_rad(FluteAngles<float>{engagement * deg, sweep * deg, pitch * deg}) / deg);
+        return static_cast<double>(
+            published_peak_angle_rad(FluteAngles<float>{engagement * deg, sweep * deg, pitch * deg}) / deg);
     };
-    DOUBLES_EQUAL(26.46, angle_deg(78.46F, 26.46F, 90.0F), 1e-3);   // I: α_sw
-    DOUBLES_EQUAL(10.0, angle_deg(85.0F, 70.0F, 60.0F), 1e-3);      // I/HO: α_sw − α_T
-    DOUBLES_EQUAL(30.0, angle_deg(30.0F, 50.0F, 90.0F), 1e-3);      // II/NO: α_en
-    DOUBLES_EQUAL(19.43, angle_deg(42.83F, 70.57F, 90.0F), 1e-3);   // II/LO: α_T − α_sw
-    DOUBLES_EQUAL(25.67, angle_deg(42.83F, 145.67F, 120.0F), 1e-3); // II/MO: α_sw − α_T
-    DOUBLES_EQUAL(15.0, angle_deg(75.0F, 100.0F, 60.0F), 1e-3);     // II/HO: α_en − α_T
-    DOUBLES_EQUAL(41.28, angle_deg(126.87F, 8.82F, 90.0F), 1e-2);   // III/MO: α_en + ½(α_sw − π)
+    DOUBLES_EQUAL(26.46, angle_deg(78.46F, 26.46F, 90.0F), 1e-3);    // I: α_sw
+    DOUBLES_EQUAL(10.0, angle_deg(85.0F, 70.0F, 60.0F), 1e-3);       // I/HO: α_sw − α_T
+    DOUBLES_EQUAL(30.0, angle_deg(30.0F, 50.0F, 90.0F), 1e-3);       // II/NO: α_en
+    DOUBLES_EQUAL(19.43, angle_deg(42.83F, 70.57F, 90.0F), 1e-3);    // II/LO: α_T − α_sw
+    DOUBLES_EQUAL(25.67, angle_deg(42.83F, 145.67F, 120.0F), 1e-3);  // II/MO: α_sw − α_T
+    DOUBLES_EQUAL(15.0, angle_deg(75.0F, 100.0F, 60.0F), 1e-3);      // II/HO: α_en − α_T
+    DOUBLES_EQUAL(41.28, angle_deg(126.87F, 8.82F, 90.0F), 1e-2);    // III/MO: α_en + ½(α_sw − π)
 }
 
 TEST_GROUP(ForceIndexFinder){};
@@ -104,7 +105,8 @@ TEST(DepthVariationMethod, recovers_depths_from_the_indices_of_table_1_in_every_
     for (const Case& c : cases) {
         for (const float axial : {-0.2F, -0.05F, 0.15F}) {
             for (const float radial : {-0.2F, 0.04F, 0.15F}) {
-                const DepthsOfCut<float> depths{c.nominal.axial_mm * (1.0F + axial), c.nominal.radial_mm * (1.0F + radial)};
+                const DepthsOfCut<float> depths{c.nominal.axial_mm * (1.0F + axial),
+                                                c.nominal.radial_mm * (1.0F + radial)};
                 const auto angles = flute_angles(c.mill, depths);
                 DepthVariationSettings<float> settings;
                 settings.cutter = c.mill;
@@ -154,5 +156,6 @@ TEST(DepthVariationMethod, gives_nothing_for_no_force) {
 }
 
 TEST(DepthVariationMethod, needs_as_many_samples_as_equation_13_says) {
-    DOUBLES_EQUAL(4081.0, static_cast<double>(samples_per_revolution(mill_1, DepthsOfCut<float>{2.54F, 15.24F}, 0.01F)), 1.0);
+    DOUBLES_EQUAL(4081.0, static_cast<double>(samples_per_revolution(mill_1, DepthsOfCut<float>{2.54F, 15.24F}, 0.01F)),
+                  1.0);
 }

@@ -19,7 +19,7 @@ struct FluteCut {
     double radial_mm = 7.62;
     bool up = false;
     double tip_angle_rad = 0.2;
-    double K_t = 1800.0;          ///< per feed
+    double K_t = 1800.0;  ///< per feed
     double K_r = 600.0;
     double edge_t = 400.0;
     double edge_r = 500.0;

@@ -16,8 +16,10 @@ using Profile = FluteProfile<float, 2, 180>;
 /// A tooth's ripple on both channels, and a share that comes once per revolution.
 Profile::Signals ripple(double rev, int teeth, double once_per_revolution) {
     Profile::Signals signals;
-    signals << static_cast<float>(100.0 + 40.0 * std::cos(turn * rev * teeth) + once_per_revolution * std::cos(turn * rev)),
-        static_cast<float>(-30.0 + 20.0 * std::sin(2.0 * turn * rev * teeth) + once_per_revolution * std::sin(turn * rev));
+    signals << static_cast<float>(100.0 + 40.0 * std::cos(turn * rev * teeth) +
+                                  once_per_revolution * std::cos(turn * rev)),
+        static_cast<float>(-30.0 + 20.0 * std::sin(2.0 * turn * rev * teeth) +
+                           once_per_revolution * std::sin(turn * rev));
     return signals;
 }
 

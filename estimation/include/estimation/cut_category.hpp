@@ -80,7 +80,8 @@ Scalar published_peak_angle_rad(const FluteAngles<Scalar>& angles) {
     const CutCategory category = cut_category(angles);
     const auto modulo_pitch = [&](Scalar angle) {
         using std::floor;
-        return category.overlap == FluteOverlap::high ? angle - floor(angle / angles.pitch_rad) * angles.pitch_rad : angle;
+        return category.overlap == FluteOverlap::high ? angle - floor(angle / angles.pitch_rad) * angles.pitch_rad
+                                                      : angle;
     };
     switch (category.type) {
         case FluteForceType::I:
@@ -110,9 +111,9 @@ struct DepthsOfCut {
 
 template <typename Scalar>
 struct FluteGeometry {
-    int teeth = 4;              ///< N of equal pitch, 1…12
+    int teeth = 4;  ///< N of equal pitch, 1…12
     Scalar cutter_radius_mm{5};
-    Scalar helix_rad{0};        ///< β, 5…65°: without helix the force's shape does not know the axial depth
+    Scalar helix_rad{0};  ///< β, 5…65°: without helix the force's shape does not know the axial depth
 };
 
 template <typename Scalar>

@@ -45,7 +45,7 @@ struct ForceIndices {
 
 /// Which of the indices a category is read from.
 template <typename Scalar>
-constexpr Scalar ForceIndices<Scalar>::* index_of(CutCategory category) {
+constexpr Scalar ForceIndices<Scalar>::*index_of(CutCategory category) {
     if (category.type == FluteForceType::III) {
         return &ForceIndices<Scalar>::valley_to_peak_rad;
     }
@@ -188,9 +188,9 @@ struct DepthCandidate {
 template <typename Scalar>
 struct DepthVariation {
     static constexpr std::size_t most_candidates = 16;
-    bool valid = false;     ///< at least one consistent candidate
-    bool ambiguous = false; ///< more than one: the one nearest to nominal was taken
-    bool normal = false;    ///< both variations within ±10 %
+    bool valid = false;      ///< at least one consistent candidate
+    bool ambiguous = false;  ///< more than one: the one nearest to nominal was taken
+    bool normal = false;     ///< both variations within ±10 %
     DepthCandidate<Scalar> best{};
     std::array<DepthCandidate<Scalar>, most_candidates> candidates{};  ///< within ±50 % of nominal
     std::size_t count = 0;
@@ -250,8 +250,10 @@ class DepthVariationMethod {
 
     void type_II(const ForceIndices<Scalar>& indices, Scalar area_mm2, DepthVariation<Scalar>& result) const {
         by_engagement({FluteForceType::II, FluteOverlap::none}, indices.flat_top_to_valley_rad, area_mm2, result);
-        by_sweep({FluteForceType::II, FluteOverlap::low}, pitch_rad() - indices.flat_top_to_valley_rad, area_mm2, result);
-        by_sweep({FluteForceType::II, FluteOverlap::medium}, pitch_rad() + indices.valley_to_corner_rad, area_mm2, result);
+        by_sweep({FluteForceType::II, FluteOverlap::low}, pitch_rad() - indices.flat_top_to_valley_rad, area_mm2,
+                 result);
+        by_sweep({FluteForceType::II, FluteOverlap::medium}, pitch_rad() + indices.valley_to_corner_rad, area_mm2,
+                 result);
         for (int n = 1; n < settings_.cutter.teeth; ++n) {
             by_engagement({FluteForceType::II, FluteOverlap::high},
                           indices.valley_to_corner_rad + Scalar(n) * pitch_rad(), area_mm2, result);
@@ -273,7 +275,8 @@ class DepthVariationMethod {
     }
 
     void by_sweep(CutCategory category, Scalar sweep_rad, Scalar area_mm2, DepthVariation<Scalar>& result) const {
-        const Scalar axial_mm = depths_of_cut(settings_.cutter, FluteAngles<Scalar>{Scalar(0), sweep_rad, pitch_rad()}).axial_mm;
+        const Scalar axial_mm =
+            depths_of_cut(settings_.cutter, FluteAngles<Scalar>{Scalar(0), sweep_rad, pitch_rad()}).axial_mm;
         keep(category, {axial_mm, area_mm2 / axial_mm}, result);
     }
 
@@ -290,7 +293,7 @@ class DepthVariationMethod {
             const Scalar radial_mm =
                 depths_of_cut(settings_.cutter, FluteAngles<Scalar>{engagement_rad, Scalar(0), pitch_rad()}).radial_mm;
             const FluteAngles<Scalar> angles = flute_angles(settings_.cutter, {area_mm2 / radial_mm, radial_mm});
-            return engagement_rad + Scalar(0.5F) * (angles.sweep_rad - pi<Scalar>) - angle_rad;
+            return engagement_rad + Scalar(0.5F) * (angles.sweep_rad - pi<Scalar>)-angle_rad;
         };
         constexpr int steps = 24;
         constexpr int halvings = 16;
@@ -348,8 +351,8 @@ class DepthVariationMethod {
             result.valid = true;
         }
         const Scalar band = square(settings_.normal_variation);
-        result.normal = result.valid && square(result.best.axial_variation) <= band &&
-                        square(result.best.radial_variation) <= band;
+        result.normal =
+            result.valid && square(result.best.axial_variation) <= band && square(result.best.radial_variation) <= band;
     }
 
     DepthVariationSettings<Scalar> settings_;

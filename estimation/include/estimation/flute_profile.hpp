@@ -14,8 +14,8 @@
 /// over one pitch.
 ///
 /// Of F_x and F_y it is free of runout: a tooth that stands out takes from the next one what it cuts too much, and the
-/// sum of the chips at one angle stays that of equal teeth. It holds exactly for the part of the force that is linear in
-/// the chip thickness, as long as any tooth cuts there. Of the resultant |F| (the paper's signal) it holds to first
+/// sum of the chips at one angle stays that of equal teeth. It holds exactly for the part of the force that is linear
+/// in the chip thickness, as long as any tooth cuts there. Of the resultant |F| (the paper's signal) it holds to first
 /// order only, for a magnitude is not linear: average the components where both are known.
 ///
 /// Samples come at any rate, evenly or not. Each signal is taken as linear between two samples and integrated over the
@@ -167,16 +167,23 @@ struct ProfileSpectrum {
     static constexpr int lines = 2 * Harmonics + 1;
     std::array<Phasor<Scalar>, static_cast<std::size_t>(lines)> line{};  ///< [k + K]
     Scalar spindle_speed_rev_s{0};
+    int highest = Harmonics;  ///< above it the samples do not tell a harmonic from its aliases
 };
 
 /// Channels 0 and 1 are F_x and F_y. What the bins' width and the straight lines between samples take from a
-/// harmonic, sinc(πk/Bins) and sinc²(πk/samples per pitch), is given back. Cost: 4·Harmonics·Bins products.
+/// harmonic, sinc(πk/Bins) and sinc²(πk/samples per pitch), is given back; harmonics of fewer than 2.2 samples per
+/// period are marked as not told (an average without samples_per_pitch is taken to be fine enough). Cost:
+/// 4·Harmonics·Bins products.
 template <int Harmonics, typename Scalar, int Channels, int Bins>
 ProfileSpectrum<Scalar, Harmonics> profile_spectrum(const FluteAverage<Scalar, Channels, Bins>& average) {
     static_assert(Channels >= 2);
     using std::sin;
     ProfileSpectrum<Scalar, Harmonics> spectrum;
     spectrum.spindle_speed_rev_s = average.spindle_speed_rev_s;
+    constexpr Scalar below_nyquist = static_cast<Scalar>(0.45L);
+    const Scalar told = below_nyquist * average.samples_per_pitch;
+    spectrum.highest =
+        average.samples_per_pitch > Scalar(0) && told < Scalar(Harmonics) ? static_cast<int>(told) : Harmonics;
     const auto sinc = [](Scalar x) { return x > Scalar(0) ? sin(x) / x : Scalar(1); };
     for (int k = 0; k <= Harmonics; ++k) {
         const Scalar turn = Scalar(2) * pi<Scalar> * Scalar(k) / Scalar(Bins);

@@ -19,32 +19,33 @@
 /// Searched: sweep α_sw, engagement α_en, and the shift of the profile (which two tips stand at the encoder's zero).
 ///
 /// The tip's angle is worth a calibration. Without it the width hangs on where the force ends at the thin side of the
-/// chip, where runout lifts teeth out of the cut: at e = 0.15 f_z three cuts in ten then have no estimate, of the others
-/// the mean error is still near 1 %. With it, learnt from one cut of known depths (as the published method learns K),
-/// the sharp side of the cut tells the width. A spindle whose tool has not moved in its holder keeps it.
+/// chip, where runout lifts teeth out of the cut: at e = 0.15 f_z three cuts in ten then have no estimate, of the
+/// others the mean error is still near 1 %. With it, learnt from one cut of known depths (as the published method
+/// learns K), the sharp side of the cut tells the width. A spindle whose tool has not moved in its holder keeps it.
 ///
 /// Steps: (1) 40 × 14 nodes of sweep and engagement with chip and edge alone, 32 shifts each where the tip's angle is
 /// not known; (2) from the six highest local maxima, and one pitch of sweep to either side of the best, variable
 /// projection and Gauss–Newton; (3) the lowest misfit. The variance comes from the assumed errors (line_error of each
-/// Fourier line and floor_error of the whole profile; more where the residuals say so) and from every other minimum that
-/// explains the profile about as well.
+/// Fourier line and floor_error of the whole profile; more where the residuals say so) and from every other minimum
+/// that explains the profile about as well.
 ///
 /// "No estimate" of a depth: its standard deviation above largest_relative_sd; the solution at the end of the search
 /// range; a profile without ripple (the sweep a whole number of pitches: F constant, nothing to see; 4 of 1 000 random
 /// cuts); fewer than three harmonics within the low-pass. Sweeps of more than a pitch have look-alikes a pitch away;
-/// where the profile cannot tell them apart (most of the 4 in 100 random cuts without estimate) the axial depth has none.
+/// where the profile cannot tell them apart (most of the 4 in 100 random cuts without estimate) the axial depth has
+/// none.
 ///
 /// Accuracy in simulation (`millforce reproduce yang`): with the tip's angle, 0.3 % mean over the published tests; over
 /// 1 000 random cuts (2–6 flutes, helix 20–50°, a_p 0.1–4.5 R, a_e 0.05–1.98 R, up and down, e ≤ 0.15 f_z, 1 % noise,
 /// low-pass at 7 times tooth passing) below 3 % in 95 of 100, cuts without estimate counted as wrong.
 ///
 /// Valid: end mill of equal pitch and constant helix 5…65°, 1–12 flutes, a straight wall (down or up), a rigid tool,
-/// known filter (a cutoff wrong by 10 % costs some 1 % of width), steady cut over the profile. Down to 2·Harmonics + 2
-/// samples per tooth; f_z/R below 0.05.
+/// known filter (a cutoff wrong by 10 % costs some 1 % of width), steady cut over the profile; f_z/R below 0.05. At
+/// least 7 samples per tooth; from 23 on all ten harmonics are used.
 ///
-/// Cost: at most 560 nodes × (1 or 32) projections of 2K + 1 lines and 8 × 12 × (1 + 5) linear problems of
-/// 2(2K + 1) × 10, 8 × 12 of 2(2K + 1) × 13, for K = 10: at most 2 (13) Mflop for the search and 15 Mflop for the fits,
-/// typically a third; 2 (8) ms on a 2.5 GHz core. Not for the tick: for the task beside it, once per profile.
+/// Cost, for K = 10: 560 nodes × 1 (32) projections of 2K + 1 lines, and 8 starts × 12 steps of at most 6 linear
+/// problems of 2(2K + 1) × 10 and one of 2(2K + 1) × 13. At most 2 (13) Mflop for the search and 35 Mflop for the fits,
+/// of which some 5 are usual; 2 (8) ms on a 2.5 GHz core. Not for the tick: for a task beside it, once per profile.
 /// Memory: no state but the settings; some 20 kB of stack. No heap.
 
 namespace millforce::estimation {
@@ -59,30 +60,30 @@ struct DepthRange {
 template <typename Scalar>
 struct FluteProfileFitSettings {
     FluteGeometry<Scalar> cutter{};
-    Scalar feed_per_tooth_mm{0};  ///< for the trochoid's part of the chip's shape (some f_z/R); 0: chips of circles
+    Scalar feed_per_tooth_mm{0};   ///< for the trochoid's part of the chip's shape (some f_z/R); 0: chips of circles
     CutSide side = CutSide::down;  ///< down, up, or unknown: both are fitted, and the clearly better one is taken
     DepthRange<Scalar> axial{};    ///< searched; a solution at its end is none
     DepthRange<Scalar> radial{};
     LowPass<Scalar> low_pass{};
     /// Angle of a tooth's tip at the encoder's zero, 0…2π/N; not valid: unknown, then found with the depths.
     Measurement<Scalar> tip_angle_rad{};
-    Scalar line_error = static_cast<Scalar>(0.003L);   ///< what a Fourier line may be wrong by, of itself
-    Scalar floor_error = static_cast<Scalar>(0.001L);  ///< and of the whole profile's rms
-    Scalar largest_relative_sd = static_cast<Scalar>(0.1L);         ///< of a depth; above: no estimate of it
+    Scalar line_error = static_cast<Scalar>(0.003L);               ///< what a Fourier line may be wrong by, of itself
+    Scalar floor_error = static_cast<Scalar>(0.001L);              ///< and of the whole profile's rms
+    Scalar largest_relative_sd = static_cast<Scalar>(0.1L);        ///< of a depth; above: no estimate of it
     Scalar largest_tip_angle_sd_rad = static_cast<Scalar>(0.05L);  ///< above: nothing learnt
     Scalar smallest_ripple = static_cast<Scalar>(0.002L);  ///< of the whole profile; below it there is no shape to fit
 };
 
 template <typename Scalar>
-struct FluteProfileEstimate {  // both depths have their own validity
+struct FluteProfileEstimate {
     Measurement<Scalar> axial_depth_mm{};
     Measurement<Scalar> radial_depth_mm{};
     Measurement<Scalar> tip_angle_rad{};
     CutSide side = CutSide::unknown;
     CutCategory category{};
-    Scalar ripple{0};  ///< rms of the profile about its mean, over the rms of the whole profile
-    Scalar misfit{1};  ///< of the weighted profile, the share that is not explained
-    Scalar residual_variance{0};  ///< against the assumed errors
+    Scalar ripple{0};             ///< rms of the profile about its mean, over the rms of the whole profile
+    Scalar misfit{1};             ///< of the weighted profile, the share that is not explained
+    Scalar residual_variance{0};  ///< over the assumed one; far above 1 the cut is not what the model takes it for
 };
 
 template <typename Scalar, int Harmonics = 10>
@@ -119,7 +120,8 @@ class FluteProfileFit {
         const FluteAngles<Scalar> angles = flute_angles(settings_.cutter, known);
         Point point;
         point << angles.sweep_rad, angles.engagement_rad, Scalar(0);
-        point(2) = best_shift(typename Fit::Projection(fit, model.straight_laws(point(1)), model.helix(point(0)))).shift;
+        point(2) =
+            best_shift(typename Fit::Projection(fit, model.straight_laws(point(1)), model.helix(point(0)))).shift;
         FluteKnowledge<Scalar> knowledge;
         knowledge.mean = point;
         // Near a slot a_e says little of α_en: dα_en = da_e/(R sin α_en), never taken above relative_sd · π.
@@ -152,15 +154,16 @@ class FluteProfileFit {
     static constexpr int sweep_nodes = 40;
     static constexpr int engagement_nodes = 14;
     static constexpr int shift_nodes = 32;
-        static constexpr std::size_t grid_starts = 6;
+    static constexpr std::size_t grid_starts = 6;
     static constexpr int fewest_harmonics = 3;  // 14 real numbers, for 13 unknowns of which 8 are held
 
     [[nodiscard]] Model model_for(const Spectrum& spectrum, CutSide side) const {
         int used = 0;
-        for (int k = 1; k <= Harmonics && passes(spectrum, k); ++k) {
+        for (int k = 1; k <= spectrum.highest && passes(spectrum, k); ++k) {
             used = k;
         }
-        return Model(settings_.cutter.teeth, settings_.feed_per_tooth_mm / settings_.cutter.cutter_radius_mm, side, used);
+        return Model(settings_.cutter.teeth, settings_.feed_per_tooth_mm / settings_.cutter.cutter_radius_mm, side,
+                     used);
     }
     [[nodiscard]] Phasor<Scalar> response(const Spectrum& spectrum, int k) const {
         return low_pass_response(settings_.low_pass, Scalar(k * settings_.cutter.teeth) * spectrum.spindle_speed_rev_s);
@@ -182,8 +185,8 @@ class FluteProfileFit {
             const Phasor<Scalar> H = response(spectrum, k < 0 ? -k : k);
             measured.data[l] = spectrum.line[l];
             measured.response[l] = k < 0 ? conjugate(H) : H;
-            const Scalar variance = square(settings_.floor_error) * total +
-                                    square(settings_.line_error) * squared_length(spectrum.line[l]);
+            const Scalar variance =
+                square(settings_.floor_error) * total + square(settings_.line_error) * squared_length(spectrum.line[l]);
             measured.weight[l] = variance > Scalar(0) ? Scalar(1) / sqrt(variance) : Scalar(0);
         }
         return measured;
@@ -230,7 +233,8 @@ class FluteProfileFit {
     }
 
     /// What chip and edge alone explain at each node, and at which shift.
-    using Grid = std::array<std::array<Shift, static_cast<std::size_t>(engagement_nodes)>, static_cast<std::size_t>(sweep_nodes)>;
+    using Grid = std::array<std::array<Shift, static_cast<std::size_t>(engagement_nodes)>,
+                            static_cast<std::size_t>(sweep_nodes)>;
 
     [[nodiscard]] static Scalar node(Scalar low, Scalar high, std::size_t index, int count) {
         return low + (high - low) * (Scalar(index) + Scalar(0.5F)) / Scalar(count);
@@ -247,8 +251,9 @@ class FluteProfileFit {
             const auto laws = model.straight_laws(engagement_node(limits, j));
             for (std::size_t i = 0; i < grid.size(); ++i) {
                 const typename Fit::Projection projection(fit, laws, model.helix(sweep_node(limits, i)));
-                grid[i][j] = settings_.tip_angle_rad.valid ? Shift{projection.explained(known_shift()), known_shift(), false}
-                                                           : best_shift(projection);
+                grid[i][j] = settings_.tip_angle_rad.valid
+                                 ? Shift{projection.explained(known_shift()), known_shift(), false}
+                                 : best_shift(projection);
             }
         }
     }

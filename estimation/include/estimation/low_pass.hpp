@@ -14,7 +14,8 @@ struct LowPass {
     Scalar cutoff_Hz{0};
 };
 
-/// H(f), f ≥ 0: the product over pole pairs of 1/(1 − x² + 2i x sin(π(2k − 1)/2n)), x = f/f_c, and 1/(1 + ix) for odd n.
+/// H(f), f ≥ 0: the product over pole pairs of 1/(1 − x² + 2i x sin(π(2k − 1)/2n)), x = f/f_c, and 1/(1 + ix) for odd
+/// n.
 template <typename Scalar>
 Phasor<Scalar> low_pass_response(const LowPass<Scalar>& filter, Scalar frequency_Hz) {
     using std::sin;

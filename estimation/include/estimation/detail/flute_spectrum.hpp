@@ -15,9 +15,9 @@
 /// over the engagement. The helix shifts each disc: all lines are multiplied by ∫ e^{−imψ} dψ over the sweep. Both
 /// integrals are sums of e^{iqφ}; nothing is integrated numerically.
 ///
-/// The laws: g itself, a constant (edge force), and hats (1 − g/g_h)₊ that let thin chips depart from the straight line:
-/// size effect, rubbing, and teeth that runout lifts out of a thin chip.
-/// g = sin φ + ε [½ cos²φ − sin φ cos φ/φ_N], ε = f_z/R: the trochoid to first order.
+/// The laws: g itself, a constant (edge force), and hats (1 − g/g_h)₊ that let thin chips depart from the straight
+/// line: size effect, rubbing, and teeth that runout lifts out of a thin chip. g = sin φ + ε [½ cos²φ − sin φ cos
+/// φ/φ_N], ε = f_z/R: the trochoid to first order.
 
 namespace millforce::estimation {
 
@@ -122,7 +122,8 @@ class FluteSpectrum {
         Phasor<Scalar> at_exit{Scalar(1), Scalar(0)};
         for (int k = 0; k <= used_; ++k) {
             const Ends step{entry, exit};
-            add_line(width_rad, k, {at_entry * conjugate(entry), at_exit * conjugate(exit)}, step, chip_lines, edge_lines);
+            add_line(width_rad, k, {at_entry * conjugate(entry), at_exit * conjugate(exit)}, step, chip_lines,
+                     edge_lines);
             if (k > 0) {
                 add_line(width_rad, -k, {conjugate(at_entry * entry), conjugate(at_exit * exit)}, step, chip_lines,
                          edge_lines);

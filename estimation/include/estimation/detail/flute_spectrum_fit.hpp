@@ -48,7 +48,7 @@ class FluteSpectrumFit {
 
     struct Measured {
         Lines data{};
-        Lines response{};  ///< of the low-pass
+        Lines response{};                                                     ///< of the low-pass
         std::array<Scalar, static_cast<std::size_t>(Model::lines)> weight{};  ///< 1/standard deviation; 0: not used
     };
 
