@@ -164,8 +164,8 @@ class FluteProfile {
 /// Fourier coefficients of a profile's plane force F_x + iF_y over the pitch: c_k at k·N per revolution, k = −K…K.
 template <typename Scalar, int Harmonics>
 struct ProfileSpectrum {
-    static constexpr int lines = 2 * Harmonics + 1;
-    std::array<Phasor<Scalar>, static_cast<std::size_t>(lines)> line{};  ///< [k + K]
+    static constexpr std::size_t lines = 2U * static_cast<std::size_t>(Harmonics) + 1U;
+    std::array<Phasor<Scalar>, lines> line{};  ///< [k + K]
     Scalar spindle_speed_rev_s{0};
     int highest = Harmonics;  ///< above it the samples do not tell a harmonic from its aliases
 };
@@ -184,6 +184,7 @@ ProfileSpectrum<Scalar, Harmonics> profile_spectrum(const FluteAverage<Scalar, C
     const Scalar told = below_nyquist * average.samples_per_pitch;
     spectrum.highest =
         average.samples_per_pitch > Scalar(0) && told < Scalar(Harmonics) ? static_cast<int>(told) : Harmonics;
+    constexpr auto middle = static_cast<std::size_t>(Harmonics);
     const auto sinc = [](Scalar x) { return x > Scalar(0) ? sin(x) / x : Scalar(1); };
     for (int k = 0; k <= Harmonics; ++k) {
         const Scalar turn = Scalar(2) * pi<Scalar> * Scalar(k) / Scalar(Bins);
@@ -202,8 +203,9 @@ ProfileSpectrum<Scalar, Harmonics> profile_spectrum(const FluteAverage<Scalar, C
         }
         const Scalar scale = Scalar(1) / kept;
         // x_{−k} and y_{−k} are the conjugates, for both signals are real.
-        spectrum.line[static_cast<std::size_t>(Harmonics + k)] = Phasor<Scalar>{x.re - y.im, x.im + y.re} * scale;
-        spectrum.line[static_cast<std::size_t>(Harmonics - k)] = Phasor<Scalar>{x.re + y.im, y.re - x.im} * scale;
+        const auto order = static_cast<std::size_t>(k);
+        spectrum.line[middle + order] = Phasor<Scalar>{x.re - y.im, x.im + y.re} * scale;
+        spectrum.line[middle - order] = Phasor<Scalar>{x.re + y.im, y.re - x.im} * scale;
     }
     return spectrum;
 }

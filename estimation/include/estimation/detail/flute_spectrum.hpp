@@ -24,15 +24,18 @@ namespace millforce::estimation {
 template <typename Scalar, int Harmonics>
 class FluteSpectrum {
   public:
-    static constexpr int lines = 2 * Harmonics + 1;
+    static constexpr std::size_t lines = 2U * static_cast<std::size_t>(Harmonics) + 1U;
     static constexpr std::size_t laws = 5;
-    using Lines = std::array<Phasor<Scalar>, static_cast<std::size_t>(lines)>;  ///< [k + Harmonics]
+    using Lines = std::array<Phasor<Scalar>, lines>;  ///< [k + Harmonics]
     using LawLines = std::array<Lines, laws>;
 
     FluteSpectrum(int teeth, Scalar feed_in_radii, CutSide side, int used)
         : teeth_(teeth), feed_in_radii_(feed_in_radii), side_(side), used_(used) {}
 
-    [[nodiscard]] static std::size_t line(int k) { return static_cast<std::size_t>(Harmonics + k); }
+    [[nodiscard]] static std::size_t line(int k) {
+        const int index = Harmonics + k;
+        return static_cast<std::size_t>(index);
+    }
     [[nodiscard]] static int order(std::size_t line) { return static_cast<int>(line) - Harmonics; }
     [[nodiscard]] int used() const { return used_; }
     [[nodiscard]] Scalar pitch_rad() const { return Scalar(2) * pi<Scalar> / Scalar(teeth_); }

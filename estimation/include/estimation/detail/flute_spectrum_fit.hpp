@@ -48,8 +48,8 @@ class FluteSpectrumFit {
 
     struct Measured {
         Lines data{};
-        Lines response{};                                                     ///< of the low-pass
-        std::array<Scalar, static_cast<std::size_t>(Model::lines)> weight{};  ///< 1/standard deviation; 0: not used
+        Lines response{};                           ///< of the low-pass
+        std::array<Scalar, Model::lines> weight{};  ///< 1/standard deviation; 0: not used
     };
 
     FluteSpectrumFit(const Model& model, const Measured& measured) : model_(model), measured_(measured) {}
