@@ -13,9 +13,9 @@ namespace millforce::sim {
 namespace {
 
 /// Two-pole Butterworth low-pass, by the bilinear transform with its cutoff held.
-class SecondOrderLowPass {
+class SensorLowPass {
   public:
-    SecondOrderLowPass(double cutoff_Hz, double sampling_Hz) {
+    SensorLowPass(double cutoff_Hz, double sampling_Hz) {
         const double k = std::tan(std::numbers::pi * cutoff_Hz / sampling_Hz);
         const double scale = 1.0 / (1.0 + std::numbers::sqrt2 * k + k * k);
         gain_ = k * k * scale;
@@ -84,9 +84,9 @@ std::vector<ForceSample> record_force(const std::vector<ForceSample>& revolution
                                                                &ForceSample::fz_N, &ForceSample::scalar_sum_N};
     const std::size_t used_channels = sensor.plane_only ? 2 : channels.size();
     const bool filtered = sensor.low_pass_Hz > 0.0;
-    std::array<SecondOrderLowPass, 4> low_pass{
-        SecondOrderLowPass(sensor.low_pass_Hz, sampling_Hz), SecondOrderLowPass(sensor.low_pass_Hz, sampling_Hz),
-        SecondOrderLowPass(sensor.low_pass_Hz, sampling_Hz), SecondOrderLowPass(sensor.low_pass_Hz, sampling_Hz)};
+    std::array<SensorLowPass, 4> low_pass{
+        SensorLowPass(sensor.low_pass_Hz, sampling_Hz), SensorLowPass(sensor.low_pass_Hz, sampling_Hz),
+        SensorLowPass(sensor.low_pass_Hz, sampling_Hz), SensorLowPass(sensor.low_pass_Hz, sampling_Hz)};
     std::vector<ForceSample> record;
     record.reserve(revolution.size() * static_cast<std::size_t>(revolutions) + more_samples);
     const std::size_t settling = revolution.size() * settling_revolutions;

@@ -227,33 +227,29 @@ std::vector<RandomCutOutcome> add_random_cuts(Reproduction& r) {
 
 std::vector<std::string> deviations() {
     return {
-        ("The force is the plant's, not a dynamometer's: 1018 steel with K_tc 1800, K_rc 630 N/mm², edge forces 7.5 "
-         "and "
-         "9 "
-         "N/mm (the paper prints no coefficients), runout 5 µm, noise of 1 % of the peak, a two-pole low-pass."),
-        ("Valley, peak and end of a flat top are read off as corners of the profile, the same way for all tests; the "
-         "paper "
-         "does not say how it reads them. K comes from the nominal cut of each series, and so does the offset of "
-         "PT_doc "
-         "where a figure says so: filter and vector sum shift the corners by up to 1.5°."),
-        ("Eq. 3 prints ADOC_c where the actual ADOC must stand; Eq. 6 prints α_sw < α_T where it needs α_en + α_sw < "
-         "α_T."),
-        ("Table 1's row for type III is a single flute's peak. Where the next flute enters before it, the sum peaks "
-         "elsewhere: for mill 1 (III/MO) at the end of that entry, α_sw after the valley, whether the flutes are added "
-         "as "
-         "scalars or as vectors. For mill 2 (III/LO) the vector sum moves the valley. So the published formulas do not "
-         "give the published accuracy on a force that adds as vectors, and Table 7 is shown for them, not judged. "
-         "With α_sw in that row, flute forces added as scalars do give it."),
-        ("Eq. 9's K is the force per area at one hardness and chip thickness. A harder piece looks like a wider cut; "
-         "between −20 and +20 % of width the edge forces alone are worth some 2 to 4 % of K."),
-        ("The profile fit averages F_x and F_y over the flutes instead of their resultant: a magnitude is not linear, "
-         "and "
-         "keeps some of the runout. It learns the angle of the tooth's tip against the encoder from the nominal cut, "
-         "as "
-         "the published method learns K. Without that it still estimates the axial depth; the width then depends on "
-         "where the force ends at the thin end of the chip, where runout lifts teeth out of the cut."),
-        ("A sweep of a whole number of pitches leaves a constant force, whatever the width: physics gives no estimate "
-         "there, and the fit says so."),
+        ("The force is the plant's, not a dynamometer's: 1018 steel with K_tc 1800, K_rc 630 N/mm², edge "
+         "forces 7.5 and 9 N/mm (the paper prints no coefficients), runout 5 µm, noise of 1 % of the peak, a "
+         "two-pole low-pass."),
+        ("Valley, peak and end of a flat top are read off as corners of the profile, the same way for all "
+         "tests; the paper does not say how it reads them. K comes from the nominal cut of each series, and so "
+         "does the offset of PT_doc where a figure says so: filter and vector sum shift the corners by up to "
+         "1.5°."),
+        ("Eq. 3 prints ADOC_c where the actual ADOC must stand; Eq. 6 prints α_sw < α_T where it needs α_en + "
+         "α_sw < α_T."),
+        ("Table 1's row for type III is a single flute's peak. Where the next flute enters before it, the sum "
+         "peaks elsewhere: for mill 1 (III/MO) at the end of that entry, α_sw after the valley, whether the "
+         "flutes are added as scalars or as vectors. For mill 2 (III/LO) the vector sum moves the valley. So "
+         "the published formulas do not give the published accuracy on a force that adds as vectors, and Table "
+         "7 is shown for them, not judged. With α_sw in that row, flute forces added as scalars do give it."),
+        ("Eq. 9's K is the force per area at one hardness and chip thickness. A harder piece looks like a "
+         "wider cut; between −20 and +20 % of width the edge forces alone are worth some 2 to 4 % of K."),
+        ("The profile fit averages F_x and F_y over the flutes instead of their resultant: a magnitude is not "
+         "linear, and keeps some of the runout. It learns the angle of the tooth's tip against the encoder "
+         "from the nominal cut, as the published method learns K. Without that it still estimates the axial "
+         "depth; the width then depends on where the force ends at the thin end of the chip, where runout "
+         "lifts teeth out of the cut."),
+        ("A sweep of a whole number of pitches leaves a constant force, whatever the width: physics gives no "
+         "estimate there, and the fit says so."),
     };
 }
 
