@@ -124,6 +124,37 @@ void add_means(const std::vector<Series>& all, Reproduction& r) {
                          fit.answered_share(), Judged::at_least, 1.0});
 }
 
+/// Mean relative error of the variations beyond 10 %, in percent of the variation.
+double relative_error_percent(const std::vector<Series>& all, Method method) {
+    constexpr double smallest_variation_percent = 10.0;
+    double sum_percent = 0.0;
+    double count = 0.0;
+    const auto add = [&](double estimate, double truth) {
+        if (std::abs(truth) > smallest_variation_percent && std::isfinite(estimate)) {
+            sum_percent += 100.0 * std::abs(estimate / truth - 1.0);
+            count += 1.0;
+        }
+    };
+    for (const Series& series : all) {
+        for (const Test& test : series.tests) {
+            add(test.estimate[method].axial, test.truth.axial);
+            add(test.estimate[method].radial, test.truth.radial);
+        }
+    }
+    return sum_percent / count;
+}
+
+void add_relative_errors(const std::vector<Series>& all, Reproduction& r) {
+    constexpr double published_bound_percent = 15.0;
+    const double printed = relative_error_percent(all, as_published);
+    const auto add = [&](const char* name, Method method) {
+        r.figures.push_back({fmt::format("Tables 5–7: mean relative error of variations beyond 10 %, {}", name), "%",
+                             printed, relative_error_percent(all, method), Judged::at_most, published_bound_percent});
+    };
+    add("Table 1 on the resultant, angles against the nominal cut", against_nominal);
+    add("profile fit", profile_fit);
+}
+
 /// Numbers of the paper's text and of its formulas that need no cut.
 void add_formulas(Reproduction& r) {
     const estimation::FluteGeometry<double> mill_1{4, 9.525, 30.0 * degree};
@@ -268,6 +299,7 @@ Reproduction reproduce_yang() {
         }
     }
     yang::add_means(all, r);
+    yang::add_relative_errors(all, r);
     yang::add_formulas(r);
     yang::add_angles(all, r);
     yang::add_hardness(r);
