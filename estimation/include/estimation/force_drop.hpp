@@ -1,0 +1,202 @@
+#pragma once
+
+#include "estimation/air_gap.hpp"
+#include "estimation/force_drop_detector.hpp"
+#include "estimation/force_drop_immersion.hpp"
+
+#include <cmath>
+
+/// Radial immersion in process from the force drops of a face mill (Hwang, Oh, Kwon and Chu, "In-process estimation of
+/// radial immersion ratio in face milling using cutting force"): samples of two forces in, an immersion with its
+/// standard deviation or "no estimate" out, once per `revolutions` of the spindle.
+///
+/// Forces on the workpiece in the feed frame (x along the feed, y its normal), from a force sensor, or from feed drives
+/// where the tooth-passing rate is inside the drives' bandwidth. Neither the hardness of the material nor the depth of
+/// cut is needed; the feed per tooth is, for the edge force is a share that depends on it (force_drop_law.hpp).
+///
+/// The chain: RevolutionProfile (angle-synchronous mean) → ForceDropDetector (the jump, free of the low-pass) →
+/// ForceDropImmersion (the two equations). Between two teeth, where
+/// none is in cut, the sensor's zero is read and taken off the averages (AirGap). Where the other edge of the cut falls into the window of the jump, its share
+/// is worked out from the estimate, taken off the signal, and jump and estimate are found again, `passes` times.
+///
+/// Where this differs from print:
+///  - Eq. 6 by the two-argument arctangent: tan⁻¹ fails past 90°.
+///  - Eqs. 6, 11, 12 are closed by bracketing, not by iteration: a ≥ 1 needs no proof then (Eqs. 13, 14; 14 is lost).
+///  - Edge forces are part of the law; the paper names them as the cause of its largest error, at immersion 0.2.
+///  - The drop's size beside the average force's is used as well as its direction.
+///  - Down milling: the jump is a rise where the tooth enters, φ_st = π − θ; the averages run from φ_st to π.
+///  - Table 1 prints mm/min for a feed per tooth: read mm. The nomenclature's r is F_R/F_T (Eq. 2), not its inverse.
+///
+/// Memory (float, 512 bins): 4.2 KB. Cost per sample: some 20 operations; per estimate 2 · Bins · window + `passes` × 13 ×
+/// teeth × window × 60 operations, about 0.3 million at 3 teeth. Not thread-safe.
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+struct ForceDropSettings {
+    ForceDropDetectorSettings<Scalar> detector{};
+    ForceDropImmersionSettings<Scalar> immersion{};
+    int revolutions{1};          ///< per estimate: more takes noise off and follows a changing cut later
+    CutSide side = CutSide::unknown;  ///< unknown: a drop along the mean force is up milling, a rise down milling
+    Scalar known_immersion{0};   ///< of a calibration cut; 0: unknown, to be estimated
+    Scalar mean_force_sd_N{0};   ///< what a sensor's or drive's zero may have drifted since air
+    int passes{3};               ///< 1: the other edge is not taken off
+};
+
+template <typename Scalar>
+struct ForceDropSample {
+    Scalar spindle_angle_rev{0};  ///< 0…1
+    Scalar dt_s{0};               ///< since the last sample
+    Scalar fx_N{0};
+    Scalar fy_N{0};
+};
+
+template <typename Scalar, int Bins = 512>
+class ForceDrop {
+  public:
+    using Estimate = ForceDropEstimate<Scalar>;
+
+    explicit ForceDrop(const ForceDropLaw<Scalar>& law = {}, const ForceDropSettings<Scalar>& settings = {})
+        : settings_(settings),
+          profile_(settings.revolutions),
+          detector_(settings.detector),
+          immersion_(law, settings.immersion) {}
+
+    void restart() { profile_.restart(); }
+
+    /// Returns true when an estimate was made: read estimate(). `feed_per_tooth_mm` as commanded or measured.
+    bool add(const ForceDropSample<Scalar>& sample, Scalar feed_per_tooth_mm) {
+        if (!profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N)) {
+            return false;
+        }
+        evaluate(feed_per_tooth_mm);
+        profile_.clear();
+        return true;
+    }
+
+    [[nodiscard]] const Estimate& estimate() const { return estimate_; }
+    /// What the last estimate was made of: for calibration, and to be shown.
+    [[nodiscard]] const ForceDropMeasurement<Scalar>& measurement() const { return measurement_; }
+    [[nodiscard]] const ForceJump<Scalar>& jump() const { return jump_; }
+
+  private:
+    void evaluate(Scalar feed_per_tooth_mm) {
+        if (settings_.known_immersion > Scalar(0)) {
+            measure_known(feed_per_tooth_mm);
+            return;
+        }
+        OtherEdge<Scalar> other;
+        Scalar theta_rad{0};
+        for (int pass = 0; pass < settings_.passes; ++pass) {
+            jump_ = detector_.detect(profile_, other);
+            measurement_ = measurement_of(jump_, feed_per_tooth_mm);
+            take_zero_off(theta_rad);
+            estimate_ = immersion_.solve(measurement_);
+            theta_rad = estimate_.theta_rad;
+            if (!jump_.valid()) {
+                estimate_.reason = jump_.reason == ForceJump<Scalar>::Reason::too_fast ? Estimate::Reason::too_fast
+                                                                                       : Estimate::Reason::no_drop;
+            }
+            if (!jump_.valid() || !(theta_rad > Scalar(0))) {
+                return;
+            }
+            other = other_edge(feed_per_tooth_mm);
+        }
+    }
+
+    void measure_known(Scalar feed_per_tooth_mm) {
+        using std::acos;
+        jump_ = detector_.detect(profile_);
+        measurement_ = measurement_of(jump_, feed_per_tooth_mm);
+        estimate_ = {};
+        if (!jump_.valid()) {
+            return;
+        }
+        const Scalar theta_rad = acos(Scalar(1) - settings_.known_immersion);
+        take_zero_off(theta_rad);
+        const ForceJump<Scalar> other =
+            detector_.measure_at(profile_, jump_.angle_rev + other_edge_behind_rev(measurement_.side, theta_rad));
+        constexpr Scalar per_rad = Scalar(1) / (Scalar(2) * pi<Scalar>);
+        measurement_.has_other_edge = true;
+        measurement_.other_step_x_N = other.x_N.value;
+        measurement_.other_step_y_N = other.y_N.value;
+        measurement_.other_slope_x_N_per_rad = other.slope_x_N_per_rev * per_rad;
+        measurement_.other_slope_y_N_per_rad = other.slope_y_N_per_rev * per_rad;
+    }
+
+    /// From the jump on, the spindle turns so far to the other edge of the cut, modulo the pitch: back to where the tooth
+    /// entered an up cut, on to where it leaves a down cut.
+    [[nodiscard]] static Scalar other_edge_behind_rev(CutSide side, Scalar theta_rad) {
+        return (side == CutSide::up ? Scalar(-1) : Scalar(1)) * theta_rad / (Scalar(2) * pi<Scalar>);
+    }
+
+    /// `theta_rad` as far as it is known, 0: not yet.
+    void take_zero_off(Scalar theta_rad) {
+        measurement_.mean_x_N.variance += square(settings_.mean_force_sd_N);
+        measurement_.mean_y_N.variance += square(settings_.mean_force_sd_N);
+        if (!jump_.valid() || !(theta_rad > Scalar(0))) {
+            return;
+        }
+        const Scalar leaves_rev =
+            jump_.angle_rev +
+            (measurement_.side == CutSide::up ? Scalar(0) : theta_rad / (Scalar(2) * pi<Scalar>));
+        const Scalar settling_rev =
+            settings_.detector.response.settling_s() / (profile_.seconds_per_bin() * Scalar(Bins));
+        const Scalar gap_rev = Scalar(1) / Scalar(settings_.detector.teeth) - theta_rad / (Scalar(2) * pi<Scalar>);
+        const AirGap<Scalar> gap = read_air_gap(profile_, settings_.detector.teeth, leaves_rev + settling_rev,
+                                                gap_rev - settling_rev);
+        if (gap.valid) {
+            const Scalar inflation = Scalar(1) / settings_.detector.response.independent_share(
+                                                     Scalar(1) / profile_.seconds_per_bin());
+            measurement_.mean_x_N.value -= gap.x_N;
+            measurement_.mean_y_N.value -= gap.y_N;
+            measurement_.mean_x_N.variance = jump_.mean_x_N.variance + gap.x_variance * inflation;
+            measurement_.mean_y_N.variance = jump_.mean_y_N.variance + gap.y_variance * inflation;
+        }
+    }
+
+    [[nodiscard]] ForceDropMeasurement<Scalar> measurement_of(const ForceJump<Scalar>& jump,
+                                                              Scalar feed_per_tooth_mm) const {
+        ForceDropMeasurement<Scalar> m;
+        m.feed_per_tooth_mm = feed_per_tooth_mm;
+        m.teeth = Scalar(settings_.detector.teeth);
+        if (!jump.valid()) {
+            return m;
+        }
+        const Scalar along = jump.x_N.value * jump.mean_x_N.value + jump.y_N.value * jump.mean_y_N.value;
+        m.side = settings_.side == CutSide::unknown ? (along < Scalar(0) ? CutSide::up : CutSide::down) : settings_.side;
+        const Scalar sign = m.side == CutSide::up ? Scalar(-1) : Scalar(1);
+        m.tooth_x_N = jump.x_N;
+        m.tooth_y_N = jump.y_N;
+        m.tooth_x_N.value *= sign;
+        m.tooth_y_N.value *= sign;
+        m.mean_x_N = jump.mean_x_N;
+        m.mean_y_N = jump.mean_y_N;
+        return m;
+    }
+
+    [[nodiscard]] OtherEdge<Scalar> other_edge(Scalar feed_per_tooth_mm) const {
+        const ForceDropLaw<Scalar>& law = immersion_.law();
+        const Scalar pressure = estimate_.pressure_N_per_mm;
+        const Scalar chip_N_per_rev = (estimate_.side == CutSide::up ? Scalar(1) : Scalar(-1)) * pressure *
+                                      feed_per_tooth_mm * (Scalar(2) * pi<Scalar>);
+        OtherEdge<Scalar> other;
+        other.present = true;
+        other.behind_rev = other_edge_behind_rev(estimate_.side, estimate_.theta_rad);
+        other.step_x_N = pressure * law.other_step_x_mm;
+        other.step_y_N = pressure * law.other_step_y_mm;
+        other.slope_x_N_per_rev = chip_N_per_rev * law.other_slope_x;
+        other.slope_y_N_per_rev = chip_N_per_rev * law.other_slope_y;
+        return other;
+    }
+
+    ForceDropSettings<Scalar> settings_;
+    RevolutionProfile<Scalar, Bins> profile_;
+    ForceDropDetector<Scalar, Bins> detector_;
+    ForceDropImmersion<Scalar> immersion_;
+    ForceDropMeasurement<Scalar> measurement_{};
+    ForceJump<Scalar> jump_{};
+    Estimate estimate_{};
+};
+
+}  // namespace millforce::estimation
