@@ -17,7 +17,8 @@
 /// The chain: RevolutionProfile (angle-synchronous mean) → ForceDropDetector (the jump, free of the low-pass) →
 /// ForceDropImmersion (the two equations). Between two teeth, where
 /// none is in cut, the sensor's zero is read and taken off the averages (AirGap). Where the other edge of the cut falls into the window of the jump, its share
-/// is worked out from the estimate, taken off the signal, and jump and estimate are found again, `passes` times.
+/// is worked out for each immersion that is tried and taken off the signal, and the immersion is bracketed that comes out
+/// as it was put in.
 ///
 /// Where this differs from print:
 ///  - Eq. 6 by the two-argument arctangent: tan⁻¹ fails past 90°.
@@ -27,8 +28,9 @@
 ///  - Down milling: the jump is a rise where the tooth enters, φ_st = π − θ; the averages run from φ_st to π.
 ///  - Table 1 prints mm/min for a feed per tooth: read mm. The nomenclature's r is F_R/F_T (Eq. 2), not its inverse.
 ///
-/// Memory (float, 512 bins): 4.2 KB. Cost per sample: some 20 operations; per estimate 2 · Bins · window + `passes` × 13 ×
-/// teeth × window × 60 operations, about 0.3 million at 3 teeth. Not thread-safe.
+/// Memory (float, 512 bins): 4.2 KB. Cost per sample: some 20 operations; per estimate 2 · Bins · window + 13 × teeth
+/// × window × 60 operations, about 0.2 million at 3 teeth; 13 times that where the other edge acts on the window.
+/// Not thread-safe.
 
 namespace millforce::estimation {
 
@@ -40,7 +42,7 @@ struct ForceDropSettings {
     CutSide side = CutSide::unknown;  ///< unknown: a drop along the mean force is up milling, a rise down milling
     Scalar known_immersion{0};   ///< of a calibration cut; 0: unknown, to be estimated
     Scalar mean_force_sd_N{0};   ///< what a sensor's or drive's zero may have drifted since air
-    int passes{3};               ///< 1: the other edge is not taken off
+    int closing_steps{4};        ///< of the bracket, where the other edge acts on the jump's window
 };
 
 template <typename Scalar>
@@ -85,22 +87,94 @@ class ForceDrop {
             measure_known(feed_per_tooth_mm);
             return;
         }
-        OtherEdge<Scalar> other;
+        jump_ = detector_.detect(profile_);
+        estimate_from(jump_, feed_per_tooth_mm, Scalar(0));
+        if (!jump_.valid()) {
+            estimate_.reason = jump_.reason == ForceJump<Scalar>::Reason::too_fast ? Estimate::Reason::too_fast
+                                                                                   : Estimate::Reason::no_drop;
+            return;
+        }
+        const Scalar first_rad = estimate_.theta_rad;
+        if (!(first_rad > Scalar(0))) {
+            return;
+        }
+        estimate_from(jump_, feed_per_tooth_mm, first_rad);
+        const Scalar reach = static_cast<Scalar>(0.18L) * first_rad;
+        if (other_edge_acts_between(first_rad - reach, first_rad + reach)) {
+            close_other_edge(first_rad, reach, feed_per_tooth_mm);
+        }
+    }
+
+    /// One solution from a jump. `theta_rad` as far as it is known, for the air gap; 0: not yet.
+    void estimate_from(const ForceJump<Scalar>& jump, Scalar feed_per_tooth_mm, Scalar theta_rad) {
+        measurement_ = measurement_of(jump, feed_per_tooth_mm);
+        take_zero_off(jump, theta_rad);
+        estimate_ = immersion_.solve(measurement_);
+    }
+
+    [[nodiscard]] bool other_edge_acts_between(Scalar low_rad, Scalar high_rad) const {
+        constexpr int places = 5;
+        bool acts = false;
+        for (int k = 0; k < places; ++k) {
+            const Scalar theta_rad = low_rad + (high_rad - low_rad) * Scalar(k) / Scalar(places - 1);
+            acts = acts || detector_.acts_on_window(profile_, other_edge_behind_rev(measurement_.side, theta_rad));
+        }
+        return acts;
+    }
+
+    struct Closure {
+        bool valid = false;
         Scalar theta_rad{0};
-        for (int pass = 0; pass < settings_.passes; ++pass) {
-            jump_ = detector_.detect(profile_, other);
-            measurement_ = measurement_of(jump_, feed_per_tooth_mm);
-            take_zero_off(theta_rad);
-            estimate_ = immersion_.solve(measurement_);
-            theta_rad = estimate_.theta_rad;
-            if (!jump_.valid()) {
-                estimate_.reason = jump_.reason == ForceJump<Scalar>::Reason::too_fast ? Estimate::Reason::too_fast
-                                                                                       : Estimate::Reason::no_drop;
+        Scalar excess_rad{0};  ///< what comes out less what was put in
+    };
+
+    /// Puts the other edge where it would be at θ, takes it off, and solves.
+    Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first) {
+        constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.3L);
+        ForceJump<Scalar> jump =
+            detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
+        jump.x_N.variance += square(doubt_in_taken_off * (jump.x_N.value - first.x_N.value));
+        jump.y_N.variance += square(doubt_in_taken_off * (jump.y_N.value - first.y_N.value));
+        estimate_from(jump, feed_per_tooth_mm, theta_rad);
+        jump_ = jump;
+        const bool solved = jump.valid() && estimate_.theta_rad > Scalar(0);
+        return {solved, theta_rad, estimate_.theta_rad - theta_rad};
+    }
+
+    /// Solving again with the edge taken off would not converge: at coincidence a θ too large makes the next one too
+    /// small, by more. So θ is bracketed here, too: between the nodes where the excess changes from + to −.
+    void close_other_edge(Scalar first_rad, Scalar reach_rad, Scalar feed_per_tooth_mm) {
+        constexpr int nodes = 9;
+        const ForceJump<Scalar> first = jump_;
+        Closure low;
+        Closure high;
+        Closure before;
+        Scalar nearest_rad = reach_rad + reach_rad;
+        for (int k = 0; k < nodes; ++k) {
+            const Scalar theta_rad = first_rad + reach_rad * (Scalar(2 * k) / Scalar(nodes - 1) - Scalar(1));
+            const Closure here = close_at(theta_rad, feed_per_tooth_mm, first);
+            const Scalar away = theta_rad > first_rad ? theta_rad - first_rad : first_rad - theta_rad;
+            if (before.valid && here.valid && before.excess_rad > Scalar(0) && here.excess_rad <= Scalar(0) &&
+                away < nearest_rad) {
+                low = before;
+                high = here;
+                nearest_rad = away;
             }
-            if (!jump_.valid() || !(theta_rad > Scalar(0))) {
+            before = here;
+        }
+        if (!low.valid) {
+            estimate_.reason = Estimate::Reason::no_root;
+            return;
+        }
+        for (int k = 0; k < settings_.closing_steps; ++k) {
+            const Scalar share = low.excess_rad / (low.excess_rad - high.excess_rad);
+            const Closure here = close_at(low.theta_rad + clamp(share, static_cast<Scalar>(0.1L), static_cast<Scalar>(0.9L)) *
+                                                              (high.theta_rad - low.theta_rad),
+                                          feed_per_tooth_mm, first);
+            if (!here.valid) {
                 return;
             }
-            other = other_edge(feed_per_tooth_mm);
+            (here.excess_rad > Scalar(0) ? low : high) = here;
         }
     }
 
@@ -113,7 +187,7 @@ class ForceDrop {
             return;
         }
         const Scalar theta_rad = acos(Scalar(1) - settings_.known_immersion);
-        take_zero_off(theta_rad);
+        take_zero_off(jump_, theta_rad);
         const ForceJump<Scalar> other =
             detector_.measure_at(profile_, jump_.angle_rev + other_edge_behind_rev(measurement_.side, theta_rad));
         constexpr Scalar per_rad = Scalar(1) / (Scalar(2) * pi<Scalar>);
@@ -131,14 +205,14 @@ class ForceDrop {
     }
 
     /// `theta_rad` as far as it is known, 0: not yet.
-    void take_zero_off(Scalar theta_rad) {
+    void take_zero_off(const ForceJump<Scalar>& jump, Scalar theta_rad) {
         measurement_.mean_x_N.variance += square(settings_.mean_force_sd_N);
         measurement_.mean_y_N.variance += square(settings_.mean_force_sd_N);
-        if (!jump_.valid() || !(theta_rad > Scalar(0))) {
+        if (!jump.valid() || !(theta_rad > Scalar(0))) {
             return;
         }
         const Scalar leaves_rev =
-            jump_.angle_rev +
+            jump.angle_rev +
             (measurement_.side == CutSide::up ? Scalar(0) : theta_rad / (Scalar(2) * pi<Scalar>));
         const Scalar settling_rev =
             settings_.detector.response.settling_s() / (profile_.seconds_per_bin() * Scalar(Bins));
@@ -150,8 +224,8 @@ class ForceDrop {
                                                      Scalar(1) / profile_.seconds_per_bin());
             measurement_.mean_x_N.value -= gap.x_N;
             measurement_.mean_y_N.value -= gap.y_N;
-            measurement_.mean_x_N.variance = jump_.mean_x_N.variance + gap.x_variance * inflation;
-            measurement_.mean_y_N.variance = jump_.mean_y_N.variance + gap.y_variance * inflation;
+            measurement_.mean_x_N.variance = jump.mean_x_N.variance + gap.x_variance * inflation;
+            measurement_.mean_y_N.variance = jump.mean_y_N.variance + gap.y_variance * inflation;
         }
     }
 
@@ -175,14 +249,14 @@ class ForceDrop {
         return m;
     }
 
-    [[nodiscard]] OtherEdge<Scalar> other_edge(Scalar feed_per_tooth_mm) const {
+    [[nodiscard]] OtherEdge<Scalar> other_edge(Scalar theta_rad, Scalar feed_per_tooth_mm) const {
         const ForceDropLaw<Scalar>& law = immersion_.law();
-        const Scalar pressure = estimate_.pressure_N_per_mm;
-        const Scalar chip_N_per_rev = (estimate_.side == CutSide::up ? Scalar(1) : Scalar(-1)) * pressure *
+        const Scalar pressure = immersion_.pressure_by_averages_N_per_mm(measurement_, theta_rad);
+        const Scalar chip_N_per_rev = (measurement_.side == CutSide::up ? Scalar(1) : Scalar(-1)) * pressure *
                                       feed_per_tooth_mm * (Scalar(2) * pi<Scalar>);
         OtherEdge<Scalar> other;
         other.present = true;
-        other.behind_rev = other_edge_behind_rev(estimate_.side, estimate_.theta_rad);
+        other.behind_rev = other_edge_behind_rev(measurement_.side, theta_rad);
         other.step_x_N = pressure * law.other_step_x_mm;
         other.step_y_N = pressure * law.other_step_y_mm;
         other.slope_x_N_per_rev = chip_N_per_rev * law.other_slope_x;

@@ -84,27 +84,29 @@ class ForceDropDetector {
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
-    [[nodiscard]] ForceJump<Scalar> detect(const Profile& profile, const OtherEdge<Scalar>& other = {}) const {
-        ForceJump<Scalar> jump;
+    [[nodiscard]] ForceJump<Scalar> detect(const Profile& profile) const {
         const Window window = window_of(profile.seconds_per_bin());
-        if (!window.fits) {
-            jump.reason = ForceJump<Scalar>::Reason::too_fast;
-            return jump;
-        }
-        const Scalar near_bin = search(profile, window, other);
-        return refine(profile, window, other, near_bin);
+        return window.fits ? refine(profile, window, {}, search(profile, window)) : too_fast();
+    }
+
+    /// The jump near a place that is known to two grid points, another edge taken off.
+    [[nodiscard]] ForceJump<Scalar> detect_near(const Profile& profile, Scalar angle_rev,
+                                                const OtherEdge<Scalar>& other) const {
+        const Window window = window_of(profile.seconds_per_bin());
+        return window.fits ? refine(profile, window, other, angle_rev * Scalar(Bins)) : too_fast();
+    }
+
+    /// Whether an edge that the spindle reaches `behind_rev` after the jump acts on the jump's window.
+    [[nodiscard]] bool acts_on_window(const Profile& profile, Scalar behind_rev) const {
+        const Window window = window_of(profile.seconds_per_bin());
+        return place_in_window(window, behind_rev) <= Scalar(window.after);
     }
 
     /// The jump at a place that is known.
     [[nodiscard]] ForceJump<Scalar> measure_at(const Profile& profile, Scalar angle_rev) const {
         const Window window = window_of(profile.seconds_per_bin());
-        if (!window.fits) {
-            ForceJump<Scalar> jump;
-            jump.reason = ForceJump<Scalar>::Reason::too_fast;
-            return jump;
-        }
         const Scalar place_bin = angle_rev * Scalar(Bins);
-        return judge(profile, window, fit_at(profile, window, {}, place_bin), place_bin);
+        return window.fits ? judge(profile, window, fit_at(profile, window, {}, place_bin), place_bin) : too_fast();
     }
 
   private:
@@ -157,19 +159,27 @@ class ForceDropDetector {
         return {Scalar(1), bins * scale, at.step, at.ramp_s / window.seconds_per_bin * scale};
     }
 
-    /// What the other edge adds at `bins` after the sought jump: of its repetitions a pitch apart, those that act on
-    /// the window. One that is long past is linear there, and the fit takes it anyway.
+    [[nodiscard]] static ForceJump<Scalar> too_fast() {
+        ForceJump<Scalar> jump;
+        jump.reason = ForceJump<Scalar>::Reason::too_fast;
+        return jump;
+    }
+
+    /// Of an edge's repetitions a pitch apart, the first that acts on the window and is not linear there any more.
+    [[nodiscard]] Scalar place_in_window(const Window& window, Scalar behind_rev) const {
+        using std::floor;
+        const Scalar pitch = Scalar(Bins) / Scalar(settings_.teeth);
+        const Scalar earliest = -Scalar(window.before + window.after);
+        const Scalar from_earliest = behind_rev * Scalar(Bins) - earliest;
+        return earliest + from_earliest - pitch * floor(from_earliest / pitch);
+    }
+
+    /// What the other edge adds at `bins` after the sought jump, subtracted.
     void take_off(const Window& window, const OtherEdge<Scalar>& other, Scalar bins, Scalar& x_N, Scalar& y_N) const {
         if (!other.present) {
             return;
         }
-        const Scalar pitch = Scalar(Bins) / Scalar(settings_.teeth);
-        Scalar at_bins = other.behind_rev * Scalar(Bins);
-        const Scalar earliest = -Scalar(window.before + window.after);
-        while (at_bins > earliest) {
-            at_bins -= pitch;
-        }
-        at_bins += pitch;
+        const Scalar at_bins = place_in_window(window, other.behind_rev);
         const auto at = settings_.response.at((bins - at_bins) * window.seconds_per_bin);
         const Scalar ramp_rev = at.ramp_s / (window.seconds_per_bin * Scalar(Bins));
         x_N -= other.step_x_N * at.step + other.slope_x_N_per_rev * ramp_rev;
@@ -177,14 +187,9 @@ class ForceDropDetector {
     }
 
     /// The grid point where allowing a jump gains most.
-    [[nodiscard]] Scalar search(const Profile& profile, const Window& window, const OtherEdge<Scalar>& other) const {
+    [[nodiscard]] Scalar search(const Profile& profile, const Window& window) const {
         std::array<Scalar, static_cast<std::size_t>(MaxWindow)> weights{};
         fill_step_weights(window, weights);
-        Scalar off_x{0};
-        Scalar off_y{0};
-        for (int i = -window.before; i <= window.after; ++i) {
-            take_off(window, other, Scalar(i), off_x, off_y, weights[static_cast<std::size_t>(i + window.before)]);
-        }
         const Scalar pitch = Scalar(Bins) / Scalar(settings_.teeth);
         Scalar best_gain{-1};
         int best = 0;
@@ -192,8 +197,8 @@ class ForceDropDetector {
             Scalar gain{0};
             for (int tooth = 0; tooth < settings_.teeth; ++tooth) {
                 const int centre = p + static_cast<int>(Scalar(tooth) * pitch + Scalar(0.5F));
-                Scalar x = off_x;
-                Scalar y = off_y;
+                Scalar x{0};
+                Scalar y{0};
                 for (int i = -window.before; i <= window.after; ++i) {
                     const Scalar weight = weights[static_cast<std::size_t>(i + window.before)];
                     x += weight * profile.x_N(centre + i);
@@ -207,15 +212,6 @@ class ForceDropDetector {
             }
         }
         return Scalar(best);
-    }
-
-    void take_off(const Window& window, const OtherEdge<Scalar>& other, Scalar bins, Scalar& x_N, Scalar& y_N,
-                  Scalar weight) const {
-        Scalar x{0};
-        Scalar y{0};
-        take_off(window, other, bins, x, y);
-        x_N += weight * x;
-        y_N += weight * y;
     }
 
     /// d = Σ weight · y at a jump on a grid point: the third row of (XᵀX)⁻¹Xᵀ.

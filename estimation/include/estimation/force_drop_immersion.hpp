@@ -103,6 +103,14 @@ class ForceDropImmersion {
         return estimate;
     }
 
+    /// What the averages alone say of the cut, if θ were this: K a at the jump by c_0 and c_1.
+    [[nodiscard]] Scalar pressure_by_averages_N_per_mm(const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
+        using std::cos;
+        using std::exp;
+        const ForceDropRatios<Scalar> ratios = ratios_at(inputs_of(m), m, theta_rad);
+        return ratios.mean_pressure_N_per_mm * exp(law_.c_0 + law_.c_1 * cos(theta_rad));
+    }
+
   private:
     enum class Equation : unsigned char { direction, magnitude };
     static constexpr std::size_t input_count = 6;
@@ -300,15 +308,13 @@ class ForceDropImmersion {
         }
         Scalar share_of_A{0};
         Scalar covariance{0};
-        estimate.theta_rad = B.theta_rad;
+        bool agree = true;
         if (A.valid) {
             for (std::size_t k = 0; k < input_count; ++k) {
                 covariance += doubt.direction[k] * doubt.magnitude[k];
             }
             const Scalar of_difference = A.variance + B.variance - Scalar(2) * covariance;
-            if (square(A.theta_rad - B.theta_rad) > square(settings_.largest_disagreement) * of_difference) {
-                return Reason::disagreement;
-            }
+            agree = square(A.theta_rad - B.theta_rad) <= square(settings_.largest_disagreement) * of_difference;
             share_of_A = of_difference > Scalar(0)
                              ? clamp((B.variance - covariance) / of_difference, Scalar(0), Scalar(1))
                              : Scalar(0);
@@ -321,7 +327,7 @@ class ForceDropImmersion {
         estimate.radial_immersion_sd = sin(estimate.theta_rad) * sqrt(variance > Scalar(0) ? variance : Scalar(0));
         const bool known = estimate.radial_immersion_sd <= settings_.largest_sd &&
                            estimate.radial_immersion_sd <= settings_.largest_relative_sd * estimate.radial_immersion;
-        return known ? Reason::estimated : Reason::too_uncertain;
+        return !agree ? Reason::disagreement : known ? Reason::estimated : Reason::too_uncertain;
     }
 
     void fill_ratios(const ForceDropMeasurement<Scalar>& m, ForceDropEstimate<Scalar>& estimate) const {
