@@ -4,7 +4,9 @@
 #include "estimation/force_drop_detector.hpp"
 #include "estimation/force_drop_immersion.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 /// Radial immersion in process from the force drops of a face mill (Hwang, Oh, Kwon and Chu, "In-process estimation of
 /// radial immersion ratio in face milling using cutting force"): samples of two forces in, an immersion with its
@@ -130,7 +132,7 @@ class ForceDrop {
 
     /// Puts the other edge where it would be at θ, takes it off, and solves.
     Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first) {
-        constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.3L);
+        constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.5L);
         ForceJump<Scalar> jump =
             detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
         jump.x_N.variance += square(doubt_in_taken_off * (jump.x_N.value - first.x_N.value));
@@ -141,41 +143,60 @@ class ForceDrop {
         return {solved, theta_rad, estimate_.theta_rad - theta_rad};
     }
 
-    /// Solving again with the edge taken off would not converge: at coincidence a θ too large makes the next one too
-    /// small, by more. So θ is bracketed here, too: between the nodes where the excess changes from + to −.
+    static constexpr int closing_nodes = 9;
+    using Closures = std::array<Closure, static_cast<std::size_t>(closing_nodes)>;
+
+    /// Solving again and again with the edge taken off would not converge: at coincidence a θ too large makes the next
+    /// one too small, by more. So θ is bracketed here, too: between the nodes where the excess changes from + to −.
     void close_other_edge(Scalar first_rad, Scalar reach_rad, Scalar feed_per_tooth_mm) {
-        constexpr int nodes = 9;
         const ForceJump<Scalar> first = jump_;
-        Closure low;
-        Closure high;
-        Closure before;
+        Closures nodes;
+        std::size_t best = 0;
         Scalar nearest_rad = reach_rad + reach_rad;
-        for (int k = 0; k < nodes; ++k) {
-            const Scalar theta_rad = first_rad + reach_rad * (Scalar(2 * k) / Scalar(nodes - 1) - Scalar(1));
-            const Closure here = close_at(theta_rad, feed_per_tooth_mm, first);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const Scalar theta_rad = first_rad + reach_rad * (Scalar(2 * k) / Scalar(closing_nodes - 1) - Scalar(1));
+            nodes[k] = close_at(theta_rad, feed_per_tooth_mm, first);
             const Scalar away = theta_rad > first_rad ? theta_rad - first_rad : first_rad - theta_rad;
-            if (before.valid && here.valid && before.excess_rad > Scalar(0) && here.excess_rad <= Scalar(0) &&
-                away < nearest_rad) {
-                low = before;
-                high = here;
+            const bool brackets = k > 0 && nodes[k - 1].valid && nodes[k].valid &&
+                                  nodes[k - 1].excess_rad > Scalar(0) && nodes[k].excess_rad <= Scalar(0);
+            if (brackets && away < nearest_rad) {
+                best = k;
                 nearest_rad = away;
             }
-            before = here;
         }
-        if (!low.valid) {
+        if (best == 0) {
             estimate_.reason = Estimate::Reason::no_root;
             return;
         }
+        Closure low = nodes[best - 1];
+        Closure high = nodes[best];
         for (int k = 0; k < settings_.closing_steps; ++k) {
-            const Scalar share = low.excess_rad / (low.excess_rad - high.excess_rad);
-            const Closure here = close_at(low.theta_rad + clamp(share, static_cast<Scalar>(0.1L), static_cast<Scalar>(0.9L)) *
-                                                              (high.theta_rad - low.theta_rad),
-                                          feed_per_tooth_mm, first);
+            const Scalar share =
+                clamp(low.excess_rad / (low.excess_rad - high.excess_rad), static_cast<Scalar>(0.1L),
+                      static_cast<Scalar>(0.9L));
+            const Closure here =
+                close_at(low.theta_rad + share * (high.theta_rad - low.theta_rad), feed_per_tooth_mm, first);
             if (!here.valid) {
                 return;
             }
             (here.excess_rad > Scalar(0) ? low : high) = here;
         }
+        if (estimate_.valid() && is_ambiguous(nodes, estimate_.theta_rad)) {
+            estimate_.reason = Estimate::Reason::ambiguous;
+        }
+    }
+
+    /// Where what comes out follows what is put in, any θ explains the drop. The other edge's share is known within what
+    /// makes some 0.1 rad of θ: an immersion far from the root that closes as well as that is as good as the root.
+    [[nodiscard]] static bool is_ambiguous(const Closures& nodes, Scalar root_rad) {
+        constexpr Scalar closes_rad = static_cast<Scalar>(0.1L);
+        constexpr Scalar far_rad = static_cast<Scalar>(0.18L);
+        bool ambiguous = false;
+        for (const Closure& node : nodes) {
+            ambiguous = ambiguous || (node.valid && square(node.excess_rad) < square(closes_rad) &&
+                                      square(node.theta_rad - root_rad) > square(far_rad));
+        }
+        return ambiguous;
     }
 
     void measure_known(Scalar feed_per_tooth_mm) {

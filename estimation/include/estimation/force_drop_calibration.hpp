@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-/// e_t, e_r, a, b, c_0 and c_1 of a ForceDropLaw from cuts of known immersion, depth and feed.
+/// e_t, e_r, a, b and c of a ForceDropLaw from cuts of known immersion, depth and feed.
 ///
 /// First the edge lengths: jump and average of each cut are linear in K_tc, K_te, K_rc, K_re, four rows a cut,
 ///
@@ -15,9 +15,9 @@
 ///   2π/N F_aX = a_p [K_tc f s + K_te d + K_rc f b + K_re c]                           and for F_aY
 ///
 /// weighted by 1/(standard deviation, and 2 % of the force for what the linear law leaves out). Then r and r_av of each
-/// cut with the edges taken out, and a line through them for a and b; ln K/K_av and a line over 1 − immersion for c_0
-/// and c_1. A slope that the cuts cannot tell from noise is put at its neutral value (a = 1, c_1 = 0) and the line's
-/// height alone is fitted: so cuts of one immersion calibrate, too.
+/// cut with the edges taken out, and a line through them for a and b; ln K/K_av for c. Slopes that the cuts do not
+/// determine are put at their neutral value (a = 1, c_1 = c_2 = 0) and the height alone is fitted: so cuts of one
+/// immersion calibrate, too.
 ///
 /// Last the jump at the other edge, per K a, as the mean over the cuts that measured it.
 ///
@@ -39,7 +39,7 @@ struct ForceDropCalibrationResult {
     ForceDropLaw<Scalar> law{};
     bool edges_determined = false;
     bool a_determined = false;  ///< false: a = 1 was put
-    bool c_1_determined = false;
+    bool c_determined = false;  ///< false: c_1 = c_2 = 0 were put
     LeastSquaresSolution<Scalar, 4> coefficients{};  ///< K_tc, K_te, K_rc, K_re (N/mm², N/mm)
     int cuts = 0;
 };
@@ -145,26 +145,15 @@ class ForceDropCalibration {
         return sqrt(variance > Scalar(0) ? variance : Scalar(0)) / k.parameters(0);
     }
 
-    struct Line {
-        bool slope_determined = false;
-        bool valid = false;
-        Scalar slope{0};
-        Scalar height{0};
-        Scalar slope_sd{0};
-        Scalar height_sd{0};
-        Scalar covariance{0};
-        Scalar scatter{0};
-    };
-
     void fit_lines(Result& result) const {
         using std::log;
         LeastSquares<Scalar, 2> ratio;
         LeastSquares<Scalar, 1> ratio_height;
-        LeastSquares<Scalar, 2> pressure;
+        LeastSquares<Scalar, 3> pressure;
         LeastSquares<Scalar, 1> pressure_height;
+        using Row1 = Eigen::Matrix<Scalar, 1, 1>;
         Scalar smallest = Scalar(1);
         Scalar largest{0};
-        using Row1 = Eigen::Matrix<Scalar, 1, 1>;
         for (int n = 0; n < count_; ++n) {
             const Cut& cut = cuts_[static_cast<std::size_t>(n)];
             const ForceDropRatios<Scalar> at = ratios_of(cut, result.law);
@@ -174,15 +163,59 @@ class ForceDropCalibration {
             const Scalar ln_K = log(at.pressure_N_per_mm / at.mean_pressure_N_per_mm);
             ratio.add(Row2(at.r_av, Scalar(1)), at.r);
             ratio_height.add(Row1(Scalar(1)), at.r - at.r_av);
-            pressure.add(Row2(Scalar(1) - cut.radial_immersion, Scalar(1)), ln_K);
+            pressure.add(pressure_regressors(Scalar(1) - cut.radial_immersion, cut.measured.feed_per_tooth_mm), ln_K);
             pressure_height.add(Row1(Scalar(1)), ln_K);
             smallest = cut.radial_immersion < smallest ? cut.radial_immersion : smallest;
             largest = cut.radial_immersion > largest ? cut.radial_immersion : largest;
         }
-        fill(line_of(ratio, ratio_height, Scalar(1)), line_of(pressure, pressure_height, Scalar(0)), result);
+        take_ratio_line(ratio, ratio_height, result);
+        take_pressure_line(pressure, pressure_height, result);
         constexpr Scalar beyond = static_cast<Scalar>(0.1L);
         result.law.smallest_immersion = clamp(smallest - beyond, static_cast<Scalar>(0.1L), Scalar(1));
         result.law.largest_immersion = clamp(largest + beyond, Scalar(0), static_cast<Scalar>(0.95L));
+        result.law.valid = result.law.valid && ratio_height.rows() > 2;
+    }
+
+    static void take_ratio_line(const LeastSquares<Scalar, 2>& sloped, const LeastSquares<Scalar, 1>& level,
+                                Result& result) {
+        constexpr Scalar least_significance = Scalar(2);
+        ForceDropLaw<Scalar>& law = result.law;
+        const auto line = sloped.solve();
+        result.a_determined = line.undetermined == 0U && sloped.rows() > 3 &&
+                              square(line.parameters(0) - Scalar(1)) > square(least_significance) * line.covariance(0, 0);
+        if (result.a_determined) {
+            law.a = line.parameters(0);
+            law.b = line.parameters(1);
+            law.a_b_covariance = line.covariance;
+            law.r_scatter = line.residual_sd;
+            law.valid = true;
+            return;
+        }
+        const auto height = level.solve();
+        law.a = Scalar(1);
+        law.b = height.parameters(0);
+        law.a_b_covariance.setZero();
+        law.a_b_covariance(1, 1) = height.covariance(0, 0);
+        law.r_scatter = height.residual_sd;
+        law.valid = height.undetermined == 0U;
+    }
+
+    static void take_pressure_line(const LeastSquares<Scalar, 3>& sloped, const LeastSquares<Scalar, 1>& level,
+                                   Result& result) {
+        ForceDropLaw<Scalar>& law = result.law;
+        const auto plane = sloped.solve();
+        result.c_determined = plane.undetermined == 0U && sloped.rows() > 4;
+        if (result.c_determined) {
+            law.c = plane.parameters;
+            law.c_covariance = plane.covariance;
+            law.ln_K_scatter = plane.residual_sd;
+            return;
+        }
+        const auto height = level.solve();
+        law.c = {height.parameters(0), Scalar(0), Scalar(0)};
+        law.c_covariance.setZero();
+        law.c_covariance(0, 0) = height.covariance(0, 0);
+        law.ln_K_scatter = height.residual_sd;
     }
 
     void average_other_edge(Result& result) const {
@@ -212,53 +245,6 @@ class ForceDropCalibration {
                                          m.mean_y_N.value,  law.e_t_mm,        law.e_r_mm};
         return force_drop_ratios(in, m.feed_per_tooth_mm, m.teeth, m.side,
                                  engagement_angles(m.side, cut.radial_immersion));
-    }
-
-    static Line line_of(const LeastSquares<Scalar, 2>& both, const LeastSquares<Scalar, 1>& height_alone,
-                        Scalar neutral_slope) {
-        Line line;
-        const auto sloped = both.solve();
-        const auto level = height_alone.solve();
-        constexpr Scalar least_significance = Scalar(2);
-        line.slope_determined = sloped.undetermined == 0U && both.rows() > 3 &&
-                                square(sloped.parameters(0) - neutral_slope) >
-                                    square(least_significance) * sloped.covariance(0, 0);
-        if (line.slope_determined) {
-            line = {true,
-                    true,
-                    sloped.parameters(0),
-                    sloped.parameters(1),
-                    sloped.standard_error(0),
-                    sloped.standard_error(1),
-                    sloped.covariance(0, 1),
-                    sloped.residual_sd};
-            return line;
-        }
-        line.valid = level.undetermined == 0U && height_alone.rows() > 2;
-        line.slope = neutral_slope;
-        line.height = level.parameters(0);
-        line.height_sd = level.standard_error(0);
-        line.scatter = level.residual_sd;
-        return line;
-    }
-
-    static void fill(const Line& ratio, const Line& pressure, Result& result) {
-        ForceDropLaw<Scalar>& law = result.law;
-        law.a = ratio.slope;
-        law.b = ratio.height;
-        law.a_sd = ratio.slope_sd;
-        law.b_sd = ratio.height_sd;
-        law.a_b_covariance = ratio.covariance;
-        law.r_scatter = ratio.scatter;
-        law.c_1 = pressure.slope;
-        law.c_0 = pressure.height;
-        law.c_1_sd = pressure.slope_sd;
-        law.c_0_sd = pressure.height_sd;
-        law.c_0_c_1_covariance = pressure.covariance;
-        law.ln_K_scatter = pressure.scatter;
-        law.valid = ratio.valid && pressure.valid;
-        result.a_determined = ratio.slope_determined;
-        result.c_1_determined = pressure.slope_determined;
     }
 
     std::array<Cut, static_cast<std::size_t>(MaxCuts)> cuts_{};

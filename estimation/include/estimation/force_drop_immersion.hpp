@@ -12,7 +12,7 @@
 /// milling), both from force_drop_law.hpp:
 ///
 ///   direction:  atan r(θ) − atan(a r_av(θ) + b) = 0        Eqs. 6, 11, 12 of the paper
-///   magnitude:  ln K(θ)/K_av(θ) − c_0 − c_1 cos θ = 0      ours
+///   magnitude:  ln K(θ)/K_av(θ) − c_0 − c_1 cos θ − c_2 ln(f_z/0.15 mm) = 0      ours
 ///
 /// The paper iterates r → φ_s → r_av → r from any r in 0…1, which contracts only where a < 1 and takes some 25 steps at
 /// a = 0.96; Eq. 6's arctangent fails past 90°. Here each equation is tabulated over the valid range, every change of
@@ -34,7 +34,7 @@ template <typename Scalar>
 struct ForceDropImmersionSettings {
     Scalar largest_disagreement{4};                          ///< of the two roots, in standard deviations
     Scalar largest_sd{static_cast<Scalar>(0.15L)};           ///< immersion known less well than this is no estimate
-    Scalar largest_relative_sd{static_cast<Scalar>(0.25L)};
+    Scalar largest_relative_sd{static_cast<Scalar>(0.2L)};
 };
 
 /// A root of one of the equations.
@@ -59,6 +59,7 @@ struct ForceDropEstimate {
         side_unknown,  ///< neither up nor down milling
         no_root,       ///< no immersion in the valid range explains the forces
         disagreement,  ///< direction and magnitude tell different immersions
+        ambiguous,     ///< the other edge of the cut lies at the jump, and several immersions explain both
         too_uncertain
     } reason = Reason::no_drop;
     [[nodiscard]] bool valid() const { return reason == Reason::estimated; }
@@ -108,7 +109,7 @@ class ForceDropImmersion {
         using std::cos;
         using std::exp;
         const ForceDropRatios<Scalar> ratios = ratios_at(inputs_of(m), m, theta_rad);
-        return ratios.mean_pressure_N_per_mm * exp(law_.c_0 + law_.c_1 * cos(theta_rad));
+        return ratios.mean_pressure_N_per_mm * exp(law_.c.dot(pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm)));
     }
 
   private:
@@ -144,6 +145,11 @@ class ForceDropImmersion {
         return usable ? Reason::estimated : Reason::no_drop;
     }
 
+    [[nodiscard]] bool is_known(const ForceDropEstimate<Scalar>& estimate) const {
+        return estimate.radial_immersion_sd <= settings_.largest_sd &&
+               estimate.radial_immersion_sd <= settings_.largest_relative_sd * estimate.radial_immersion;
+    }
+
     [[nodiscard]] ForceDropInputs<Scalar> inputs_of(const ForceDropMeasurement<Scalar>& m) const {
         return {m.tooth_x_N.value, m.tooth_y_N.value, m.mean_x_N.value, m.mean_y_N.value, law_.e_t_mm, law_.e_r_mm};
     }
@@ -168,8 +174,8 @@ class ForceDropImmersion {
         if (equation == Equation::direction) {
             return {true, atan(ratios.r) - atan(law_.a * ratios.r_av + law_.b)};
         }
-        return {true, log(ratios.pressure_N_per_mm / ratios.mean_pressure_N_per_mm) - law_.c_0 -
-                          law_.c_1 * cos(theta_rad)};
+        return {true, log(ratios.pressure_N_per_mm / ratios.mean_pressure_N_per_mm) -
+                          law_.c.dot(pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm))};
     }
 
     [[nodiscard]] Roots roots_of(Equation equation, const ForceDropMeasurement<Scalar>& m) const {
@@ -265,7 +271,7 @@ class ForceDropImmersion {
         const std::array<Scalar, input_count> sd{sqrt(m.tooth_x_N.variance), sqrt(m.tooth_y_N.variance),
                                                  sqrt(m.mean_x_N.variance),  sqrt(m.mean_y_N.variance),
                                                  law_.e_t_sd_mm,             law_.e_r_sd_mm};
-        root.variance = law_variance(equation, ratios_at(in, m, root.theta_rad), root.theta_rad) / square(slope);
+        root.variance = law_variance(equation, m, root.theta_rad) / square(slope);
         for (std::size_t k = 0; k < input_count; ++k) {
             const Value up = residual(equation, moved(in, k, sd[k]), m, root.theta_rad);
             const Value down = residual(equation, moved(in, k, -sd[k]), m, root.theta_rad);
@@ -282,16 +288,16 @@ class ForceDropImmersion {
         return in;
     }
 
-    /// Of the residual, by the doubt in a and b, or c_0 and c_1, and the scatter about the line.
-    [[nodiscard]] Scalar law_variance(Equation equation, const ForceDropRatios<Scalar>& ratios, Scalar theta_rad) const {
+    /// Of the residual, by the doubt in the calibrated line and the scatter about it.
+    [[nodiscard]] Scalar law_variance(Equation equation, const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
         using std::cos;
         if (equation == Equation::magnitude) {
-            const Scalar z = cos(theta_rad);
-            return square(law_.c_0_sd) + square(z * law_.c_1_sd) + Scalar(2) * z * law_.c_0_c_1_covariance +
-                   square(law_.ln_K_scatter);
+            const auto z = pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm);
+            return z.dot(law_.c_covariance * z) + square(law_.ln_K_scatter);
         }
-        const Scalar variance = square(ratios.r_av * law_.a_sd) + square(law_.b_sd) +
-                                Scalar(2) * ratios.r_av * law_.a_b_covariance + square(law_.r_scatter);
+        const ForceDropRatios<Scalar> ratios = ratios_at(inputs_of(m), m, theta_rad);
+        const Eigen::Matrix<Scalar, 2, 1> z(ratios.r_av, Scalar(1));
+        const Scalar variance = z.dot(law_.a_b_covariance * z) + square(law_.r_scatter);
         return variance / square(Scalar(1) + square(ratios.r));
     }
 
@@ -325,9 +331,7 @@ class ForceDropImmersion {
                                 Scalar(2) * share_of_A * share_of_B * covariance;
         estimate.radial_immersion = ForceDropRoot<Scalar>{true, estimate.theta_rad, variance}.immersion();
         estimate.radial_immersion_sd = sin(estimate.theta_rad) * sqrt(variance > Scalar(0) ? variance : Scalar(0));
-        const bool known = estimate.radial_immersion_sd <= settings_.largest_sd &&
-                           estimate.radial_immersion_sd <= settings_.largest_relative_sd * estimate.radial_immersion;
-        return !agree ? Reason::disagreement : known ? Reason::estimated : Reason::too_uncertain;
+        return !agree ? Reason::disagreement : is_known(estimate) ? Reason::estimated : Reason::too_uncertain;
     }
 
     void fill_ratios(const ForceDropMeasurement<Scalar>& m, ForceDropEstimate<Scalar>& estimate) const {

@@ -4,6 +4,8 @@
 #include "estimation/cutting_law.hpp"
 #include "estimation/measurement.hpp"
 
+#include <Eigen/Core>
+
 #include <cmath>
 
 /// What a force drop and the average forces say about the cut, at an immersion that is tried.
@@ -25,7 +27,9 @@
 /// With e = 0 and φ_st = 0 their quotient is Eq. 11 of the paper, rearranged. Two relations close the problem:
 ///
 ///   r = a r_av + b                                   (Eq. 12)
-///   ln(K/K_av) = c_0 + c_1 (1 − immersion)           (ours: the chip at the jump is not the mean chip)
+///   ln(K/K_av) = c_0 + c_1 (1 − immersion) + c_2 ln(f_z/0.15 mm)
+///
+/// the second is ours: the chip at the jump is not the mean chip, and thin chips cost more.
 
 namespace millforce::estimation {
 
@@ -40,16 +44,11 @@ struct ForceDropLaw {
 
     Scalar a{1};  ///< Eq. 12; the paper's is 0.50465, and depends on the tool
     Scalar b{0};  ///< Eq. 12; the paper prints none
-    Scalar a_sd{0};
-    Scalar b_sd{0};
-    Scalar a_b_covariance{0};
+    Eigen::Matrix<Scalar, 2, 2> a_b_covariance = Eigen::Matrix<Scalar, 2, 2>::Zero();
     Scalar r_scatter{0};  ///< standard deviation of r about the line, cut from cut
 
-    Scalar c_0{0};
-    Scalar c_1{0};
-    Scalar c_0_sd{0};
-    Scalar c_1_sd{0};
-    Scalar c_0_c_1_covariance{0};
+    Eigen::Matrix<Scalar, 3, 1> c = Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< c_0, c_1, c_2
+    Eigen::Matrix<Scalar, 3, 3> c_covariance = Eigen::Matrix<Scalar, 3, 3>::Zero();
     Scalar ln_K_scatter{0};
 
     /// The other edge of the cut, where the chip is nothing: jump and growth of the force there, per K a and per K a f_z.
@@ -62,6 +61,13 @@ struct ForceDropLaw {
     Scalar smallest_immersion{static_cast<Scalar>(0.1L)};  ///< calibrated range, widened a little: no estimate outside
     Scalar largest_immersion{static_cast<Scalar>(0.95L)};
 };
+
+/// What c multiplies.
+template <typename Scalar>
+Eigen::Matrix<Scalar, 3, 1> pressure_regressors(Scalar one_minus_immersion, Scalar feed_per_tooth_mm) {
+    using std::log;
+    return {Scalar(1), one_minus_immersion, log(feed_per_tooth_mm / static_cast<Scalar>(0.15L))};
+}
 
 /// Jump and averages of one tooth period, as tooth force: positive where teeth push.
 template <typename Scalar>
