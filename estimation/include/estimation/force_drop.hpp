@@ -190,7 +190,7 @@ class ForceDrop {
     /// makes some 0.1 rad of θ: an immersion far from the root that closes as well as that is as good as the root.
     [[nodiscard]] static bool is_ambiguous(const Closures& nodes, Scalar root_rad) {
         constexpr Scalar closes_rad = static_cast<Scalar>(0.1L);
-        constexpr Scalar far_rad = static_cast<Scalar>(0.18L);
+        constexpr Scalar far_rad = static_cast<Scalar>(0.15L);
         bool ambiguous = false;
         for (const Closure& node : nodes) {
             ambiguous = ambiguous || (node.valid && square(node.excess_rad) < square(closes_rad) &&
