@@ -43,7 +43,8 @@ struct ForceDropSettings {
     int revolutions{1};          ///< per estimate: more takes noise off and follows a changing cut later
     CutSide side = CutSide::unknown;  ///< unknown: a drop along the mean force is up milling, a rise down milling
     Scalar known_immersion{0};   ///< of a calibration cut; 0: unknown, to be estimated
-    Scalar mean_force_sd_N{0};   ///< what a sensor's or drive's zero may have drifted since air
+    Scalar zero_drift_sd_N{0};   ///< of the forces' zero since the last air cut; an air gap takes it off
+    Scalar mean_force_sd_N{0};   ///< of the mean forces, by what no air gap shows: a drive's friction in cut
     int closing_steps{4};        ///< of the bracket, where the other edge acts on the jump's window
 };
 
@@ -90,7 +91,7 @@ class ForceDrop {
             return;
         }
         jump_ = detector_.detect(profile_);
-        estimate_from(jump_, feed_per_tooth_mm, Scalar(0));
+        estimate_from(jump_, feed_per_tooth_mm, largest_theta_rad());
         if (!jump_.valid()) {
             estimate_.reason = jump_.reason == ForceJump<Scalar>::Reason::too_fast ? Estimate::Reason::too_fast
                                                                                    : Estimate::Reason::no_drop;
@@ -107,7 +108,13 @@ class ForceDrop {
         }
     }
 
-    /// One solution from a jump. `theta_rad` as far as it is known, for the air gap; 0: not yet.
+    /// While θ is not known: what is air at the largest θ is air in any case.
+    [[nodiscard]] Scalar largest_theta_rad() const {
+        using std::acos;
+        return acos(Scalar(1) - immersion_.law().largest_immersion);
+    }
+
+    /// One solution from a jump. `theta_rad` as far as it is known, for the air gap.
     void estimate_from(const ForceJump<Scalar>& jump, Scalar feed_per_tooth_mm, Scalar theta_rad) {
         measurement_ = measurement_of(jump, feed_per_tooth_mm);
         take_zero_off(jump, theta_rad);
@@ -225,11 +232,11 @@ class ForceDrop {
         return (side == CutSide::up ? Scalar(-1) : Scalar(1)) * theta_rad / (Scalar(2) * pi<Scalar>);
     }
 
-    /// `theta_rad` as far as it is known, 0: not yet.
     void take_zero_off(const ForceJump<Scalar>& jump, Scalar theta_rad) {
-        measurement_.mean_x_N.variance += square(settings_.mean_force_sd_N);
-        measurement_.mean_y_N.variance += square(settings_.mean_force_sd_N);
-        if (!jump.valid() || !(theta_rad > Scalar(0))) {
+        const Scalar stays = square(settings_.mean_force_sd_N);
+        measurement_.mean_x_N.variance += stays + square(settings_.zero_drift_sd_N);
+        measurement_.mean_y_N.variance += stays + square(settings_.zero_drift_sd_N);
+        if (!jump.valid()) {
             return;
         }
         const Scalar leaves_rev =
@@ -245,8 +252,8 @@ class ForceDrop {
                                                      Scalar(1) / profile_.seconds_per_bin());
             measurement_.mean_x_N.value -= gap.x_N;
             measurement_.mean_y_N.value -= gap.y_N;
-            measurement_.mean_x_N.variance = jump.mean_x_N.variance + gap.x_variance * inflation;
-            measurement_.mean_y_N.variance = jump.mean_y_N.variance + gap.y_variance * inflation;
+            measurement_.mean_x_N.variance = jump.mean_x_N.variance + stays + gap.x_variance * inflation;
+            measurement_.mean_y_N.variance = jump.mean_y_N.variance + stays + gap.y_variance * inflation;
         }
     }
 

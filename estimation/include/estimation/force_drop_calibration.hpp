@@ -152,6 +152,7 @@ class ForceDropCalibration {
         LeastSquares<Scalar, 3> pressure;
         LeastSquares<Scalar, 1> pressure_height;
         using Row1 = Eigen::Matrix<Scalar, 1, 1>;
+        LeastSquares<Scalar, 1> r_av;
         Scalar smallest = Scalar(1);
         Scalar largest{0};
         for (int n = 0; n < count_; ++n) {
@@ -163,11 +164,15 @@ class ForceDropCalibration {
             const Scalar ln_K = log(at.pressure_N_per_mm / at.mean_pressure_N_per_mm);
             ratio.add(Row2(at.r_av, Scalar(1)), at.r);
             ratio_height.add(Row1(Scalar(1)), at.r - at.r_av);
+            r_av.add(Row1(Scalar(1)), at.r_av);
             pressure.add(pressure_regressors(Scalar(1) - cut.radial_immersion, cut.measured.feed_per_tooth_mm), ln_K);
             pressure_height.add(Row1(Scalar(1)), ln_K);
             smallest = cut.radial_immersion < smallest ? cut.radial_immersion : smallest;
             largest = cut.radial_immersion > largest ? cut.radial_immersion : largest;
         }
+        const auto mean_r_av = r_av.solve();
+        result.law.r_av_mean = mean_r_av.parameters(0);
+        result.law.r_av_sd = mean_r_av.residual_sd;
         take_ratio_line(ratio, ratio_height, result);
         take_pressure_line(pressure, pressure_height, result);
         constexpr Scalar beyond = static_cast<Scalar>(0.1L);

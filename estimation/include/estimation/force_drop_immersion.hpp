@@ -172,7 +172,7 @@ class ForceDropImmersion {
             return {};
         }
         if (equation == Equation::direction) {
-            return {true, atan(ratios.r) - atan(law_.a * ratios.r_av + law_.b)};
+            return {true, atan(ratios.r) - atan(law_.a * likely_r_av(ratios, m).value + law_.b)};
         }
         return {true, log(ratios.pressure_N_per_mm / ratios.mean_pressure_N_per_mm) -
                           law_.c.dot(pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm))};
@@ -288,6 +288,17 @@ class ForceDropImmersion {
         return in;
     }
 
+    /// r_av as measured, drawn towards the calibration's mean as far as it is known worse than it varied there. The
+    /// variance is what remains of it beyond the measured forces' own, which propagate() counts.
+    [[nodiscard]] Measurement<Scalar> likely_r_av(const ForceDropRatios<Scalar>& ratios,
+                                                  const ForceDropMeasurement<Scalar>& m) const {
+        const Scalar spread = square(law_.r_av_sd);
+        const Scalar doubt =
+            square(ratios.r_av_per_x) * m.mean_x_N.variance + square(ratios.r_av_per_y) * m.mean_y_N.variance;
+        const Scalar share = spread > Scalar(0) ? spread / (spread + doubt) : Scalar(1);
+        return {true, law_.r_av_mean + share * (ratios.r_av - law_.r_av_mean), square(Scalar(1) - share) * spread, {}};
+    }
+
     /// Of the residual, by the doubt in the calibrated line and the scatter about it.
     [[nodiscard]] Scalar law_variance(Equation equation, const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
         using std::cos;
@@ -296,8 +307,10 @@ class ForceDropImmersion {
             return z.dot(law_.c_covariance * z) + square(law_.ln_K_scatter);
         }
         const ForceDropRatios<Scalar> ratios = ratios_at(inputs_of(m), m, theta_rad);
-        const Eigen::Matrix<Scalar, 2, 1> z(ratios.r_av, Scalar(1));
-        const Scalar variance = z.dot(law_.a_b_covariance * z) + square(law_.r_scatter);
+        const Measurement<Scalar> r_av = likely_r_av(ratios, m);
+        const Eigen::Matrix<Scalar, 2, 1> z(r_av.value, Scalar(1));
+        const Scalar variance =
+            z.dot(law_.a_b_covariance * z) + square(law_.a) * r_av.variance + square(law_.r_scatter);
         return variance / square(Scalar(1) + square(ratios.r));
     }
 
@@ -309,13 +322,13 @@ class ForceDropImmersion {
         using std::sqrt;
         const ForceDropRoot<Scalar>& A = estimate.by_direction;
         const ForceDropRoot<Scalar>& B = estimate.by_magnitude;
-        if (!B.valid) {
+        if (!A.valid && !B.valid) {
             return Reason::no_root;
         }
-        Scalar share_of_A{0};
+        Scalar share_of_A = A.valid ? Scalar(1) : Scalar(0);
         Scalar covariance{0};
         bool agree = true;
-        if (A.valid) {
+        if (A.valid && B.valid) {
             for (std::size_t k = 0; k < input_count; ++k) {
                 covariance += doubt.direction[k] * doubt.magnitude[k];
             }
@@ -326,7 +339,7 @@ class ForceDropImmersion {
                              : Scalar(0);
         }
         const Scalar share_of_B = Scalar(1) - share_of_A;
-        estimate.theta_rad = B.theta_rad + share_of_A * (A.theta_rad - B.theta_rad);
+        estimate.theta_rad = share_of_A * A.theta_rad + share_of_B * B.theta_rad;
         const Scalar variance = square(share_of_A) * A.variance + square(share_of_B) * B.variance +
                                 Scalar(2) * share_of_A * share_of_B * covariance;
         estimate.radial_immersion = ForceDropRoot<Scalar>{true, estimate.theta_rad, variance}.immersion();

@@ -46,6 +46,8 @@ struct ForceDropLaw {
     Scalar b{0};  ///< Eq. 12; the paper prints none
     Eigen::Matrix<Scalar, 2, 2> a_b_covariance = Eigen::Matrix<Scalar, 2, 2>::Zero();
     Scalar r_scatter{0};  ///< standard deviation of r about the line, cut from cut
+    Scalar r_av_mean{0};  ///< over the calibration cuts, and how r_av varied among them
+    Scalar r_av_sd{0};
 
     Eigen::Matrix<Scalar, 3, 1> c = Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< c_0, c_1, c_2
     Eigen::Matrix<Scalar, 3, 3> c_covariance = Eigen::Matrix<Scalar, 3, 3>::Zero();
@@ -112,6 +114,8 @@ struct ForceDropRatios {
     Scalar r{0};                       ///< at the jump
     Scalar mean_pressure_N_per_mm{0};  ///< K a on average
     Scalar r_av{0};
+    Scalar r_av_per_x{0};  ///< ∂r_av/∂F_aX, per N
+    Scalar r_av_per_y{0};
 };
 
 template <typename Scalar>
@@ -143,7 +147,10 @@ ForceDropRatios<Scalar> force_drop_ratios(const ForceDropInputs<Scalar>& in, Sca
     ratios.possible = ratios.pressure_N_per_mm > Scalar(0) && ratios.mean_pressure_N_per_mm > Scalar(0);
     if (ratios.possible) {
         ratios.r = (radial_N / ratios.pressure_N_per_mm - in.e_r_mm) / chip_mm;
-        ratios.r_av = (y * x_of_K - x * y_of_K) / (determinant * ratios.mean_pressure_N_per_mm);
+        const Scalar scale = Scalar(1) / (determinant * ratios.mean_pressure_N_per_mm);
+        ratios.r_av = (y * x_of_K - x * y_of_K) * scale;
+        ratios.r_av_per_x = -(y_of_K + ratios.r_av * i.s * f) * scale * per_tooth;
+        ratios.r_av_per_y = (x_of_K + ratios.r_av * i.b * f) * scale * per_tooth;
     }
     return ratios;
 }
