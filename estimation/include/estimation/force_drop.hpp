@@ -19,8 +19,8 @@
 /// The chain: RevolutionProfile (angle-synchronous mean) → ForceDropDetector (the jump, free of the low-pass) →
 /// ForceDropImmersion (the two equations). Between two teeth, where
 /// none is in cut, the sensor's zero is read and taken off the averages (AirGap). Where the other edge of the cut falls into the window of the jump, its share
-/// is worked out for each immersion that is tried and taken off the signal, and the immersion is bracketed that comes out
-/// as it was put in.
+/// is worked out for each immersion that is tried and taken off the signal, and the immersion is sought that comes out
+/// as it was put in and leaves the least of the signal unexplained.
 ///
 /// Where this differs from print:
 ///  - Eq. 6 by the two-argument arctangent: tan⁻¹ fails past 90°.
@@ -31,7 +31,7 @@
 ///  - Table 1 prints mm/min for a feed per tooth: read mm. The nomenclature's r is F_R/F_T (Eq. 2), not its inverse.
 ///
 /// Memory (float, 512 bins): 4.2 KB. Cost per sample: some 20 operations; per estimate 2 · Bins · window + 13 × teeth
-/// × window × 60 operations, about 0.2 million at 3 teeth; 13 times that where the other edge acts on the window.
+/// × window × 60 operations, about 0.2 million at 3 teeth; 20 times that where the other edge acts on the window.
 /// Not thread-safe.
 
 namespace millforce::estimation {
@@ -45,7 +45,6 @@ struct ForceDropSettings {
     Scalar known_immersion{0};   ///< of a calibration cut; 0: unknown, to be estimated
     Scalar zero_drift_sd_N{0};   ///< of the forces' zero since the last air cut; an air gap takes it off
     Scalar mean_force_sd_N{0};   ///< of the mean forces, by what no air gap shows: a drive's friction in cut
-    int closing_steps{4};        ///< of the bracket, where the other edge acts on the jump's window
 };
 
 template <typename Scalar>
@@ -102,7 +101,7 @@ class ForceDrop {
             return;
         }
         estimate_from(jump_, feed_per_tooth_mm, first_rad);
-        const Scalar reach = static_cast<Scalar>(0.18L) * first_rad;
+        const Scalar reach = static_cast<Scalar>(0.2L) * first_rad;
         if (other_edge_acts_between(first_rad - reach, first_rad + reach)) {
             close_other_edge(first_rad, reach, feed_per_tooth_mm);
         }
@@ -131,79 +130,111 @@ class ForceDrop {
         return acts;
     }
 
+    /// A place of the other edge that was tried: what θ the drop tells then, and how badly the signal fits.
     struct Closure {
         bool valid = false;
-        Scalar theta_rad{0};
-        Scalar excess_rad{0};  ///< what comes out less what was put in
+        Scalar theta_rad{0};   ///< put in
+        Scalar excess_rad{0};  ///< what comes out, less what was put in
+        Scalar variance{0};    ///< of what comes out, in rad²
+        Scalar residual_N2{0};
     };
+    static constexpr std::size_t closing_nodes = 15;
+    static constexpr std::size_t closing_halvings = 2;
+    using Closures = std::array<Closure, closing_nodes + 2 * closing_halvings>;
 
     /// Puts the other edge where it would be at θ, takes it off, and solves.
     Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first) {
+        using std::sin;
         constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.5L);
-        ForceJump<Scalar> jump =
-            detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
-        jump.x_N.variance += square(doubt_in_taken_off * (jump.x_N.value - first.x_N.value));
-        jump.y_N.variance += square(doubt_in_taken_off * (jump.y_N.value - first.y_N.value));
-        estimate_from(jump, feed_per_tooth_mm, theta_rad);
-        jump_ = jump;
-        const bool solved = jump.valid() && estimate_.theta_rad > Scalar(0);
-        return {solved, theta_rad, estimate_.theta_rad - theta_rad};
+        jump_ = detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
+        jump_.x_N.variance += square(doubt_in_taken_off * (jump_.x_N.value - first.x_N.value));
+        jump_.y_N.variance += square(doubt_in_taken_off * (jump_.y_N.value - first.y_N.value));
+        estimate_from(jump_, feed_per_tooth_mm, theta_rad);
+        if (!jump_.valid() || !(estimate_.theta_rad > Scalar(0))) {
+            return {};
+        }
+        const Scalar sd_rad = estimate_.radial_immersion_sd / sin(estimate_.theta_rad);
+        return {true, theta_rad, estimate_.theta_rad - theta_rad, square(sd_rad), jump_.residual_N2};
     }
 
-    static constexpr int closing_nodes = 9;
-    using Closures = std::array<Closure, static_cast<std::size_t>(closing_nodes)>;
+    /// Two things tell θ here: what is put in must come out, and the edge must be taken off where it is, else the signal
+    /// fits badly. The first alone fails at coincidence, where what comes out follows what is put in; the second knows
+    /// the edge's place within `place_sd_rad` (runout moves it), and its shape within some 70 % of the least residual.
+    [[nodiscard]] static Scalar misfit(const Closure& closure, Scalar least_residual_N2) {
+        return square(closure.excess_rad) / (closure.variance + square(place_sd_rad)) +
+               Scalar(1.5F) * (closure.residual_N2 / least_residual_N2 - Scalar(1));
+    }
+    static constexpr Scalar place_sd_rad = static_cast<Scalar>(0.03L);
 
-    /// Solving again and again with the edge taken off would not converge: at coincidence a θ too large makes the next
-    /// one too small, by more. So θ is bracketed here, too: between the nodes where the excess changes from + to −.
     void close_other_edge(Scalar first_rad, Scalar reach_rad, Scalar feed_per_tooth_mm) {
         const ForceJump<Scalar> first = jump_;
-        Closures nodes;
-        std::size_t best = 0;
-        Scalar nearest_rad = reach_rad + reach_rad;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-            const Scalar theta_rad = first_rad + reach_rad * (Scalar(2 * k) / Scalar(closing_nodes - 1) - Scalar(1));
-            nodes[k] = close_at(theta_rad, feed_per_tooth_mm, first);
-            const Scalar away = theta_rad > first_rad ? theta_rad - first_rad : first_rad - theta_rad;
-            const bool brackets = k > 0 && nodes[k - 1].valid && nodes[k].valid &&
-                                  nodes[k - 1].excess_rad > Scalar(0) && nodes[k].excess_rad <= Scalar(0);
-            if (brackets && away < nearest_rad) {
-                best = k;
-                nearest_rad = away;
-            }
+        Closures tried{};
+        Scalar step_rad = Scalar(2) * reach_rad / Scalar(closing_nodes - 1);
+        for (std::size_t k = 0; k < closing_nodes; ++k) {
+            tried[k] = close_at(first_rad - reach_rad + step_rad * Scalar(k), feed_per_tooth_mm, first);
         }
-        if (best == 0) {
+        for (std::size_t halving = 0; halving < closing_halvings; ++halving) {
+            const Scalar best_rad = tried[best_of(tried)].theta_rad;
+            step_rad *= Scalar(0.5F);
+            const std::size_t next = closing_nodes + 2 * halving;
+            tried[next] = close_at(best_rad - step_rad, feed_per_tooth_mm, first);
+            tried[next + 1] = close_at(best_rad + step_rad, feed_per_tooth_mm, first);
+        }
+        const Closure best = tried[best_of(tried)];
+        if (!best.valid) {
             estimate_.reason = Estimate::Reason::no_root;
             return;
         }
-        Closure low = nodes[best - 1];
-        Closure high = nodes[best];
-        for (int k = 0; k < settings_.closing_steps; ++k) {
-            const Scalar share =
-                clamp(low.excess_rad / (low.excess_rad - high.excess_rad), static_cast<Scalar>(0.1L),
-                      static_cast<Scalar>(0.9L));
-            const Closure here =
-                close_at(low.theta_rad + share * (high.theta_rad - low.theta_rad), feed_per_tooth_mm, first);
-            if (!here.valid) {
-                return;
-            }
-            (here.excess_rad > Scalar(0) ? low : high) = here;
-        }
-        if (estimate_.valid() && is_ambiguous(nodes, estimate_.theta_rad)) {
-            estimate_.reason = Estimate::Reason::ambiguous;
-        }
+        close_at(best.theta_rad, feed_per_tooth_mm, first);
+        join_place(best, is_ambiguous(tried, best));
     }
 
-    /// Where what comes out follows what is put in, any θ explains the drop. The other edge's share is known within what
-    /// makes some 0.1 rad of θ: an immersion far from the root that closes as well as that is as good as the root.
-    [[nodiscard]] static bool is_ambiguous(const Closures& nodes, Scalar root_rad) {
-        constexpr Scalar closes_rad = static_cast<Scalar>(0.1L);
-        constexpr Scalar far_rad = static_cast<Scalar>(0.15L);
+    [[nodiscard]] static Scalar least_residual_N2(const Closures& tried) {
+        Scalar least{-1};
+        for (const Closure& closure : tried) {
+            least = closure.valid && (least < Scalar(0) || closure.residual_N2 < least) ? closure.residual_N2 : least;
+        }
+        return least > Scalar(0) ? least : Scalar(1);
+    }
+
+    [[nodiscard]] static std::size_t best_of(const Closures& tried) {
+        const Scalar least = least_residual_N2(tried);
+        std::size_t best = 0;
+        for (std::size_t k = 1; k < tried.size(); ++k) {
+            const bool better = !tried[best].valid || misfit(tried[k], least) < misfit(tried[best], least);
+            best = tried[k].valid && better ? k : best;
+        }
+        return best;
+    }
+
+    /// Another immersion, far off, that explains drop and signal nearly as well.
+    [[nodiscard]] static bool is_ambiguous(const Closures& tried, const Closure& best) {
+        constexpr Scalar far_rad = static_cast<Scalar>(0.12L);
+        constexpr Scalar nearly = Scalar(1);
+        const Scalar least = least_residual_N2(tried);
         bool ambiguous = false;
-        for (const Closure& node : nodes) {
-            ambiguous = ambiguous || (node.valid && square(node.excess_rad) < square(closes_rad) &&
-                                      square(node.theta_rad - root_rad) > square(far_rad));
+        for (const Closure& closure : tried) {
+            ambiguous = ambiguous || (closure.valid && square(closure.theta_rad - best.theta_rad) > square(far_rad) &&
+                                      misfit(closure, least) < misfit(best, least) + nearly);
         }
         return ambiguous;
+    }
+
+    /// θ by the edge's place and θ by the drop, weighted.
+    void join_place(const Closure& best, bool ambiguous) {
+        using std::cos;
+        using std::sin;
+        using std::sqrt;
+        const Scalar of_place = square(place_sd_rad);
+        const Scalar total = of_place + best.variance;
+        estimate_.theta_rad = best.theta_rad + best.excess_rad * of_place / total;
+        estimate_.radial_immersion = Scalar(1) - cos(estimate_.theta_rad);
+        const bool disagrees = square(best.excess_rad) > square(settings_.immersion.largest_disagreement) * total;
+        estimate_.radial_immersion_sd =
+            sin(estimate_.theta_rad) * sqrt(of_place * best.variance / total + square(Scalar(0.5F) * best.excess_rad));
+        estimate_.reason = ambiguous    ? Estimate::Reason::ambiguous
+                           : disagrees ? Estimate::Reason::disagreement
+                                       : Estimate::Reason::estimated;
     }
 
     void measure_known(Scalar feed_per_tooth_mm) {

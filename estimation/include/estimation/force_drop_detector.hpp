@@ -70,6 +70,7 @@ struct ForceJump {
     Measurement<Scalar> y_N{};
     Scalar slope_x_N_per_rev{0};  ///< by how much the slope changes there
     Scalar slope_y_N_per_rev{0};
+    Scalar residual_N2{0};  ///< Σ of both forces' squared residuals over all windows
     Measurement<Scalar> mean_x_N{};  ///< of the whole revolution
     Measurement<Scalar> mean_y_N{};
 };
@@ -313,6 +314,7 @@ class ForceDropDetector {
         };
         jump.x_N = measured(fit.step_x_N, fit.residual_x_N2);
         jump.y_N = measured(fit.step_y_N, fit.residual_y_N2);
+        jump.residual_N2 = fit.residual_N2;
         jump.slope_x_N_per_rev = fit.slope_x_N_per_rev;
         jump.slope_y_N_per_rev = fit.slope_y_N_per_rev;
         fill_means(profile, inflation, fit, jump);
