@@ -207,10 +207,11 @@ class ForceDrop {
         return best;
     }
 
-    /// Another immersion, far off, that explains drop and signal nearly as well.
-    [[nodiscard]] static bool is_ambiguous(const Closures& tried, const Closure& best) {
+    /// Another immersion, far off, that explains drop and signal nearly as well. In down milling the force that the
+    /// other tooth takes along at its exit points as the jump does, and the two are told apart less well.
+    [[nodiscard]] bool is_ambiguous(const Closures& tried, const Closure& best) const {
         constexpr Scalar far_rad = static_cast<Scalar>(0.12L);
-        constexpr Scalar nearly = Scalar(1);
+        const Scalar nearly = measurement_.side == CutSide::up ? Scalar(0.5F) : Scalar(1.25F);
         const Scalar least = least_residual_N2(tried);
         bool ambiguous = false;
         for (const Closure& closure : tried) {
