@@ -41,7 +41,9 @@ HwangLaws calibrated_laws() {
     return laws;
 }
 
-bool is_steel(const TableRow& row) { return row.cut.material.name == steel_SM45C().name; }
+bool is_steel(const TableRow& row) {
+    return row.cut.material.name == steel_SM45C().name;
+}
 
 std::vector<TableResult> mill_table(const std::vector<TableRow>& rows, const FloatForceDropLaw& steel,
                                     const FloatForceDropLaw& aluminium) {
@@ -52,7 +54,9 @@ std::vector<TableResult> mill_table(const std::vector<TableRow>& rows, const Flo
     return results;
 }
 
-double relative_error(double ours, double truth) { return std::abs(ours / truth - 1.0); }
+double relative_error(double ours, double truth) {
+    return std::abs(ours / truth - 1.0);
+}
 
 /// The mean over cuts of |mean estimate/truth − 1|; `immersion` 0: of all.
 double mean_error(const std::vector<TableResult>& results, double immersion) {
@@ -120,18 +124,19 @@ void add_table(const std::vector<TableRow>& rows, const std::vector<TableResult>
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::string name = fmt::format("Table 1, row {} ({}): ", k + 1, describe(rows[k].cut));
         for (const TableCut& cut : results[k]) {
-            out.figures.push_back({fmt::format("{}immersion {:.1f}", name, cut.immersion), "", cut.immersion, cut.mean(),
-                                   Judged::relative_difference, 0.10});
+            out.figures.push_back({fmt::format("{}immersion {:.1f}", name, cut.immersion), "", cut.immersion,
+                                   cut.mean(), Judged::relative_difference, 0.10});
         }
         out.figures.push_back({name + "largest error of a single estimate", "", 0.10, largest_row_error(results[k]),
                                Judged::at_most, 0.10});
     }
     const Tally tally = tally_of(results);
-    out.figures.push_back({"Mean error over all cuts of Table 1", "", unknown, mean_error(results, 0.0),
-                           Judged::at_most, 0.03});
+    out.figures.push_back(
+        {"Mean error over all cuts of Table 1", "", unknown, mean_error(results, 0.0), Judged::at_most, 0.03});
     out.figures.push_back({"Mean error at immersion 0.2, where the paper is worst", "", unknown,
                            mean_error(results, 0.2), Judged::at_most, 0.03});
-    out.figures.push_back({"Share of revolutions with an estimate", "", unknown, tally.share(), Judged::at_least, 0.97});
+    out.figures.push_back(
+        {"Share of revolutions with an estimate", "", unknown, tally.share(), Judged::at_least, 0.97});
     out.figures.push_back({"Share of estimates within two of their standard deviations", "", unknown, tally.coverage(),
                            Judged::within, 1.0, 0.93});
 }
@@ -148,10 +153,12 @@ void add_other_seeds(const std::vector<TableRow>& rows, const HwangLaws& laws, R
     double largest = 0.0;
     for (const TableResult& row : results) {
         for (const TableCut& cut : row) {
-            largest = std::isfinite(cut.mean()) ? std::max(largest, relative_error(cut.mean(), cut.immersion)) : unknown;
+            largest =
+                std::isfinite(cut.mean()) ? std::max(largest, relative_error(cut.mean(), cut.immersion)) : unknown;
         }
     }
-    out.figures.push_back({"Three other seeds: mean error", "", unknown, mean_error(results, 0.0), Judged::at_most, 0.03});
+    out.figures.push_back(
+        {"Three other seeds: mean error", "", unknown, mean_error(results, 0.0), Judged::at_most, 0.03});
     out.figures.push_back({"Three other seeds: mean error at immersion 0.2", "", unknown, mean_error(results, 0.2),
                            Judged::at_most, 0.03});
     out.figures.push_back({"Three other seeds: largest error of a cut", "", unknown, largest, Judged::at_most, 0.10});
@@ -160,7 +167,8 @@ void add_other_seeds(const std::vector<TableRow>& rows, const HwangLaws& laws, R
 }
 
 /// The paper's own equations (direction alone, e = 0) on the same samples, and ours with the edge taken out.
-void add_edge_figures(const std::vector<TableResult>& ours, const std::vector<TableResult>& without, Reproduction& out) {
+void add_edge_figures(const std::vector<TableResult>& ours, const std::vector<TableResult>& without,
+                      Reproduction& out) {
     const auto by_direction = [](const std::vector<TableResult>& results) {
         double sum = 0.0;
         int count = 0;
@@ -188,13 +196,14 @@ void add_law_figures(const HwangLaws& laws, Reproduction& out) {
     const auto sd = [](float variance) { return std::sqrt(static_cast<double>(variance)); };
     const auto& plain = laws.steel_without_edges.law;
     const auto& law = laws.steel.law;
-    out.figures.push_back({"Fig. 7: a of r = a r_av + b, edge force left in", "", 0.50465, value(plain.a), Judged::shown});
+    out.figures.push_back(
+        {"Fig. 7: a of r = a r_av + b, edge force left in", "", 0.50465, value(plain.a), Judged::shown});
     out.figures.push_back({"Fig. 7: its standard error", "", unknown, sd(plain.a_b_covariance(0, 0)), Judged::shown});
     out.figures.push_back({"Fig. 7: b, edge force left in (not printed)", "", unknown, value(plain.b), Judged::shown});
     out.figures.push_back({"a, edge force taken out", "", unknown, value(law.a), Judged::shown});
     out.figures.push_back({"its standard error", "", unknown, sd(law.a_b_covariance(0, 0)), Judged::shown});
-    out.figures.push_back({"|a|: the paper's iteration would converge below 1", "", 1.0, std::abs(value(plain.a)),
-                           Judged::at_most, 1.0});
+    out.figures.push_back(
+        {"|a|: the paper's iteration would converge below 1", "", 1.0, std::abs(value(plain.a)), Judged::at_most, 1.0});
     out.figures.push_back({"Edge length e_t of SM45C", "mm", unknown, value(law.e_t_mm), Judged::shown});
     out.figures.push_back({"Edge length e_r of SM45C", "mm", unknown, value(law.e_r_mm), Judged::shown});
     out.figures.push_back({"Edge length e_t of SM45C, relative standard error", "", unknown,
@@ -216,11 +225,11 @@ void add_varying_part(const std::vector<ForceDropRun>& runs, Reproduction& out) 
     using Judged = Figure::Judged;
     Tally tally;
     std::for_each(runs.begin(), runs.end(), [&](const ForceDropRun& run) { tally.add(run); });
-    out.figures.push_back({"Table 1, row 17 (varying immersion, 6 inserts), mean error of an estimate per revolution", "",
-                           unknown, tally.mean_error(), Judged::at_most, 0.03});
+    out.figures.push_back({"Table 1, row 17 (varying immersion, 6 inserts), mean error of an estimate per revolution",
+                           "", unknown, tally.mean_error(), Judged::at_most, 0.03});
     out.figures.push_back({"Table 1, row 17, largest error", "", 0.10, tally.largest(), Judged::at_most, 0.10});
-    out.figures.push_back({"Table 1, row 17, share of revolutions with an estimate", "", unknown, tally.share(),
-                           Judged::at_least, 0.85});
+    out.figures.push_back(
+        {"Table 1, row 17, share of revolutions with an estimate", "", unknown, tally.share(), Judged::at_least, 0.85});
 }
 
 /// Down milling at all conditions but six inserts, where entry and exit of neighbours coincide.
@@ -247,11 +256,8 @@ void add_down_milling(const HwangLaws& laws, Reproduction& out) {
 
 DriveCut drive_cut_at(double immersion, double rpm, double direction_rad, std::uint64_t seed) {
     DriveCut drive_cut;
-    drive_cut.cut = {.spindle_speed_rpm = rpm,
-                     .teeth = 3,
-                     .axial_depth_mm = 1.0,
-                     .material = steel_SM45C(),
-                     .immersion = immersion};
+    drive_cut.cut = {
+        .spindle_speed_rpm = rpm, .teeth = 3, .axial_depth_mm = 1.0, .material = steel_SM45C(), .immersion = immersion};
     drive_cut.feed_direction_rad = direction_rad;
     drive_cut.seed = seed;
     return drive_cut;
@@ -296,7 +302,8 @@ void add_drives(const DriveResult& drives, Reproduction& out) {
     }
     out.figures.push_back({"Feed drives, 200 rpm × 3 inserts, both axes moving: mean error of an estimate", "", unknown,
                            drives.inside.mean_error(), Judged::at_most, 0.03});
-    out.figures.push_back({"Feed drives: largest error of a cut, 20–80 %", "", unknown, largest, Judged::at_most, 0.10});
+    out.figures.push_back(
+        {"Feed drives: largest error of a cut, 20–80 %", "", unknown, largest, Judged::at_most, 0.10});
     out.figures.push_back({"Feed drives: share of revolutions with an estimate", "", unknown, drives.inside.share(),
                            Judged::at_least, 0.9});
     out.figures.push_back({"Feed drives, 2000 rpm × 3 inserts, beyond their bandwidth: estimates given", "", unknown,
@@ -351,7 +358,8 @@ void add_thresholds(const std::vector<ThresholdPoint>& points, Reproduction& out
     double largest_excess = -1.0;
     for (const ThresholdPoint& point : points) {
         largest_excess = std::max(largest_excess, point.cautious / point.truth - 1.0);
-        largest = point.immersion == step_at ? largest : std::max(largest, relative_error(point.estimated, point.truth));
+        largest =
+            point.immersion == step_at ? largest : std::max(largest, relative_error(point.estimated, point.truth));
     }
     out.figures.push_back({"Threshold of the total force per tooth's limit, 6 inserts, 0.2–0.8 but 0.5: largest error",
                            "", unknown, largest, Judged::at_most, 0.05});
@@ -423,8 +431,9 @@ void add_edge_plot(const std::vector<TableResult>& ours, const std::vector<Table
     Plot plot{.title = "The edge force at work: the paper's equations with and without it",
               .x_label = "true immersion",
               .y_label = "estimated immersion",
-              .caption = "Rows 1 to 10 by Eqs. 6, 11 and 12 alone. Left in, the edge force spreads the estimates, most at "
-                         "small immersion, where its share is largest.",
+              .caption =
+                  "Rows 1 to 10 by Eqs. 6, 11 and 12 alone. Left in, the edge force spreads the estimates, most at "
+                  "small immersion, where its share is largest.",
               .series = {diagonal_line()}};
     const auto add = [&](const char* name, const std::vector<TableResult>& results) {
         Plot::Series series{name, Plot::Series::Style::points, {}, {}};
@@ -476,8 +485,9 @@ void add_signal_plot(Reproduction& out) {
     out.plots.push_back({.title = "What the estimator sees: one revolution at immersion 0.5 (Fig. 4)",
                          .x_label = "spindle angle, degrees",
                          .y_label = "force, N",
-                         .caption = "Three inserts, behind the 300 Hz low-pass, with noise and runout. Each sudden end is a "
-                                    "tooth that leaves: its height is that tooth's force.",
+                         .caption =
+                             "Three inserts, behind the 300 Hz low-pass, with noise and runout. Each sudden end is a "
+                             "tooth that leaves: its height is that tooth's force.",
                          .series = {x, y}});
 }
 
@@ -499,23 +509,27 @@ void add_threshold_plot(const std::vector<ThresholdPoint>& points, Reproduction&
 
 std::vector<std::string> hwang_deviations() {
     return {
-        "Edge forces are part of the law: F_t = K a (f_z sin φ + e_t). The paper names them as the cause of its largest "
+        "Edge forces are part of the law: F_t = K a (f_z sin φ + e_t). The paper names them as the cause of its "
+        "largest "
         "error and leaves them in.",
         "Beside the direction of the drop (Eqs. 6, 11, 12) its size relative to the average force is used; the two "
         "estimates are joined by their variances, and refused where they disagree.",
         "Equation 6 by the two-argument arctangent, and every root by a bracket: the printed tan⁻¹ fails past 90°, and "
         "the printed iteration needs a < 1.",
-        "With the edge force taken out r hardly varies and the slope a is nearly undetermined, even negative. With it left "
+        "With the edge force taken out r hardly varies and the slope a is nearly undetermined, even negative. With it "
+        "left "
         "in a is positive and below 1, as the paper's 0.50465, whose value belongs to its tool.",
         "The drop is read by fitting the low-pass's own response on either side of the jump, where the paper takes the "
         "difference before and after.",
         "The forces' zero is read between two teeth, where none is in cut.",
-        "Six inserts at immersion 0.5: one tooth enters where another leaves; the entering tooth's share is found with the "
+        "Six inserts at immersion 0.5: one tooth enters where another leaves; the entering tooth's share is found with "
+        "the "
         "immersion, and where several immersions explain the signal there is no estimate (in down milling always).",
         "Table 1 prints the feed per tooth in mm/min: read mm. Figure 5 shows two inserts in cut, not more. The "
         "geometry of the varying part cannot be read from Fig. 15: immersion grows evenly over 150 mm here.",
         "The paper prints no numbers beside Figs. 9–15: its published figure is the stated 10 %.",
-        "From feed drives: current and acceleration of the axis together; the current alone follows a velocity loop of 60 "
+        "From feed drives: current and acceleration of the axis together; the current alone follows a velocity loop of "
+        "60 "
         "Hz. Both axes must move, in one direction, throughout the revolution.",
     };
 }

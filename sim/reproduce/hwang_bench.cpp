@@ -120,31 +120,31 @@ double angle_of(long step) {
 }  // namespace
 
 BenchMaterial steel_SM45C() {
-    return {.name = "SM45C",
-            .coefficients = {.K_tc_N_mm2 = 1750.0,
-                             .K_rc_N_mm2 = 700.0,
-                             .K_ac_N_mm2 = 150.0,
-                             .K_te_N_mm = 40.0,
-                             .K_re_N_mm = 50.0,
-                             .K_ae_N_mm = 5.0,
-                             .size_effect = {.tangential_exponent = -0.15,
-                                             .radial_exponent = -0.25,
-                                             .axial_exponent = -0.15,
-                                             .reference_mm = 0.1}}};
+    return {
+        .name = "SM45C",
+        .coefficients = {
+            .K_tc_N_mm2 = 1750.0,
+            .K_rc_N_mm2 = 700.0,
+            .K_ac_N_mm2 = 150.0,
+            .K_te_N_mm = 40.0,
+            .K_re_N_mm = 50.0,
+            .K_ae_N_mm = 5.0,
+            .size_effect = {
+                .tangential_exponent = -0.15, .radial_exponent = -0.25, .axial_exponent = -0.15, .reference_mm = 0.1}}};
 }
 
 BenchMaterial aluminium_6061() {
-    return {.name = "Al 6061",
-            .coefficients = {.K_tc_N_mm2 = 800.0,
-                             .K_rc_N_mm2 = 240.0,
-                             .K_ac_N_mm2 = 60.0,
-                             .K_te_N_mm = 16.0,
-                             .K_re_N_mm = 18.0,
-                             .K_ae_N_mm = 2.0,
-                             .size_effect = {.tangential_exponent = -0.12,
-                                             .radial_exponent = -0.2,
-                                             .axial_exponent = -0.12,
-                                             .reference_mm = 0.1}}};
+    return {
+        .name = "Al 6061",
+        .coefficients = {
+            .K_tc_N_mm2 = 800.0,
+            .K_rc_N_mm2 = 240.0,
+            .K_ac_N_mm2 = 60.0,
+            .K_te_N_mm = 16.0,
+            .K_re_N_mm = 18.0,
+            .K_ae_N_mm = 2.0,
+            .size_effect = {
+                .tangential_exponent = -0.12, .radial_exponent = -0.2, .axial_exponent = -0.12, .reference_mm = 0.1}}};
 }
 
 Cutter bench_cutter(const BenchCut& cut) {

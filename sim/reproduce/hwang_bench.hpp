@@ -7,9 +7,9 @@
 #include "cutting/cutting_force.hpp"
 #include "cutting/engagement_map.hpp"
 
-/// The bench of Hwang et al., section 3.1: a face mill with carbide inserts, a dynamometer behind a 300 Hz low-pass, and
-/// an encoder that triggers 512 samples per revolution. The force is the plant's (sim/cutting); nothing here knows the
-/// estimator.
+/// The bench of Hwang et al., section 3.1: a face mill with carbide inserts, a dynamometer behind a 300 Hz low-pass,
+/// and an encoder that triggers 512 samples per revolution. The force is the plant's (sim/cutting); nothing here knows
+/// the estimator.
 
 namespace millforce::sim {
 
@@ -30,7 +30,7 @@ struct BenchCut {
     BenchMaterial material{};
     bool up_milling = true;
     double immersion = 0.5;
-    double runout_mm = 0.008;        ///< eccentricity: the inserts' radii differ by up to twice that
+    double runout_mm = 0.008;  ///< eccentricity: the inserts' radii differ by up to twice that
     double runout_angle_rad = 0.7;
 };
 
@@ -41,8 +41,8 @@ struct BenchChain {
     double low_pass_hz = 300.0;  ///< Butterworth, second order, as in a charge amplifier
     double noise_N = 10.0;
     double pressure_variation = 0.02;
-    double resolution_N = 1.0;   ///< of the 12-bit converter over ± 2 kN
-    double zero_drift_N = 2.0;   ///< deviation of what the amplifier drifted since its zeroing in air
+    double resolution_N = 1.0;  ///< of the 12-bit converter over ± 2 kN
+    double zero_drift_N = 2.0;  ///< deviation of what the amplifier drifted since its zeroing in air
     std::uint64_t seed = 1;
 };
 

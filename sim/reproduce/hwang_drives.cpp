@@ -33,11 +33,10 @@ DriveRecording drive_recording(const DriveCut& drive_cut) {
             load = {.force_on_workpiece_N = along * force.fx_N + across * force.fy_N,
                     .spindle_torque_Nm = force.spindle_torque_Nm};
         }
-        machine.advance(step_s,
-                        {.position_mm = feed_mm_s * time_s,
-                         .velocity_mm_s = feed_mm_s,
-                         .spindle_speed_rad_s = spindle_rad_s},
-                        load);
+        machine.advance(
+            step_s,
+            {.position_mm = feed_mm_s * time_s, .velocity_mm_s = feed_mm_s, .spindle_speed_rad_s = spindle_rad_s},
+            load);
         if (step % per_sample == 0) {
             const hal::DriveSample sample = machine.sample();
             if (time_s >= drive_cut.air_s + 0.5) {

@@ -45,8 +45,10 @@ class DriveForces {
         float across_N = 0.0F;
     };
     Forces add(float dt_s, const hal::DriveSample& sample) {
-        const auto x = x_.add(dt_s, sample.axis_current_A[0], sample.axis_velocity_mm_s[0], cosine_ < 0.0F ? -1.0F : 1.0F);
-        const auto y = y_.add(dt_s, sample.axis_current_A[1], sample.axis_velocity_mm_s[1], sine_ < 0.0F ? -1.0F : 1.0F);
+        const auto x =
+            x_.add(dt_s, sample.axis_current_A[0], sample.axis_velocity_mm_s[0], cosine_ < 0.0F ? -1.0F : 1.0F);
+        const auto y =
+            y_.add(dt_s, sample.axis_current_A[1], sample.axis_velocity_mm_s[1], sine_ < 0.0F ? -1.0F : 1.0F);
         return {x.valid && y.valid, cosine_ * x.value + sine_ * y.value, cosine_ * y.value - sine_ * x.value};
     }
 

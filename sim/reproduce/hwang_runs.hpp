@@ -36,7 +36,8 @@ struct ForceDropRun {
                                                        int revolutions, const std::vector<BenchSample>& samples);
 
 /// The same from the drives' currents and velocities.
-[[nodiscard]] std::vector<ForceDropRun> run_force_drop_on_drives(const FloatForceDropLaw& law, const DriveCut& drive_cut,
-                                                                 int revolutions, const DriveRecording& recording);
+[[nodiscard]] std::vector<ForceDropRun> run_force_drop_on_drives(const FloatForceDropLaw& law,
+                                                                 const DriveCut& drive_cut, int revolutions,
+                                                                 const DriveRecording& recording);
 
 }  // namespace millforce::sim

@@ -10,7 +10,8 @@ namespace millforce::sim {
 
 std::vector<TableRow> table_rows() {
     const BenchMaterial steel = steel_SM45C();
-    const auto row = [&](const char* group, double rpm, double diameter_mm, double feed_mm, int inserts, double depth_mm) {
+    const auto row = [&](const char* group, double rpm, double diameter_mm, double feed_mm, int inserts,
+                         double depth_mm) {
         return TableRow{group,
                         {.spindle_speed_rpm = rpm,
                          .diameter_mm = diameter_mm,

@@ -24,7 +24,7 @@ struct FaceMillSignal {
     double corner_hz = 300.0;  ///< Butterworth, second order; 0: none
     double offset_x_N = 0.0;
     double offset_y_N = 0.0;
-    double noise_N = 0.0;  ///< white, after the low-pass
+    double noise_N = 0.0;          ///< white, after the low-pass
     double tooth_variation = 0.0;  ///< the teeth's chips differ by ± this share
     std::uint64_t seed = 1;
 
@@ -42,7 +42,8 @@ struct FaceMillSignal {
         const double chip = feed_mm * std::sin(phi);
         const double tangential = pressure_N_per_mm * (chip + e_t_mm);
         const double radial = pressure_N_per_mm * (r * chip + e_r_mm);
-        return {tangential * std::cos(phi) + radial * std::sin(phi), radial * std::cos(phi) - tangential * std::sin(phi)};
+        return {tangential * std::cos(phi) + radial * std::sin(phi),
+                radial * std::cos(phi) - tangential * std::sin(phi)};
     }
 
     [[nodiscard]] Force at(double rev) const {
@@ -97,7 +98,8 @@ struct FaceMillSignal {
                 position = now;
             }
             if (k >= 0 && k % substeps == 0) {
-                out.push_back({rev - std::floor(rev), 1.0 / (revs_per_s * per_rev),
+                out.push_back({rev - std::floor(rev),
+                               1.0 / (revs_per_s * per_rev),
                                {position.x_N + noise_N * normal(random), position.y_N + noise_N * normal(random)}});
             }
         }

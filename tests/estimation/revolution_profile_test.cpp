@@ -9,7 +9,9 @@ namespace {
 
 using SmallProfile = millforce::estimation::RevolutionProfile<float, 128>;
 
-double wave(double rev) { return 100.0 * std::sin(2.0 * std::numbers::pi * 3.0 * rev); }
+double wave(double rev) {
+    return 100.0 * std::sin(2.0 * std::numbers::pi * 3.0 * rev);
+}
 
 /// Turns evenly from `rev`, `step_rev` per sample, until the profile is whole; returns the samples it took.
 int turn_until_whole(SmallProfile& profile, double& rev, double step_rev, int most) {

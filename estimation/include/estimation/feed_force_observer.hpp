@@ -6,14 +6,14 @@
 ///
 ///   F(t) + friction = K_x4 I(t) − M (v(t + dt) − v(t − dt)) / 2dt
 ///
-/// The current alone follows the force only as fast as the velocity loop (some 60 Hz), and overshoots. Together with the
-/// acceleration, from the velocity that the drive reports, the loop drops out: what is left is the smear of the
+/// The current alone follows the force only as fast as the velocity loop (some 60 Hz), and overshoots. Together with
+/// the acceleration, from the velocity that the drive reports, the loop drops out: what is left is the smear of the
 /// difference over two sample intervals, a low-pass of 0.44/2dt (220 Hz at 1 kHz), ζ = 1/√2 (LowPassResponse).
 ///
-/// Friction stays in: it is constant while the axis slides in one direction, and the zero between two teeth takes it off
-/// (AirGap). An axis that stands or turns round hides force in static friction: no force while its velocity is below
-/// `least_velocity_mm_s` in the direction of travel, which is the sign of the mean velocity that the caller gives.
-/// The force belongs to the sample before the one added: one interval of delay. Float; 6 scalars; 8 operations.
+/// Friction stays in: it is constant while the axis slides in one direction, and the zero between two teeth takes it
+/// off (AirGap). An axis that stands or turns round hides force in static friction: no force while its velocity is
+/// below `least_velocity_mm_s` in the direction of travel, which is the sign of the mean velocity that the caller
+/// gives. The force belongs to the sample before the one added: one interval of delay. Float; 6 scalars; 8 operations.
 
 namespace millforce::estimation {
 
@@ -42,8 +42,8 @@ class FeedForceObserver {
         if (seen_ >= 2) {
             const Scalar acceleration_mm_s2 = (velocity_mm_s - before_last_mm_s_) / (dt_s + last_dt_s_);
             force.valid = true;
-            force.value = settings_.K_x4_N_per_A * last_A_ -
-                          settings_.mass_kg * acceleration_mm_s2 * static_cast<Scalar>(1e-3L);
+            force.value =
+                settings_.K_x4_N_per_A * last_A_ - settings_.mass_kg * acceleration_mm_s2 * static_cast<Scalar>(1e-3L);
         }
         seen_ += seen_ < 2 ? 1 : 0;
         before_last_mm_s_ = last_mm_s_;

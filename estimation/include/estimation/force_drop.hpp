@@ -18,9 +18,9 @@
 ///
 /// The chain: RevolutionProfile (angle-synchronous mean) → ForceDropDetector (the jump, free of the low-pass) →
 /// ForceDropImmersion (the two equations). Between two teeth, where
-/// none is in cut, the sensor's zero is read and taken off the averages (AirGap). Where the other edge of the cut falls into the window of the jump, its share
-/// is worked out for each immersion that is tried and taken off the signal, and the immersion is sought that comes out
-/// as it was put in and leaves the least of the signal unexplained.
+/// none is in cut, the sensor's zero is read and taken off the averages (AirGap). Where the other edge of the cut falls
+/// into the window of the jump, its share is worked out for each immersion that is tried and taken off the signal, and
+/// the immersion is sought that comes out as it was put in and leaves the least of the signal unexplained.
 ///
 /// Where this differs from print:
 ///  - Eq. 6 by the two-argument arctangent: tan⁻¹ fails past 90°.
@@ -40,11 +40,11 @@ template <typename Scalar>
 struct ForceDropSettings {
     ForceDropDetectorSettings<Scalar> detector{};
     ForceDropImmersionSettings<Scalar> immersion{};
-    int revolutions{1};          ///< per estimate: more takes noise off and follows a changing cut later
+    int revolutions{1};               ///< per estimate: more takes noise off and follows a changing cut later
     CutSide side = CutSide::unknown;  ///< unknown: a drop along the mean force is up milling, a rise down milling
-    Scalar known_immersion{0};   ///< of a calibration cut; 0: unknown, to be estimated
-    Scalar zero_drift_sd_N{0};   ///< of the forces' zero since the last air cut; an air gap takes it off
-    Scalar mean_force_sd_N{0};   ///< of the mean forces, by what no air gap shows: a drive's friction in cut
+    Scalar known_immersion{0};        ///< of a calibration cut; 0: unknown, to be estimated
+    Scalar zero_drift_sd_N{0};        ///< of the forces' zero since the last air cut; an air gap takes it off
+    Scalar mean_force_sd_N{0};        ///< of the mean forces, by what no air gap shows: a drive's friction in cut
 };
 
 template <typename Scalar>
@@ -157,9 +157,10 @@ class ForceDrop {
         return {true, theta_rad, estimate_.theta_rad - theta_rad, square(sd_rad), jump_.residual_N2};
     }
 
-    /// Two things tell θ here: what is put in must come out, and the edge must be taken off where it is, else the signal
-    /// fits badly. The first alone fails at coincidence, where what comes out follows what is put in; the second knows
-    /// the edge's place within `place_sd_rad` (runout moves it), and its shape within some 70 % of the least residual.
+    /// Two things tell θ here: what is put in must come out, and the edge must be taken off where it is, else the
+    /// signal fits badly. The first alone fails at coincidence, where what comes out follows what is put in; the second
+    /// knows the edge's place within `place_sd_rad` (runout moves it), and its shape within some 70 % of the least
+    /// residual.
     [[nodiscard]] static Scalar misfit(const Closure& closure, Scalar least_residual_N2) {
         return square(closure.excess_rad) / (closure.variance + square(place_sd_rad)) +
                Scalar(1.5F) * (closure.residual_N2 / least_residual_N2 - Scalar(1));
@@ -233,7 +234,7 @@ class ForceDrop {
         const bool disagrees = square(best.excess_rad) > square(settings_.immersion.largest_disagreement) * total;
         estimate_.radial_immersion_sd =
             sin(estimate_.theta_rad) * sqrt(of_place * best.variance / total + square(Scalar(0.5F) * best.excess_rad));
-        estimate_.reason = ambiguous    ? Estimate::Reason::ambiguous
+        estimate_.reason = ambiguous   ? Estimate::Reason::ambiguous
                            : disagrees ? Estimate::Reason::disagreement
                                        : Estimate::Reason::estimated;
     }
@@ -258,8 +259,8 @@ class ForceDrop {
         measurement_.other_slope_y_N_per_rad = other.slope_y_N_per_rev * per_rad;
     }
 
-    /// From the jump on, the spindle turns so far to the other edge of the cut, modulo the pitch: back to where the tooth
-    /// entered an up cut, on to where it leaves a down cut.
+    /// From the jump on, the spindle turns so far to the other edge of the cut, modulo the pitch: back to where the
+    /// tooth entered an up cut, on to where it leaves a down cut.
     [[nodiscard]] static Scalar other_edge_behind_rev(CutSide side, Scalar theta_rad) {
         return (side == CutSide::up ? Scalar(-1) : Scalar(1)) * theta_rad / (Scalar(2) * pi<Scalar>);
     }
@@ -272,16 +273,15 @@ class ForceDrop {
             return;
         }
         const Scalar leaves_rev =
-            jump.angle_rev +
-            (measurement_.side == CutSide::up ? Scalar(0) : theta_rad / (Scalar(2) * pi<Scalar>));
+            jump.angle_rev + (measurement_.side == CutSide::up ? Scalar(0) : theta_rad / (Scalar(2) * pi<Scalar>));
         const Scalar settling_rev =
             settings_.detector.response.settling_s() / (profile_.seconds_per_bin() * Scalar(Bins));
         const Scalar gap_rev = Scalar(1) / Scalar(settings_.detector.teeth) - theta_rad / (Scalar(2) * pi<Scalar>);
-        const AirGap<Scalar> gap = read_air_gap(profile_, settings_.detector.teeth, leaves_rev + settling_rev,
-                                                gap_rev - settling_rev);
+        const AirGap<Scalar> gap =
+            read_air_gap(profile_, settings_.detector.teeth, leaves_rev + settling_rev, gap_rev - settling_rev);
         if (gap.valid) {
-            const Scalar inflation = Scalar(1) / settings_.detector.response.independent_share(
-                                                     Scalar(1) / profile_.seconds_per_bin());
+            const Scalar inflation =
+                Scalar(1) / settings_.detector.response.independent_share(Scalar(1) / profile_.seconds_per_bin());
             measurement_.mean_x_N.value -= gap.x_N;
             measurement_.mean_y_N.value -= gap.y_N;
             measurement_.mean_x_N.variance = jump.mean_x_N.variance + stays + gap.x_variance * inflation;
@@ -298,7 +298,8 @@ class ForceDrop {
             return m;
         }
         const Scalar along = jump.x_N.value * jump.mean_x_N.value + jump.y_N.value * jump.mean_y_N.value;
-        m.side = settings_.side == CutSide::unknown ? (along < Scalar(0) ? CutSide::up : CutSide::down) : settings_.side;
+        m.side =
+            settings_.side == CutSide::unknown ? (along < Scalar(0) ? CutSide::up : CutSide::down) : settings_.side;
         const Scalar sign = m.side == CutSide::up ? Scalar(-1) : Scalar(1);
         m.tooth_x_N = jump.x_N;
         m.tooth_y_N = jump.y_N;

@@ -38,8 +38,8 @@ template <typename Scalar>
 struct ForceDropCalibrationResult {
     ForceDropLaw<Scalar> law{};
     bool edges_determined = false;
-    bool a_determined = false;  ///< false: a = 1 was put
-    bool c_determined = false;  ///< false: c_1 = c_2 = 0 were put
+    bool a_determined = false;                       ///< false: a = 1 was put
+    bool c_determined = false;                       ///< false: c_1 = c_2 = 0 were put
     LeastSquaresSolution<Scalar, 4> coefficients{};  ///< K_tc, K_te, K_rc, K_re (N/mm², N/mm)
     int cuts = 0;
 };
@@ -140,8 +140,8 @@ class ForceDropCalibration {
     /// Of K_j/K_tc, their covariance counted.
     static Scalar ratio_sd(const LeastSquaresSolution<Scalar, 4>& k, int j, Scalar ratio) {
         using std::sqrt;
-        const Scalar variance = k.covariance(j, j) + square(ratio) * k.covariance(0, 0) -
-                                Scalar(2) * ratio * k.covariance(0, j);
+        const Scalar variance =
+            k.covariance(j, j) + square(ratio) * k.covariance(0, 0) - Scalar(2) * ratio * k.covariance(0, j);
         return sqrt(variance > Scalar(0) ? variance : Scalar(0)) / k.parameters(0);
     }
 
@@ -186,8 +186,9 @@ class ForceDropCalibration {
         constexpr Scalar least_significance = Scalar(2);
         ForceDropLaw<Scalar>& law = result.law;
         const auto line = sloped.solve();
-        result.a_determined = line.undetermined == 0U && sloped.rows() > 3 &&
-                              square(line.parameters(0) - Scalar(1)) > square(least_significance) * line.covariance(0, 0);
+        result.a_determined =
+            line.undetermined == 0U && sloped.rows() > 3 &&
+            square(line.parameters(0) - Scalar(1)) > square(least_significance) * line.covariance(0, 0);
         if (result.a_determined) {
             law.a = line.parameters(0);
             law.b = line.parameters(1);

@@ -39,10 +39,10 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct ForceDropDetectorSettings {
-    int teeth{3};                                          ///< N, 1…12, equally spaced
-    LowPassResponse<Scalar> response{};                    ///< from force to sample
-    Scalar window_rev{static_cast<Scalar>(12.0L / 360)};   ///< signal used on either side, after settling
-    Scalar least_significance{4};                          ///< jump over its standard deviation
+    int teeth{3};                                                ///< N, 1…12, equally spaced
+    LowPassResponse<Scalar> response{};                          ///< from force to sample
+    Scalar window_rev{static_cast<Scalar>(12.0L / 360)};         ///< signal used on either side, after settling
+    Scalar least_significance{4};                                ///< jump over its standard deviation
     Scalar largest_settling_pitches{static_cast<Scalar>(0.3L)};  ///< beyond it jumps of neighbours run together
 };
 
@@ -70,7 +70,7 @@ struct ForceJump {
     Measurement<Scalar> y_N{};
     Scalar slope_x_N_per_rev{0};  ///< by how much the slope changes there
     Scalar slope_y_N_per_rev{0};
-    Scalar residual_N2{0};  ///< Σ of both forces' squared residuals over all windows
+    Scalar residual_N2{0};           ///< Σ of both forces' squared residuals over all windows
     Measurement<Scalar> mean_x_N{};  ///< of the whole revolution
     Measurement<Scalar> mean_y_N{};
 };
@@ -307,7 +307,8 @@ class ForceDropDetector {
         jump.angle_rev += jump.angle_rev < Scalar(0) ? pitch_rev : Scalar(0);
         const Scalar inflation = Scalar(1) / window.independent_share;
         const auto measured = [&](Scalar step, Scalar residual_N2) {
-            const Scalar sample_variance = (residual_N2 > Scalar(0) ? residual_N2 : Scalar(0)) / Scalar(fit.free_points);
+            const Scalar sample_variance =
+                (residual_N2 > Scalar(0) ? residual_N2 : Scalar(0)) / Scalar(fit.free_points);
             const Scalar variance =
                 sample_variance * inflation * fit.step_gain / Scalar(settings_.teeth) + static_cast<Scalar>(1e-12L);
             return Measurement<Scalar>{true, step, variance, variance};

@@ -17,7 +17,7 @@
 /// The paper iterates r → φ_s → r_av → r from any r in 0…1, which contracts only where a < 1 and takes some 25 steps at
 /// a = 0.96; Eq. 6's arctangent fails past 90°. Here each equation is tabulated over the valid range, every change of
 /// sign is a bracket, and a bracket is closed by the Illinois variant of regula falsi, whatever a is. Where an equation
-/// has two roots, the one nearer to the other equation's is taken; where it has none, there is none.
+/// has several roots, the other one decides (likeliest()); where neither has one, there is no estimate.
 ///
 /// The direction equation amplifies: at small immersion jump and average differ in direction by a third of θ only, so
 /// that 0.3° of force direction make 1° of θ. The magnitude equation has F_at/F_t(φ_s) = N/2π tan(θ/2): 1 % of force is
@@ -32,8 +32,8 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct ForceDropImmersionSettings {
-    Scalar largest_disagreement{4};                          ///< of the two roots, in standard deviations
-    Scalar largest_sd{static_cast<Scalar>(0.15L)};           ///< immersion known less well than this is no estimate
+    Scalar largest_disagreement{4};                 ///< of the two roots, in standard deviations
+    Scalar largest_sd{static_cast<Scalar>(0.15L)};  ///< immersion known less well than this is no estimate
     Scalar largest_relative_sd{static_cast<Scalar>(0.2L)};
 };
 
@@ -70,8 +70,8 @@ struct ForceDropEstimate {
     CutSide side = CutSide::unknown;
     Scalar r{0};
     Scalar r_av{0};
-    Scalar pressure_N_per_mm{0};             ///< K a at the jump
-    ForceDropRoot<Scalar> by_direction{};    ///< the paper's equations alone
+    Scalar pressure_N_per_mm{0};           ///< K a at the jump
+    ForceDropRoot<Scalar> by_direction{};  ///< the paper's equations alone
     ForceDropRoot<Scalar> by_magnitude{};
 };
 
@@ -95,8 +95,8 @@ class ForceDropImmersion {
         const Roots direction = roots_of(Equation::direction, m);
         const Roots magnitude = roots_of(Equation::magnitude, m);
         Propagation doubt;
-        estimate.by_direction = nearest(direction, magnitude);
-        estimate.by_magnitude = nearest(magnitude, direction);
+        estimate.by_direction = likeliest(direction, Equation::magnitude, m);
+        estimate.by_magnitude = likeliest(magnitude, Equation::direction, m);
         propagate(m, estimate.by_direction, Equation::direction, doubt.direction);
         propagate(m, estimate.by_magnitude, Equation::magnitude, doubt.magnitude);
         estimate.reason = join(doubt, estimate);
@@ -109,7 +109,8 @@ class ForceDropImmersion {
         using std::cos;
         using std::exp;
         const ForceDropRatios<Scalar> ratios = ratios_at(inputs_of(m), m, theta_rad);
-        return ratios.mean_pressure_N_per_mm * exp(law_.c.dot(pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm)));
+        return ratios.mean_pressure_N_per_mm *
+               exp(law_.c.dot(pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm)));
     }
 
   private:
@@ -132,7 +133,8 @@ class ForceDropImmersion {
         Changes magnitude{};
     };
 
-    [[nodiscard]] typename ForceDropEstimate<Scalar>::Reason reason_against(const ForceDropMeasurement<Scalar>& m) const {
+    [[nodiscard]] typename ForceDropEstimate<Scalar>::Reason reason_against(
+        const ForceDropMeasurement<Scalar>& m) const {
         using Reason = typename ForceDropEstimate<Scalar>::Reason;
         if (!law_.valid) {
             return Reason::no_law;
@@ -156,9 +158,9 @@ class ForceDropImmersion {
 
     [[nodiscard]] static ForceDropRatios<Scalar> ratios_at(const ForceDropInputs<Scalar>& in,
                                                            const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) {
-        const EngagementAngles<Scalar> engagement =
-            m.side == CutSide::up ? EngagementAngles<Scalar>{Scalar(0), theta_rad}
-                                  : EngagementAngles<Scalar>{pi<Scalar> - theta_rad, pi<Scalar>};
+        const EngagementAngles<Scalar> engagement = m.side == CutSide::up
+                                                        ? EngagementAngles<Scalar>{Scalar(0), theta_rad}
+                                                        : EngagementAngles<Scalar>{pi<Scalar> - theta_rad, pi<Scalar>};
         return force_drop_ratios(in, m.feed_per_tooth_mm, m.teeth, m.side, engagement);
     }
 
@@ -210,8 +212,7 @@ class ForceDropImmersion {
         constexpr Scalar close_enough_rad = static_cast<Scalar>(2e-6L);
         int stayed = 0;
         for (int k = 0; k < most_steps && high.theta_rad - low.theta_rad > close_enough_rad; ++k) {
-            const Scalar theta =
-                (low.theta_rad * high.value - high.theta_rad * low.value) / (high.value - low.value);
+            const Scalar theta = (low.theta_rad * high.value - high.theta_rad * low.value) / (high.value - low.value);
             const Value at = residual(equation, in, m, theta);
             if (!at.valid || at.value == Scalar(0)) {
                 return theta;
@@ -229,26 +230,27 @@ class ForceDropImmersion {
         return (low.theta_rad * high.value - high.theta_rad * low.value) / (high.value - low.value);
     }
 
-    /// Of several roots the one nearest to any of the other equation's. Several, and nothing to choose by: none.
-    [[nodiscard]] static ForceDropRoot<Scalar> nearest(const Roots& roots, const Roots& others) {
-        using std::abs;
+    /// Of several roots the one at which the other equation is least violated, if by less than half of the next: the
+    /// direction equation may have two roots or touch zero without one, the magnitude equation has a second one near
+    /// 90°.
+    [[nodiscard]] ForceDropRoot<Scalar> likeliest(const Roots& roots, Equation other,
+                                                  const ForceDropMeasurement<Scalar>& m) const {
+        const ForceDropInputs<Scalar> in = inputs_of(m);
         ForceDropRoot<Scalar> chosen;
-        if (roots.count == 0 || (roots.count > 1 && others.count == 0)) {
-            return chosen;
-        }
-        Scalar least = Scalar(10);
+        Scalar least = Scalar(1e3F);
+        Scalar next = Scalar(1e3F);
         for (std::size_t i = 0; i < static_cast<std::size_t>(roots.count); ++i) {
-            Scalar distance = others.count > 0 ? Scalar(10) : Scalar(0);
-            for (std::size_t j = 0; j < static_cast<std::size_t>(others.count); ++j) {
-                const Scalar apart = abs(roots.theta_rad[i] - others.theta_rad[j]);
-                distance = apart < distance ? apart : distance;
-            }
-            if (distance < least) {
-                least = distance;
-                chosen.theta_rad = roots.theta_rad[i];
-                chosen.valid = true;
+            const Value at = residual(other, in, m, roots.theta_rad[i]);
+            const Scalar violated = !at.valid ? Scalar(10) : (at.value < Scalar(0) ? -at.value : at.value);
+            if (violated < least) {
+                next = least;
+                least = violated;
+                chosen = {true, roots.theta_rad[i], Scalar(0)};
+            } else {
+                next = violated < next ? violated : next;
             }
         }
+        chosen.valid = chosen.valid && least < Scalar(0.5F) * next;
         return chosen;
     }
 
@@ -268,9 +270,12 @@ class ForceDropImmersion {
             root.valid = false;
             return;
         }
-        const std::array<Scalar, input_count> sd{sqrt(m.tooth_x_N.variance), sqrt(m.tooth_y_N.variance),
-                                                 sqrt(m.mean_x_N.variance),  sqrt(m.mean_y_N.variance),
-                                                 law_.e_t_sd_mm,             law_.e_r_sd_mm};
+        const std::array<Scalar, input_count> sd{sqrt(m.tooth_x_N.variance),
+                                                 sqrt(m.tooth_y_N.variance),
+                                                 sqrt(m.mean_x_N.variance),
+                                                 sqrt(m.mean_y_N.variance),
+                                                 law_.e_t_sd_mm,
+                                                 law_.e_r_sd_mm};
         root.variance = law_variance(equation, m, root.theta_rad) / square(slope);
         for (std::size_t k = 0; k < input_count; ++k) {
             const Value up = residual(equation, moved(in, k, sd[k]), m, root.theta_rad);
@@ -300,7 +305,8 @@ class ForceDropImmersion {
     }
 
     /// Of the residual, by the doubt in the calibrated line and the scatter about it.
-    [[nodiscard]] Scalar law_variance(Equation equation, const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
+    [[nodiscard]] Scalar law_variance(Equation equation, const ForceDropMeasurement<Scalar>& m,
+                                      Scalar theta_rad) const {
         using std::cos;
         if (equation == Equation::magnitude) {
             const auto z = pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm);

@@ -53,8 +53,9 @@ struct ForceDropLaw {
     Eigen::Matrix<Scalar, 3, 3> c_covariance = Eigen::Matrix<Scalar, 3, 3>::Zero();
     Scalar ln_K_scatter{0};
 
-    /// The other edge of the cut, where the chip is nothing: jump and growth of the force there, per K a and per K a f_z.
-    /// With e_t and e_r alone they would be e_t, e_r, 1 ± e_r/f_z and r ∓ e_t/f_z; thin chips and runout change them.
+    /// The other edge of the cut, where the chip is nothing: jump and growth of the force there, per K a and per K a
+    /// f_z. With e_t and e_r alone they would be e_t, e_r, 1 ± e_r/f_z and r ∓ e_t/f_z; thin chips and runout change
+    /// them.
     Scalar other_step_x_mm{0};
     Scalar other_step_y_mm{0};
     Scalar other_slope_x{0};  ///< per radian; counted positive for up milling, with the opposite sign for down milling
@@ -109,7 +110,7 @@ struct ForceDropInputs {
 /// Cutting pressure and force ratio, at the jump and on average, if the engagement were this one.
 template <typename Scalar>
 struct ForceDropRatios {
-    bool possible = false;  ///< both pressures are positive
+    bool possible = false;             ///< both pressures are positive
     Scalar pressure_N_per_mm{0};       ///< K a at the jump
     Scalar r{0};                       ///< at the jump
     Scalar mean_pressure_N_per_mm{0};  ///< K a on average

@@ -44,7 +44,7 @@ struct LowPassResponse {
                     decay * (lag_s * cosine + (Scalar(2) * damping * damping - Scalar(1)) / (omega * root) * sine)};
     }
 
-    /// After this time a step is within 2 % of its end.
+    /// After this time a step is within 3 % of its end.
     [[nodiscard]] Scalar settling_s() const { return Scalar(4) / (damping * omega_rad_s()); }
 
     /// Samples of white noise that passed the filter tell as much as this many independent ones, per sample: the
