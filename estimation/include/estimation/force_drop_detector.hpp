@@ -160,6 +160,11 @@ class ForceDropDetector {
         return {Scalar(1), bins * scale, at.step, at.ramp_s / window.seconds_per_bin * scale};
     }
 
+    static std::size_t index_in(const Window& window, int bin) {
+        const int index = bin + window.before;
+        return static_cast<std::size_t>(index);
+    }
+
     [[nodiscard]] static ForceJump<Scalar> too_fast() {
         ForceJump<Scalar> jump;
         jump.reason = ForceJump<Scalar>::Reason::too_fast;
@@ -201,7 +206,7 @@ class ForceDropDetector {
                 Scalar x{0};
                 Scalar y{0};
                 for (int i = -window.before; i <= window.after; ++i) {
-                    const Scalar weight = weights[static_cast<std::size_t>(i + window.before)];
+                    const Scalar weight = weights[index_in(window, i)];
                     x += weight * profile.x_N(centre + i);
                     y += weight * profile.y_N(centre + i);
                 }
@@ -225,7 +230,7 @@ class ForceDropDetector {
         }
         const Vector4 row = gram.ldlt().solve(Vector4::Unit(2));
         for (int i = -window.before; i <= window.after; ++i) {
-            weights[static_cast<std::size_t>(i + window.before)] = row.dot(regressors(window, Scalar(i)));
+            weights[index_in(window, i)] = row.dot(regressors(window, Scalar(i)));
         }
     }
 

@@ -83,8 +83,9 @@ class RevolutionProfile {
     /// Grid points are counted on, so that rounding can neither lose one nor fill it twice.
     void fill_passed(Scalar angle_rev, Scalar turned_rev, Scalar fx_N, Scalar fy_N) {
         Scalar behind = angle_rev * Scalar(Bins) - Scalar(wrapped(next_bin_));  // how far the grid point lies behind
-        behind += behind < Scalar(-Bins / 2) ? Scalar(Bins) : Scalar(0);
-        behind -= behind > Scalar(Bins / 2) ? Scalar(Bins) : Scalar(0);
+        constexpr Scalar half_rev = Scalar(Bins) * Scalar(0.5F);
+        behind += behind < -half_rev ? Scalar(Bins) : Scalar(0);
+        behind -= behind > half_rev ? Scalar(Bins) : Scalar(0);
         const Scalar step = turned_rev * Scalar(Bins);
         for (; behind >= Scalar(0) && step > Scalar(0); behind -= Scalar(1), ++next_bin_) {
             const Scalar share = behind < step ? Scalar(1) - behind / step : Scalar(0);
