@@ -4,6 +4,7 @@
 #include "estimation/encoder_angle.hpp"
 #include "estimation/engagement_solver.hpp"
 #include "estimation/feed_drive.hpp"
+#include "estimation/feed_force_observer.hpp"
 #include "estimation/peak_factors.hpp"
 #include "estimation/spindle_drive.hpp"
 #include "estimation/synchronous_average.hpp"
@@ -17,6 +18,7 @@ template class EncoderAngle<float>;
 template class SynchronousAverage<float, 7>;
 template class SpindleDrive<float>;
 template class FeedDrive<float>;
+template class FeedForceObserver<float>;
 template class EngagementSolver<float>;
 template class ToothPeakTable<float>;
 template class CutEstimator<float>;
