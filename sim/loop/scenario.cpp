@@ -125,6 +125,7 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
         value = static_cast<float>(table.number(key, low, high, static_cast<double>(value)));
     };
     read("surge_radial_immersion", control.surge_radial_immersion, 0.0, 2.0);
+    read("caution_sd", control.caution_sd, 0.0, 4.0);
     read("turn_radial_immersion", control.turn_radial_immersion, 0.0, 2.0);
     read("turn_travel_mm", control.turn_travel_mm, 0.0, 1e3);
     read("entry_feed_per_tooth_mm", control.entry_feed_per_tooth_mm, 1e-4, 10.0);

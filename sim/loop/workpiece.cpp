@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/cut_geometry.hpp"
 
 namespace millforce::sim {
 
@@ -43,6 +42,32 @@ bool StockWorkpiece::move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3
     return true;
 }
 
+namespace {
+
+/// The strip of material in front of the cutter, beside its axis: from `low` to `high`, positive towards φ = 0.
+struct Strip {
+    double low_mm;
+    double high_mm;
+};
+
+Strip strip_of(estimation::CutSide side, double width_mm, double radius_mm, double centre_offset_mm) {
+    switch (side) {
+        case estimation::CutSide::up:
+            return {radius_mm - width_mm, radius_mm};
+        case estimation::CutSide::centred:
+            return {centre_offset_mm - 0.5 * width_mm, centre_offset_mm + 0.5 * width_mm};
+        case estimation::CutSide::down:
+        case estimation::CutSide::unknown:
+            break;
+    }
+    return {-radius_mm, -radius_mm + width_mm};
+}
+
+/// A tooth stands at y = R cos φ.
+double angle_at(double y_mm, double radius_mm) { return std::acos(std::clamp(y_mm / radius_mm, -1.0, 1.0)); }
+
+}  // namespace
+
 ProfileWorkpiece::ProfileWorkpiece(const ProfileSettings& settings, const Cutter& cutter, estimation::CutSide side,
                                    double centre_offset_mm)
     : settings_(settings), cutter_(cutter), side_(side), centre_offset_mm_(centre_offset_mm) {}
@@ -71,10 +96,10 @@ bool ProfileWorkpiece::move_to(const Eigen::Vector3d&, const Eigen::Vector3d&, d
     last_path_mm_ = path_mm;
     const ProfilePoint now = at(path_mm);
     const double radius = 0.5 * cutter_.diameter_mm;
-    const auto angles =
-        estimation::engagement_angles(side_, now.radial_width_mm / radius, centre_offset_mm_ / radius);
-    set(now.axial_depth_mm > 0.0 ? uniform_engagement(angles.entry_rad, angles.exit_rad, now.axial_depth_mm)
-                                 : EngagementMap{});
+    const Strip strip = strip_of(side_, now.radial_width_mm, radius, centre_offset_mm_);
+    set(now.axial_depth_mm > 0.0
+            ? uniform_engagement(angle_at(strip.high_mm, radius), angle_at(strip.low_mm, radius), now.axial_depth_mm)
+            : EngagementMap{});
     return true;
 }
 

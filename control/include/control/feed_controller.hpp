@@ -28,6 +28,7 @@ template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{1000};      ///< F_tooth,max
     Scalar setpoint_share{static_cast<Scalar>(0.97L)};          ///< of the limit that steady cutting is held at; the rest is for noise
+    Scalar caution_sd{1};                  ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{static_cast<Scalar>(0.1L)};
     Scalar override_max{static_cast<Scalar>(1.5L)};
     Scalar recovery_per_rev{static_cast<Scalar>(0.25L)};        ///< share of the way up that one revolution goes
@@ -63,6 +64,7 @@ struct CutEstimateForControl {
     Scalar tangential_N{0};            ///< F_at over the last tooth period or window, the larger counts
     Scalar tangential_sd_N{0};
     bool tooth_force_valid = false;    ///< the immersion behind it is an estimate, not a guess
+    bool tooth_force_is_bound = false; ///< it is the most that the force can be: no sign of an overload
     Scalar tooth_force_N{0};           ///< peak force of one tooth; without an immersion, the worst it can be
     Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
     Scalar cutting_share{1};           ///< c: share of the force that is not edge force
@@ -162,7 +164,7 @@ class FeedController {
         const auto& p = parameters_;
         const auto positive = [](Scalar value) { return is_finite(value) && value > Scalar(0); };
         const auto not_negative = [](Scalar value) { return is_finite(value) && value >= Scalar(0); };
-        return positive(p.tooth_force_limit_N) && positive(p.setpoint_share) && not_negative(p.override_min) &&
+        return positive(p.tooth_force_limit_N) && positive(p.setpoint_share) && not_negative(p.caution_sd) && not_negative(p.override_min) &&
                is_finite(p.override_max) && p.override_max > p.override_min && p.override_max < Scalar(10) &&
                positive(p.recovery_per_rev) && positive(p.slew_up_per_s) && positive(p.slew_down_per_s) &&
                positive(p.entry_feed_per_tooth_mm) && positive(p.air_feed_per_tooth_mm) &&
@@ -293,7 +295,7 @@ class FeedController {
         if (!input.cut.fresh) {
             return;
         }
-        const bool over = input.cut.force_valid && input.cut.tooth_force_valid &&
+        const bool over = input.cut.force_valid && input.cut.tooth_force_valid && !input.cut.tooth_force_is_bound &&
                           input.cut.tooth_force_N > parameters_.overload_share * parameters_.tooth_force_limit_N;
         overload_revolutions_ = over ? overload_revolutions_ + Scalar(1) / parameters_.teeth : Scalar(0);
         if (overload_revolutions_ > parameters_.overload_revolutions && !parameters_.monitor_only) {

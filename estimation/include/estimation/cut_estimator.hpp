@@ -57,6 +57,7 @@ struct CutEstimate {
     EngagementEstimate<Scalar> engagement{};
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
+    bool tooth_force_is_bound = false;         ///< tooth_force_N is the most that it can be, and may be far above it
     Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
@@ -371,6 +372,7 @@ class CutEstimator {
             const Scalar bound = tooth_factor(e.side, e.radial_immersion_low, e.depth_at_high_mm);
             const Scalar worst = newest * runout * (bound > factor ? bound : factor);
             estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
+            estimate_.tooth_force_is_bound = true;
         }
         estimate_.surge = change_to(settings_.surge_immersion, immersion, depth, factor, model.mean.tangential_N);
         estimate_.turn = change_to(settings_.turn_immersion, immersion, depth, factor, model.mean.tangential_N);
