@@ -22,10 +22,21 @@ namespace {
 
 using estimation::CutSide;
 
+CLI::CheckedTransformer law_names() {
+    CLI::CheckedTransformer names(std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
+                                                                       {"power", CuttingLawForm::power},
+                                                                       {"combined", CuttingLawForm::combined}},
+                                  CLI::ignore_case);
+    names.description("{linear_edge,power,combined}");
+    return names;
+}
+
 CLI::CheckedTransformer side_names() {
-    return CLI::CheckedTransformer(
+    CLI::CheckedTransformer names(
         std::map<std::string, CutSide>{{"down", CutSide::down}, {"up", CutSide::up}, {"unknown", CutSide::unknown}},
         CLI::ignore_case);
+    names.description("{down,up,unknown}");
+    return names;
 }
 
 template <typename Options>
@@ -81,13 +92,8 @@ void add_cutting(CLI::App* calibrate, int& exit_code) {
         "is.\n"
         "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
     add_data_and_output(command, *options);
-    command->add_option("--side", options->side, "down, up or unknown: from the data")->transform(side_names());
-    command->add_option("--law", options->form, "linear_edge, power or combined")
-        ->transform(
-            CLI::CheckedTransformer(std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
-                                                                          {"power", CuttingLawForm::power},
-                                                                          {"combined", CuttingLawForm::combined}},
-                                    CLI::ignore_case));
+    command->add_option("--side", options->side, "Side of the cuts; unknown: from the data")->transform(side_names());
+    command->add_option("--law", options->form, "Which law to fit")->transform(law_names());
     command->callback([options, &exit_code] { exit_code = calibrate_cutting(*options, std::cout); });
 }
 

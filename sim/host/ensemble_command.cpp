@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "files/progress.hpp"
 #include "host/commands.hpp"
+#include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 
 namespace millforce::sim {
@@ -17,8 +19,6 @@ struct EnsembleOptions {
     std::string scenario;
     int runs = 40;
 };
-
-constexpr double peak_bound = 1.10;
 
 void print_row(const char* label, const std::string& value) { fmt::print("{:<34}{:>14}\n", label, value); }
 
@@ -50,8 +50,7 @@ int ensemble(const EnsembleOptions& options) {
     }
     const EnsembleFigures figures = summarise_ensemble(runs);
     print_table(scenario, figures);
-    const bool held = figures.unfinished == 0 && figures.teeth_broken == 0 &&
-                      figures.peak_over_limit_worst <= peak_bound;
+    const bool held = std::all_of(runs.begin(), runs.end(), bounds_hold);
     return held ? 0 : 1;
 }
 

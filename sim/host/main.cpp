@@ -8,9 +8,11 @@
 #include "files/atomic_file.hpp"
 #include "host/commands.hpp"
 
-int main(int argc, char** argv) {
-    using namespace millforce::sim;
-    remove_unfinished_files_on_interrupt();
+namespace {
+
+using namespace millforce::sim;
+
+int run(int argc, char** argv) {
     CLI::App app{"Sensorless force control for milling", "millforce"};
     app.require_subcommand(1);
     app.footer(
@@ -18,11 +20,11 @@ int main(int argc, char** argv) {
         "'millforce COMMAND --help' tells more about a command.");
     int exit_code = 0;
     add_simulate(app, exit_code);
+    add_ensemble(app, exit_code);
     add_replay(app, exit_code);
     add_calibrate(app, exit_code);
     add_estimate(app, exit_code);
     add_cut_table(app, exit_code);
-    add_ensemble(app, exit_code);
     add_bench(app, exit_code);
     add_parameters(app, exit_code);
     set_common_rules(app, "millforce " MILLFORCE_VERSION);
@@ -34,8 +36,18 @@ int main(int argc, char** argv) {
             return app.exit(error);
         }
         fmt::print(stderr, "millforce: {}\n", usage_error(app, argc, argv, error.what()));
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "millforce: {}\n", error.what());
+        return 2;
     }
-    return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    remove_unfinished_files_on_interrupt();
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "millforce: %s\n", error.what());
+        return 2;
+    }
 }

@@ -14,6 +14,7 @@
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"
+#include "loop/bounds.hpp"
 #include "loop/recording.hpp"
 #include "loop/simulation.hpp"
 #include "report/report.hpp"
@@ -34,9 +35,6 @@ struct SimulateOptions {
     std::optional<double> current_noise_share;
     double hardest = hardest_material;
 };
-
-// A simulated peak or time over the limit beyond these is a broken bound: exit code 1.
-constexpr double peak_bound = 1.10;
 
 constexpr const char* baseline = "constant";
 
@@ -116,7 +114,7 @@ double safe_override_of(const Scenario& scenario, double hardest) {
 
 /// The folder for the results, made where it is missing. An error is told now, and not after a long run.
 std::filesystem::path results_folder(const std::string& name) {
-    const std::filesystem::path folder(name);
+    std::filesystem::path folder(name);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
@@ -126,16 +124,11 @@ std::filesystem::path results_folder(const std::string& name) {
     return folder;
 }
 
-bool held(const RunFigures& figures) {
-    return figures.finished && figures.teeth_broken == 0 && figures.peak_over_limit <= peak_bound &&
-           !(figures.late_over_limit_s > 0.0);
-}
-
 void print_broken_bound(const RunFigures& figures) {
     fmt::print(stderr,
                "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
                "{:.3f} s of it later than the reaction time after the engagement grew (none), {} teeth broken, {}\n",
-               100.0 * figures.peak_over_limit, 100.0 * peak_bound, figures.late_over_limit_s, figures.teeth_broken,
+               100.0 * figures.peak_over_limit, 100.0 * largest_peak_over_limit, figures.late_over_limit_s, figures.teeth_broken,
                figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
 }
 
@@ -155,7 +148,7 @@ int simulate_scenario(const SimulateOptions& options) {
     write_report(out, info, results);
     fmt::print("\nreport: {}\n", (out / "report.html").string());
     const RunFigures& figures = results.front().figures;
-    if (!held(figures)) {
+    if (!bounds_hold(figures)) {
         print_broken_bound(figures);
         return 1;
     }

@@ -83,15 +83,15 @@ bool RunJudge::engagement_has_grown(double within_s) const {
     double age_s = 0.0;
     double largest_since_mm2 = 0.0;
     for (std::size_t back = 1; back <= known; ++back) {
-        const Revolution& revolution = revolutions_[(revolution_count_ - back) % revolutions_.size()];
-        if (largest_since_mm2 > 1.01 * revolution.section_mm2) {
+        const Revolution& past = revolutions_[(revolution_count_ - back) % revolutions_.size()];
+        if (largest_since_mm2 > 1.01 * past.section_mm2) {
             return true;
         }
-        largest_since_mm2 = std::max(largest_since_mm2, revolution.section_mm2);
+        largest_since_mm2 = std::max(largest_since_mm2, past.section_mm2);
         if (age_s > within_s) {
             return false;
         }
-        age_s += revolution.duration_s;
+        age_s += past.duration_s;
     }
     return true;  // the run has only begun
 }
