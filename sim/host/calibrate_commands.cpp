@@ -21,6 +21,7 @@ namespace millforce::sim {
 namespace {
 
 using estimation::CutSide;
+using estimation::CuttingLawForm;
 
 CLI::CheckedTransformer law_names() {
     CLI::CheckedTransformer names(std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
@@ -82,7 +83,6 @@ void add_spindle(CLI::App* calibrate, int& exit_code) {
 }
 
 void add_cutting(CLI::App* calibrate, int& exit_code) {
-    using estimation::CuttingLawForm;
     auto options = std::make_shared<CuttingCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("cutting", "Material and tool: coefficients from measured cuts");
     command->footer(

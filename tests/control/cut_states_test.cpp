@@ -164,16 +164,24 @@ TEST(Faults, overload_is_forgotten_by_one_tooth_below_it_and_does_not_count_old_
     CHECK(repeat(controller, heavy, 100).fault == Fault::none);
 }
 
-TEST(Faults, a_guessed_tooth_force_is_no_overload) {
-    Controller controller;
-    bring_into_cut(controller);
-    Input guessed = in_contact();
-    guessed.cut.tooth_force_valid = false;
-    guessed.cut.tooth_force_N = 5000.0F;
-    const Output output = repeat(controller, guessed, 100);
-    CHECK(output.fault == Fault::none);
-    const float law = std::pow(970.0F / 5000.0F, 1.0F / 0.75F);  // it lowers the feed all the same
-    DOUBLES_EQUAL(static_cast<double>(law), static_cast<double>(output.ratio), 1e-5);
+TEST(Faults, a_guessed_tooth_force_is_no_overload_and_asks_for_no_less_than_the_entry_feed) {
+    const Parameters p;
+    for (const bool is_bound : {false, true}) {
+        Controller controller;
+        const float before = bring_into_cut(controller).ratio;
+        Input guessed = in_contact();
+        guessed.cut.tooth_force_valid = is_bound;
+        guessed.cut.tooth_force_is_bound = is_bound;
+        guessed.cut.tooth_force_N = 5000.0F;
+        const Output output = repeat(controller, guessed, 100);
+        CHECK(output.fault == Fault::none);
+        const float entry = ratio_of(p.entry_feed_per_tooth_mm, guessed);
+        DOUBLES_EQUAL(static_cast<double>(is_bound ? entry : std::fmin(before, entry)),
+                      static_cast<double>(output.ratio), 1e-5);
+        guessed.cut.least_tooth_force_N = 2000.0F;  // that much is certain, and it lowers the feed
+        const float law = std::pow(970.0F / 2000.0F, 1.0F / 0.75F);
+        DOUBLES_EQUAL(static_cast<double>(law), static_cast<double>(repeat(controller, guessed, 100).ratio), 1e-5);
+    }
 }
 
 TEST(Faults, stale_input_latches_in_every_state) {

@@ -28,7 +28,7 @@ template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{1000};      ///< F_tooth,max
     Scalar setpoint_share{static_cast<Scalar>(0.97L)};          ///< of the limit that steady cutting is held at; the rest is for noise
-    Scalar caution_sd{1};                  ///< standard deviations of the tooth's force that are counted on top of it
+    Scalar caution_sd{static_cast<Scalar>(0.75L)};  ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{static_cast<Scalar>(0.1L)};
     Scalar override_max{static_cast<Scalar>(1.5L)};
     Scalar recovery_per_rev{static_cast<Scalar>(0.25L)};        ///< share of the way up that one revolution goes
@@ -66,6 +66,7 @@ struct CutEstimateForControl {
     bool tooth_force_valid = false;    ///< the immersion behind it is an estimate, not a guess
     bool tooth_force_is_bound = false; ///< it is the most that the force can be: no sign of an overload
     Scalar tooth_force_N{0};           ///< peak force of one tooth; without an immersion, the worst it can be
+    Scalar least_tooth_force_N{0};     ///< the least that it can be, whatever the immersion
     Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
     Scalar cutting_share{1};           ///< c: share of the force that is not edge force
     Scalar surge_cutting_share{1};     ///< the same after a surge
@@ -383,10 +384,8 @@ class FeedController {
             wish.cap(air < Scalar(1) ? air : Scalar(1), Limit::entry_feed);
         }
         if (state_ == CutState::entry) {
-            const Scalar ceiling = ratio_at_entry_ >= Scalar(0)
-                                       ? ratio_at_entry_
-                                       : ratio_of_feed_per_tooth(parameters_.entry_feed_per_tooth_mm, input);
-            wish.cap(ceiling, Limit::entry_feed);
+            const Scalar entry = ratio_of_feed_per_tooth(parameters_.entry_feed_per_tooth_mm, input);
+            wish.cap(ratio_at_entry_ > entry ? ratio_at_entry_ : entry, Limit::entry_feed);
         }
         if (state_ == CutState::exit) {
             wish.cap(ratio_at_entry_ >= Scalar(0) ? ratio_at_entry_ : ratio_, Limit::no_estimate);
@@ -407,6 +406,23 @@ class FeedController {
         return input.cut.feed_mm_s * exp(log(growth) / input.cut.feed_exponent) / input.programmed_feed_mm_s;
     }
 
+    /// The immersion behind the force is not known: the arc of a cutter that enters follows no law, or a bound is all.
+    [[nodiscard]] bool is_ignorant(const CutEstimateForControl<Scalar>& cut) const {
+        return state_ == CutState::entry || cut.tooth_force_is_bound || !cut.tooth_force_valid;
+    }
+
+    /// Ignorance alone asks for no less than the entry feed: it is the feed that is safe whatever the tool meets. Only the
+    /// force that is there at least can.
+    [[nodiscard]] Scalar not_below_entry_feed(Scalar demand, const ControlInput<Scalar>& input) const {
+        const CutEstimateForControl<Scalar>& cut = input.cut;
+        const Scalar entry = ratio_of_feed_per_tooth(parameters_.entry_feed_per_tooth_mm, input);
+        const Scalar certain = cut.least_tooth_force_N > Scalar(0)
+                                   ? feed_for(parameters_.setpoint_share, cut.least_tooth_force_N, cut.cutting_share, input)
+                                   : entry;
+        const Scalar floor = entry < certain ? entry : certain;
+        return demand > floor ? demand : floor;
+    }
+
     /// The law. Remembers its last demand: between two tooth periods the override keeps moving towards it.
     void cap_by_force(Wish& wish, const ControlInput<Scalar>& input) {
         const CutEstimateForControl<Scalar>& cut = input.cut;
@@ -422,6 +438,9 @@ class FeedController {
         if (cut.fresh && usable) {
             demand_ = feed_for(parameters_.setpoint_share, cut.tooth_force_N, cut.cutting_share, input);
             demand_limit_ = Limit::force;
+            if (is_ignorant(cut)) {
+                demand_ = not_below_entry_feed(demand_, input);
+            }
             if (parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1)) {
                 const Scalar before_surge = feed_for(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
                                                      cut.surge_cutting_share, input);

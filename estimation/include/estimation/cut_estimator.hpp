@@ -58,6 +58,7 @@ struct CutEstimate {
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
     bool tooth_force_is_bound = false;         ///< tooth_force_N is the most that it can be, and may be far above it
+    Scalar least_tooth_force_N{0};  ///< the least that it can be: F_at shared by the widest cut
     Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
@@ -352,6 +353,7 @@ class CutEstimator {
         }
         const Scalar runout = runout_factor();
         estimate_.worst_tooth_force_N = newest * factor * runout;
+        estimate_.least_tooth_force_N = newest * tooth_factor(last_side_, Scalar(2), depth);
         if (e.immersion_valid) {
             const Scalar low = tooth_factor(e.side, e.radial_immersion_low, e.axial_depth_mm > Scalar(0) ? e.depth_at_low_mm : depth);
             const Scalar high =

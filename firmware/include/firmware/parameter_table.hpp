@@ -152,7 +152,7 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
     {ParameterFile::tool, "control", "max_feed_per_tooth_mm", "mm", required, 1e-4F, 10.0F, "Feed ceiling in cut: what edge and chip space allow.", MILLFORCE_FIELD(tool.control.max_feed_per_tooth_mm)},
     {ParameterFile::tool, "control", "highest_programmed_feed_mm_s", "mm/s", 0.0F, 0.0F, 1e4F, "Highest F of the program, which the ceilings before contact hold for; 0: learnt as blocks come.", MILLFORCE_FIELD(tool.control.highest_programmed_feed_mm_s)},
     {ParameterFile::tool, "control", "setpoint_share", "1", 0.97F, 0.1F, 1.0F, "Share of the tooth's limit that steady cutting is held at.", MILLFORCE_FIELD(tool.control.setpoint_share)},
-    {ParameterFile::tool, "control", "caution_sd", "1", 1.0F, 0.0F, 4.0F, "Standard deviations of the tooth's force that are counted on top of it.", MILLFORCE_FIELD(tool.control.caution_sd)},
+    {ParameterFile::tool, "control", "caution_sd", "1", 0.75F, 0.0F, 4.0F, "Standard deviations of the tooth's force that are counted on top of it.", MILLFORCE_FIELD(tool.control.caution_sd)},
     {ParameterFile::tool, "control", "recovery_per_rev", "1", 0.25F, 0.001F, 1.0F, "Share of the way up that the override goes in one revolution.", MILLFORCE_FIELD(tool.control.recovery_per_rev)},
     {ParameterFile::tool, "control", "slew_up_per_s", "1/s", 2.0F, 0.001F, 1e3F, "Largest rise of the override per second.", MILLFORCE_FIELD(tool.control.slew_up_per_s)},
     {ParameterFile::tool, "control", "slew_down_per_s", "1/s", 40.0F, 0.001F, 1e4F, "Largest fall of the override per second.", MILLFORCE_FIELD(tool.control.slew_down_per_s)},

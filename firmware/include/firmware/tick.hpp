@@ -179,6 +179,7 @@ class ForceControlTick {
         cut.tangential_sd_N = sqrt(F_at.variance);
         cut.tooth_force_valid = e.tooth_force_N.valid;
         cut.tooth_force_is_bound = e.tooth_force_is_bound;
+        cut.least_tooth_force_N = e.least_tooth_force_N;
         cut.tooth_force_N = e.tooth_force_N.valid ? e.tooth_force_N.value + control_parameters_.caution_sd * sqrt(e.tooth_force_N.variance)
                                                   : e.worst_tooth_force_N;
         // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
