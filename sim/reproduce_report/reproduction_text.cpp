@@ -1,0 +1,87 @@
+#include "reproduce_report/reproduction_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "reproduce_report/figure_tables.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+constexpr std::size_t name_width = 47;
+constexpr std::string_view row_form = "{:<47} {:>9} {:>9} {:>10} {:>13} {:>6}\n";  // 100 columns at most
+
+/// Columns on a terminal: code points, which is right for all letters and signs that the names use.
+std::size_t width_of(std::string_view text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
+std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
+    std::vector<std::string> lines{""};
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' '), text.size());
+        const std::string_view word = text.substr(0, end);
+        if (!lines.back().empty() && width_of(lines.back()) + 1 + width_of(word) > width) {
+            lines.emplace_back("  ");
+        } else if (!lines.back().empty()) {
+            lines.back() += ' ';
+        }
+        lines.back() += word;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
+std::string figure_text(const Figure& figure, const std::string& name) {
+    const bool is_shown = figure.judged == Figure::Judged::shown;
+    const std::string unit = figure.unit.empty() ? "" : fmt::format(", {}", figure.unit);
+    const std::vector<std::string> lines = wrapped(name + unit, name_width);
+    std::string text = fmt::format(row_form, lines.front(), value_text(figure.published), value_text(figure.ours),
+                                   figure.difference(), figure.bound_text(),
+                                   is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+        text += lines[k] + '\n';
+    }
+    return text;
+}
+
+std::string short_table_text(const FigureTable& table) {
+    const auto nearest =
+        std::max_element(table.figures.begin(), table.figures.end(),
+                         [](const Figure& a, const Figure& b) { return use_of_bound(a) < use_of_bound(b); });
+    const FigureCount count = count_figures(table.figures);
+    std::string text;
+    if (count.broken == 0) {
+        text += fmt::format("{}: {}; the nearest to its bound:\n", table.title, verdict(count));
+        return text + figure_text(*nearest, "  " + name_in_table(*nearest, table));
+    }
+    text += fmt::format("{}: {}:\n", table.title, verdict(count));
+    for (const Figure& figure : table.figures) {
+        text += figure.holds() ? "" : figure_text(figure, "  " + name_in_table(figure, table));
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string reproduction_text(const Reproduction& reproduction, bool every_row) {
+    std::string text = fmt::format("{}: {}\n\n", reproduction.name, reproduction.title);
+    text += fmt::format(row_form, "figure", "paper", "ours", "difference", "bound", "");
+    for (const FigureTable& table : figure_tables(reproduction.figures)) {
+        if (table.is_long() && !every_row) {
+            text += short_table_text(table);
+            continue;
+        }
+        for (const Figure& figure : table.figures) {
+            text += figure_text(figure, figure.name);
+        }
+    }
+    return text + fmt::format("\n{}: {}\n", reproduction.name, verdict(count_figures(reproduction.figures)));
+}
+
+}  // namespace millforce::sim
