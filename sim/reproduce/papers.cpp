@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::array all_papers{
     Paper{"hwang", reproduce_hwang, 20.0},
-    Paper{"yang", reproduce_yang, 20.0},
-    Paper{"roughness", reproduce_roughness, 2.0},
-    Paper{"guan", reproduce_guan, 2.0},
+    Paper{"yang", reproduce_yang, 15.0},
+    Paper{"roughness", reproduce_roughness, 0.5},
+    Paper{"guan", reproduce_guan, 3.0},
 };
 
 /// What the workers share: which paper is next, which ones run, and what came of them.

@@ -99,7 +99,10 @@ std::string value_text(double value) {
         return "–";
     }
     const double size = std::abs(value);
-    return size >= 1000.0 && size < 1e7 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+    if (size >= 1000.0 && size < 1e7) {
+        return fmt::format("{:.0f}", value);
+    }
+    return size < 1e-3 ? fmt::format("{:.2g}", value) : fmt::format("{:.4g}", value);
 }
 
 }  // namespace millforce::sim

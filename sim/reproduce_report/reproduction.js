@@ -93,20 +93,28 @@
     return lows.map((low, k) => ({ low, high: highs[k] })).filter((band) => band.high);
   }
 
-  /** [smallest, largest] of a column over all series, with a margin. */
+  /** [smallest, largest] of a column over all series, with a margin. Lines may start on the axis, points may not: half
+   *  of each would be hidden. */
   function rangeOf(series, column, margin) {
-    let low = Infinity;
-    let high = -Infinity;
-    for (const one of series) {
-      for (const value of one[column]) {
-        if (value === null) continue;
-        low = Math.min(low, value);
-        high = Math.max(high, value);
-      }
-    }
-    if (!(high >= low)) return [0, 1];
+    const values = (wanted) => series.filter(wanted).flatMap((one) => one[column]).filter((value) => value !== null);
+    const all = values(() => true);
+    if (all.length === 0) return [0, 1];
+    const low = Math.min(...all);
+    const high = Math.max(...all);
     const room = margin * (high - low || Math.abs(high) || 1);
-    return [low >= 0 && low - room < 0 ? 0 : low - room, high + room];
+    const pointsNearAxis = values((one) => one.style === "points").some((value) => value < low + room);
+    return [low >= 0 && low - room < 0 && !pointsNearAxis ? 0 : low - room, high + room];
+  }
+
+  /** Names that are lists of conditions, "200 rpm, Ø100, SM45C": what all have in common is said once. */
+  function shortened(drawn) {
+    const points = drawn.filter((one) => one.style === "points");
+    const parts = points.map((one) => one.name.split(", "));
+    const count = parts.length > 1 ? parts[0].length : 0;
+    if (count < 3 || parts.some((list) => list.length !== count)) return { labels: new Map(), shared: "" };
+    const differs = parts[0].map((part, i) => parts.some((list) => list[i] !== part));
+    const labels = new Map(points.map((one, k) => [one, parts[k].filter((part, i) => differs[i]).join(", ")]));
+    return { labels, shared: parts[0].filter((part, i) => !differs[i]).join(", ") };
   }
 
   const ns = "http://www.w3.org/2000/svg";
@@ -149,7 +157,9 @@
       const common = low.name.slice(0, low.name.lastIndexOf(" ", same)).replace(/[,:]?\s*$/, "");
       entry(low, common || `${low.name} – ${high.name}`);
     }
-    const values = drawn.map((one) => entry(one, one.name));
+    const { labels, shared } = shortened(drawn);
+    const values = drawn.map((one) => entry(one, labels.get(one) || one.name));
+    if (shared) host.appendChild(element("span", "shared", `all: ${shared}`));
     return { values, note: host.appendChild(element("span", "position")) };
   }
 

@@ -20,10 +20,11 @@ std::string plot_id(const Reproduction& reproduction, std::size_t k) {
     return fmt::format("{}-{}", reproduction.name, k + 1);
 }
 
-/// A value and its unit, the unit apart so that a narrow column may break there.
-std::string cell_html(std::string_view style, std::string_view label, std::string_view value) {
-    return fmt::format("<td class=\"{}\" data-label=\"{}\">{}</td>", style, label,
-                       value.empty() ? "–" : html_escaped(value));
+/// Numbers are written with a true minus sign.
+std::string cell_html(std::string_view label, std::string_view value) {
+    const bool is_negative = value.starts_with('-');
+    const std::string text = (is_negative ? "−" : "") + html_escaped(value.substr(is_negative ? 1 : 0));
+    return fmt::format("<td class=\"{0}\" data-label=\"{0}\">{1}</td>", label, value.empty() ? "–" : text);
 }
 
 std::string row_html(const Figure& figure, const FigureTable& table) {
@@ -35,10 +36,10 @@ std::string row_html(const Figure& figure, const FigureTable& table) {
         name += fmt::format(" <span class=\"unit\">in {}</span>", html_escaped(figure.unit));
     }
     return fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>{}{}{}{}<td class=\"judgement\">{}</td></tr>\n", style,
-                       name, cell_html("paper", "paper", value_text(figure.published)),
-                       cell_html("ours", "ours", value_text(figure.ours)),
-                       cell_html("difference", "difference", figure.difference()),
-                       cell_html("bound", "bound", figure.bound_text()), judgement);
+                       name, cell_html("paper", value_text(figure.published)),
+                       cell_html("ours", value_text(figure.ours)),
+                       cell_html("difference", figure.difference()),
+                       cell_html("bound", figure.bound_text()), judgement);
 }
 
 std::string table_html(const FigureTable& table) {
@@ -88,7 +89,7 @@ std::string verdict_html(const Reproduction& reproduction) {
 std::string section_html(const Reproduction& reproduction) {
     const std::string name = html_escaped(reproduction.name);
     std::string html =
-        fmt::format("<section id=\"paper-{}\" class=\"paper\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
+        fmt::format("<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
                     html_escaped(reproduction.title), html_escaped(reproduction.summary), verdict_html(reproduction));
     html += "<h3>Figures</h3>\n";
     for (const FigureTable& table : figure_tables(reproduction.figures)) {
