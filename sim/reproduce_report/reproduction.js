@@ -58,10 +58,22 @@
     (c, x, y, r) => { c.moveTo(x, y - 1.3 * r); c.lineTo(x + 1.3 * r, y); c.lineTo(x, y + 1.3 * r); c.lineTo(x - 1.3 * r, y); },
   ];
 
+  /** Series of points that mostly cover each other are drawn side by side: pixels to the right per series. */
+  function setOffsets(series) {
+    const points = series.filter((one) => one.style === "points");
+    const [low, high] = rangeOf(points, "y", 0);
+    const covers = (a, b) => {
+      const close = a.x.filter((x, i) => b.x.some((other, k) => other === x && Math.abs(b.y[k] - a.y[i]) < 0.03 * (high - low)));
+      return close.length > 0.5 * a.x.length;
+    };
+    const crowded = points.some((a, i) => points.slice(i + 1).some((b) => covers(a, b)));
+    points.forEach((one, k) => { one.offset = crowded ? 6 * (k - (points.length - 1) / 2) : 0; });
+  }
+
   function drawMarker(context, one, x, y, radius) {
     context.save();
     context.beginPath();
-    markers[one.marker % markers.length](context, x, y, radius);
+    markers[one.marker % markers.length](context, x + one.offset, y, radius);
     context.closePath();
     context.fillStyle = colour(one.colour);
     context.globalAlpha = 0.8;
@@ -167,6 +179,7 @@
     const host = document.getElementById(id);
     host.textContent = "";
     const series = styled(plot.series);
+    setOffsets(series);
     const drawn = series.filter((one) => !one.style.startsWith("band"));
     const bands = bandsOf(series);
     const legend = makeLegend(host.appendChild(element("div", "legend")), drawn, bands);
