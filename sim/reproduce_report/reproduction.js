@@ -58,7 +58,8 @@
     (c, x, y, r) => { c.moveTo(x, y - 1.3 * r); c.lineTo(x + 1.3 * r, y); c.lineTo(x, y + 1.3 * r); c.lineTo(x - 1.3 * r, y); },
   ];
 
-  /** Series of points that mostly cover each other are drawn side by side: pixels to the right per series. */
+  /** Series of points that mostly cover each other are drawn side by side: pixels to the right per series. True where
+   *  they are. */
   function setOffsets(series) {
     const points = series.filter((one) => one.style === "points");
     const [low, high] = rangeOf(points, "y", 0);
@@ -68,6 +69,7 @@
     };
     const crowded = points.some((a, i) => points.slice(i + 1).some((b) => covers(a, b)));
     points.forEach((one, k) => { one.offset = crowded ? 6 * (k - (points.length - 1) / 2) : 0; });
+    return crowded;
   }
 
   function drawMarker(context, one, x, y, radius) {
@@ -179,12 +181,12 @@
     const host = document.getElementById(id);
     host.textContent = "";
     const series = styled(plot.series);
-    setOffsets(series);
+    const crowded = setOffsets(series);
     const drawn = series.filter((one) => !one.style.startsWith("band"));
     const bands = bandsOf(series);
     const legend = makeLegend(host.appendChild(element("div", "legend")), drawn, bands);
     const rows = rowsOf(drawn);
-    const ranges = { dateWindow: rangeOf(series, "x", 0.02), valueRange: rangeOf(series, "y", 0.06) };
+    const ranges = { dateWindow: rangeOf(series, "x", crowded ? 0.05 : 0.03), valueRange: rangeOf(series, "y", 0.06) };
     const showRow = (row) => {
       drawn.forEach((one, k) => {
         const value = rows[row][k + 1];
@@ -213,7 +215,7 @@
       xLabelHeight: 18,
       yLabelWidth: 18,
       axes: {
-        x: { axisLabelFontSize: 12, pixelsPerLabel: 60, drawGrid: false, valueFormatter: readable },
+        x: { axisLabelFontSize: 12, pixelsPerLabel: 42, drawGrid: false, valueFormatter: readable },
         y: { axisLabelFontSize: 12, axisLabelWidth: 46, pixelsPerLabel: 34 },
       },
       axisLineColor: colour("line"),
