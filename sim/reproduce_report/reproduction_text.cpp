@@ -40,14 +40,18 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::
     return lines;
 }
 
+template <typename... Cells>
+std::string row_text(const Cells&... cells) {
+    const std::string text = fmt::format(row_form, cells...);
+    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+}
+
 std::string figure_text(const Figure& figure, const std::string& name, std::size_t indent) {
     const bool is_shown = figure.judged == Figure::Judged::shown;
     const std::vector<std::string> lines = wrapped(name, name_width, indent);
-    std::string text =
-        fmt::format(row_form, lines.front(), value_text(figure.published), value_text(figure.ours), figure.unit,
-                    figure.difference(), figure.bound_text(), is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
+    std::string text = row_text(lines.front(), value_text(figure.published), value_text(figure.ours), figure.unit,
+                                figure.difference(), figure.bound_text(),
+                                is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
     for (std::size_t k = 1; k < lines.size(); ++k) {
         text += lines[k] + '\n';
     }
@@ -75,7 +79,7 @@ std::string short_table_text(const FigureTable& table) {
 
 std::string reproduction_text(const Reproduction& reproduction, bool every_row) {
     std::string text = fmt::format("{}: {}\n\n", reproduction.name, reproduction.title);
-    text += fmt::format(row_form, "figure", "paper", "ours", "", "difference", "bound", "") + '\n';
+    text += row_text("figure", "paper", "ours", "", "difference", "bound", "");
     for (const FigureTable& table : figure_tables(reproduction.figures)) {
         if (table.is_long() && !every_row) {
             text += short_table_text(table);
