@@ -31,20 +31,30 @@ Progress::~Progress() {
     }
 }
 
-void Progress::update(double fraction) {
+bool Progress::is_time_to_show() {
     constexpr double quiet_s = 0.5;
     constexpr double between_s = 0.1;
-    if (!terminal_ || ++calls_ % calls_per_look_ != 0) {
-        return;
-    }
     const double now = now_s();
-    if (now - start_s_ < quiet_s || now - last_s_ < between_s) {
-        return;
+    if (!terminal_ || now - start_s_ < quiet_s || now - last_s_ < between_s) {
+        return false;
     }
     last_s_ = now;
     shown_ = true;
-    fmt::print(stderr, "\r{}: {:.0f} %\x1b[K", what_, 100.0 * fraction);
-    std::fflush(stderr);
+    return true;
+}
+
+void Progress::update(double fraction) {
+    if (++calls_ % calls_per_look_ == 0 && is_time_to_show()) {
+        fmt::print(stderr, "\r{}: {:.0f} %\x1b[K", what_, 100.0 * fraction);
+        std::fflush(stderr);
+    }
+}
+
+void Progress::show(const std::string& state) {
+    if (is_time_to_show()) {
+        fmt::print(stderr, "\r{}: {}\x1b[K", what_, state);
+        std::fflush(stderr);
+    }
 }
 
 }  // namespace millforce::sim

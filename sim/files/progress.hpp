@@ -16,7 +16,12 @@ class Progress {
     /// 0…1; cheap enough to call per row.
     void update(double fraction);
 
+    /// Work whose share is not known: what it is at.
+    void show(const std::string& state);
+
   private:
+    [[nodiscard]] bool is_time_to_show();
+
     std::string what_;
     bool terminal_;
     bool shown_ = false;

@@ -15,6 +15,7 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_estimate(CLI::App& app, int& exit_code);
+void add_reproduce(CLI::App& app, int& exit_code);
 void add_cut_table(CLI::App& app, int& exit_code);
 void add_ensemble(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);

@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
     add_replay(app, exit_code);
     add_calibrate(app, exit_code);
     add_estimate(app, exit_code);
+    add_reproduce(app, exit_code);
     add_cut_table(app, exit_code);
     add_bench(app, exit_code);
     add_parameters(app, exit_code);

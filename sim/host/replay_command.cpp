@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "control/cut_state.hpp"
 #include "files/atomic_file.hpp"
@@ -15,6 +18,7 @@
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"
+#include "loop/force_sensor_estimates.hpp"
 #include "loop/override_source.hpp"
 #include "loop/recording.hpp"
 
@@ -81,6 +85,59 @@ class RoughnessCells {
     std::size_t outside_ = 0;
 };
 
+/// The columns of the wide-band methods, where the recording has a force sensor. What their parameters lack is told once,
+/// on standard error; their cells are empty then.
+class ForceSensorCells {
+  public:
+    ForceSensorCells(bool is_there, const firmware::Parameters<float>& parameters) : shape_(parameters.tool.depth_shape) {
+        if (is_there) {
+            estimates_.emplace(parameters);
+        }
+    }
+
+    void tell_what_is_missing() const {
+        for (const std::string& line : estimates_ ? estimates_->missing() : std::vector<std::string>()) {
+            fmt::print(stderr, "millforce: note: {}\n", line);
+        }
+    }
+    void add(const RecordingReader& recording) {
+        if (estimates_) {
+            estimates_->add(recording.force_sensor());
+        }
+    }
+    void write_header(std::ostream& out) const {
+        out << (estimates_ ? ",force_drop_immersion,force_drop_immersion_sd,depth_shape_axial_depth_mm,"
+                             "depth_shape_axial_depth_sd_mm,depth_shape_radial_width_mm,depth_shape_radial_width_sd_mm,"
+                             "depth_shape_axial_variation_percent,depth_shape_radial_variation_percent"
+                           : "");
+    }
+    void write(std::ostream& out) const {
+        if (!estimates_) {
+            return;
+        }
+        const WideBandEstimate& made = estimates_->estimate();
+        write_with_sd(out, made.force_drop_immersion);
+        write_with_sd(out, made.axial_depth_mm);
+        write_with_sd(out, made.radial_width_mm);
+        write_variation(out, made.axial_depth_mm, shape_.nominal_axial_depth_mm);
+        write_variation(out, made.radial_width_mm, shape_.nominal_radial_width_mm);
+    }
+    [[nodiscard]] std::string summary() const { return estimates_ ? estimates_->summary() : std::string(); }
+
+  private:
+    using Estimate = estimation::Measurement<float>;
+
+    static void write_with_sd(std::ostream& out, const Estimate& m) {
+        out << ',' << (m.valid ? CsvWriter::cell(m.value) + ',' + CsvWriter::cell(std::sqrt(m.variance)) : ",");
+    }
+    static void write_variation(std::ostream& out, const Estimate& m, float nominal) {
+        out << ',' << (m.valid ? CsvWriter::cell(100.0F * (m.value / nominal - 1.0F)) : "");
+    }
+
+    firmware::DepthShapeParameters<float> shape_;
+    std::optional<ForceSensorEstimates> estimates_;
+};
+
 /// The program's status of each row: the recording's own, with F from the command line where it was given.
 hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOptions& options) {
     hal::ProgramStatus program = recording.program();
@@ -104,20 +161,24 @@ int replay(const ReplayOptions& options) {
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
     RoughnessCells roughness(parameters.tool.roughness);
+    ForceSensorCells force_sensor(recording.has_force_sensor(), parameters);
     out << header;
     roughness.write_header(out);
+    force_sensor.write_header(out);
     out << '\n';
     Progress progress("replaying");
     std::size_t rows = 0;
     double next_row_s = -std::numeric_limits<double>::infinity();
     while (recording.next()) {
         progress.update(recording.fraction_read());
+        force_sensor.add(recording);
         const hal::FeedOverride output = controller.step(recording.sample(), program_of(recording, options));
         if (recording.time_s() >= next_row_s) {
             TracePoint point;
             controller.describe(point);
             write_row(out, recording.time_s(), point, output.ratio);
             roughness.write(out, controller.roughness());
+            force_sensor.write(out);
             out << '\n';
             next_row_s = recording.time_s() + options.interval_s;
             ++rows;
@@ -126,9 +187,14 @@ int replay(const ReplayOptions& options) {
     if (rows == 0) {
         throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
     }
+    force_sensor.tell_what_is_missing();
+    if (recording.has_one_force_only()) {
+        fmt::print(stderr, "millforce: note: {}: fx_N and fy_N are used together, and one of them is missing\n",
+                   options.log);
+    }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n{}", options.output, rows, roughness.summary());
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), force_sensor.summary());
     } else {
         std::cout << held_back.str();
     }
@@ -145,7 +211,10 @@ void add_replay(CLI::App& app, int& exit_code) {
         "AXIS_velocity_mm_s for x, y, z as they are there. A recording of 'simulate --record' holds besides the index\n"
         "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
         "An empty cell of the estimates is \"no estimate\". A tool with a [roughness] table adds its prediction with\n"
-        "the 95 % interval, and whether the cut is in the range of the model's tests.");
+        "the 95 % interval, and whether the cut is in the range of the model's tests.\n"
+        "With a force sensor (fx_N, fy_N on the workpiece, in the machine's axes; currents may be missing) it adds the\n"
+        "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
+        "[force_sensor], [force_drop] and [depth_shape].");
     command->add_option("log", options->log, "Recording")->required()->type_name("LOG.csv");
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");

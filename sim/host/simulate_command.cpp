@@ -10,10 +10,9 @@
 #include <numbers>
 #include <optional>
 
-#include "files/atomic_file.hpp"
-#include "files/input_error.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"
+#include "host/results_folder.hpp"
 #include "loop/bounds.hpp"
 #include "loop/recording.hpp"
 #include "loop/simulation.hpp"
@@ -112,18 +111,6 @@ double safe_override_of(const Scenario& scenario, double hardest) {
     return safe_constant_override(scenario, hardest, settings_with(progress));
 }
 
-/// The folder for the results, made where it is missing. An error is told now, and not after a long run.
-std::filesystem::path results_folder(const std::string& name) {
-    std::filesystem::path folder(name);
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw InputError(fmt::format("{}: cannot be made a folder: {}", name, error.message()));
-    }
-    const AtomicFile can_be_written(folder / "summary.json");
-    return folder;
-}
-
 void print_broken_bound(const RunFigures& figures) {
     fmt::print(stderr,
                "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
@@ -134,7 +121,7 @@ void print_broken_bound(const RunFigures& figures) {
 
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
-    const std::filesystem::path out = results_folder(options.out);
+    const std::filesystem::path out = results_folder(options.out, "summary.json");
     const auto recording = options.record ? std::optional(out / "recording.csv") : std::nullopt;
     const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;

@@ -84,22 +84,41 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_
       counts_per_rev_(encoder_counts_per_rev),
       time_(csv_.require("time_s")),
       angle_(csv_.require("spindle_angle_rad", "averages are taken over the spindle's angle")),
-      spindle_current_(csv_.require("spindle_current_A", "the tangential force comes from it")),
+      spindle_current_(csv_.find("spindle_current_A")),
+      fx_(csv_.find("fx_N")),
+      fy_(csv_.find("fy_N")),
       index_angle_(csv_.find("spindle_index_angle_rad")),
       programmed_feed_(csv_.find("programmed_feed_mm_s")),
       rapid_(csv_.find("rapid")) {
-    bool any = false;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         axes_[k].current = csv_.find(fmt::format("{}_current_A", axis_names[k]));
         axes_[k].velocity = csv_.find(fmt::format("{}_velocity_mm_s", axis_names[k]));
-        any = any || (axes_[k].current && axes_[k].velocity);
     }
-    if (!any) {
-        throw InputError(
-            fmt::format("{}:1: expected the columns x_current_A and x_velocity_mm_s, or those of y or z: "
-                        "the feed per tooth comes from the velocities",
-                        file.string()));
+    require_drives();
+}
+
+/// A force sensor stands in for the currents, but not for the velocities.
+void RecordingReader::require_drives() const {
+    if (!has_force_sensor()) {
+        csv_.require("spindle_current_A", "the tangential force comes from it");
     }
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        const bool gives_feed = has_force_sensor() ? k < 2 : axes_[k].current.has_value();
+        if (gives_feed && axes_[k].velocity) {
+            return;
+        }
+    }
+    const char* expected = has_force_sensor()
+                               ? "expected the column x_velocity_mm_s or y_velocity_mm_s: the feed per tooth and its "
+                                 "direction come from the velocities"
+                               : "expected the columns x_current_A and x_velocity_mm_s, or those of y or z: the feed "
+                                 "per tooth comes from the velocities";
+    throw InputError(fmt::format("{}:1: {}", csv_.file_name(), expected));
+}
+
+ForceSensorSample RecordingReader::force_sensor() const {
+    const auto velocity_mm_s = [&](std::size_t k) { return axes_[k].velocity ? csv_.number(axes_[k].velocity) : 0.0; };
+    return {time_s_, csv_.number(angle_), csv_.number(fx_), csv_.number(fy_), velocity_mm_s(0), velocity_mm_s(1)};
 }
 
 bool RecordingReader::next() {

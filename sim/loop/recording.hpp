@@ -57,10 +57,22 @@ class RecordingWriter {
     std::uint32_t last_count_ = 0;
 };
 
+/// What a force sensor and the axes tell beside the drive sample; NaN: an empty cell.
+struct ForceSensorSample {
+    double time_s = no_estimate;
+    double spindle_angle_rad = no_estimate;
+    double fx_N = no_estimate;  ///< on the workpiece, in the machine's axes
+    double fy_N = no_estimate;
+    double x_velocity_mm_s = 0.0;  ///< of the tool relative to the workpiece; an axis that is not recorded stands
+    double y_velocity_mm_s = 0.0;
+};
+
 /// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as
 /// a column or in a row, is "not present" in the sample. Required: time_s, spindle_angle_rad, spindle_current_A, and
 /// one axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError:
 /// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
+///
+/// A recording with a force sensor (fx_N and fy_N) needs no currents, and of the axes one velocity.
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
@@ -69,6 +81,9 @@ class RecordingReader {
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
     [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
     [[nodiscard]] double time_s() const { return time_s_; }
+    [[nodiscard]] bool has_force_sensor() const { return fx_ && fy_; }
+    [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
+    [[nodiscard]] ForceSensorSample force_sensor() const;
     [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
 
   private:
@@ -76,6 +91,7 @@ class RecordingReader {
         std::optional<CsvColumn> current;
         std::optional<CsvColumn> velocity;
     };
+    void require_drives() const;
     void read_spindle();
     void read_axes();
     void read_program();
@@ -85,8 +101,10 @@ class RecordingReader {
     std::uint32_t counts_per_rev_;
     CsvColumn time_;
     CsvColumn angle_;
-    CsvColumn spindle_current_;
+    std::optional<CsvColumn> spindle_current_;
     std::array<Axis, hal::axis_count> axes_;
+    std::optional<CsvColumn> fx_;
+    std::optional<CsvColumn> fy_;
     std::optional<CsvColumn> index_angle_;
     std::optional<CsvColumn> programmed_feed_;
     std::optional<CsvColumn> rapid_;

@@ -1,5 +1,5 @@
-# Embeds what report.html is made of into the library sim_report, so that the program needs no file at run time:
-# the template, style and scripts of this folder, and the chart library dygraphs.
+# Embeds what the pages are made of into their libraries, so that the program needs no file at run time: templates,
+# styles and scripts, and the chart library dygraphs.
 
 find_file(DYGRAPHS_SCRIPT dygraph.min.js PATHS /usr/share/javascript/dygraphs NO_DEFAULT_PATH)
 find_file(DYGRAPHS_STYLE dygraph.min.css PATHS /usr/share/javascript/dygraphs NO_DEFAULT_PATH)
@@ -9,8 +9,25 @@ if(NOT DYGRAPHS_SCRIPT OR NOT DYGRAPHS_STYLE)
         "libjs-dygraphs (Debian, Ubuntu), or set DYGRAPHS_SCRIPT and DYGRAPHS_STYLE to the two files.")
 endif()
 
+# millforce_embed_assets(<target> <header> <namespace> <name> <file> …): functions of these names give the files' text
+function(millforce_embed_assets target header namespace)
+    set(assets ${ARGN})
+    set(files ${ARGN})
+    list(FILTER files INCLUDE REGEX "[.](html|css|js)$")
+    set(script ${PROJECT_SOURCE_DIR}/sim/report/embed_assets.cmake)
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/assets/${target}.cpp)
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} "-DASSETS=${assets}" -DHEADER=${header} -DNAMESPACE=${namespace} -DOUTPUT=${output}
+                -P ${script}
+        DEPENDS ${files} ${script}
+        COMMENT "Embedding the templates, styles and scripts of ${target}"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${output})
+endfunction()
+
 set(REPORT_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/report)
-set(REPORT_ASSETS
+millforce_embed_assets(sim_report report/report_assets.hpp report_assets
     report_template ${REPORT_FOLDER}/report_template.html
     report_style ${REPORT_FOLDER}/report.css
     charts_script ${REPORT_FOLDER}/charts.js
@@ -18,15 +35,9 @@ set(REPORT_ASSETS
     report_script ${REPORT_FOLDER}/report.js
     dygraphs_script ${DYGRAPHS_SCRIPT}
     dygraphs_style ${DYGRAPHS_STYLE})
-set(REPORT_ASSET_FILES ${REPORT_ASSETS})
-list(FILTER REPORT_ASSET_FILES INCLUDE REGEX "[.](html|css|js)$")
 
-set(REPORT_ASSETS_SOURCE ${CMAKE_CURRENT_BINARY_DIR}/report/report_assets.cpp)
-add_custom_command(
-    OUTPUT ${REPORT_ASSETS_SOURCE}
-    COMMAND ${CMAKE_COMMAND} "-DASSETS=${REPORT_ASSETS}" -DOUTPUT=${REPORT_ASSETS_SOURCE}
-            -P ${REPORT_FOLDER}/embed_assets.cmake
-    DEPENDS ${REPORT_ASSET_FILES} ${REPORT_FOLDER}/embed_assets.cmake
-    COMMENT "Embedding the report's template, style and scripts"
-    VERBATIM)
-target_sources(sim_report PRIVATE ${REPORT_ASSETS_SOURCE})
+set(REPRODUCE_REPORT_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/reproduce_report)
+millforce_embed_assets(sim_reproduce_report reproduce_report/reproduction_assets.hpp reproduction_assets
+    page_template ${REPRODUCE_REPORT_FOLDER}/reproduction_template.html
+    page_style ${REPRODUCE_REPORT_FOLDER}/reproduction.css
+    page_script ${REPRODUCE_REPORT_FOLDER}/reproduction.js)

@@ -256,5 +256,5 @@ const charts = (() => {
     }
   }
 
-  return { LinkedCharts, drawBand, drawStates, element, colour, forgetColours };
+  return { LinkedCharts, drawBand, drawStates, element, colour, forgetColours, interactionModel };
 })();

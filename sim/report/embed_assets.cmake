@@ -1,7 +1,7 @@
-# Writes OUTPUT, a C++ file that defines the functions of report_assets.hpp, from ASSETS: name;file;name;file…
+# Writes OUTPUT, a C++ file that defines the functions of HEADER in NAMESPACE, from ASSETS: name;file;name;file…
 # The bytes go through hexadecimal, so that no character of a file can be mistaken for C++ or CMake.
 
-set(text "#include \"report/report_assets.hpp\"\n\nnamespace millforce::sim::report_assets {\n")
+set(text "#include \"${HEADER}\"\n\nnamespace millforce::sim::${NAMESPACE} {\n")
 while(ASSETS)
     list(POP_FRONT ASSETS name file)
     file(READ "${file}" hex HEX)
@@ -14,5 +14,5 @@ while(ASSETS)
         "std::string_view ${name}() {\n"
         "    return {reinterpret_cast<const char*>(${name}_bytes), ${byte_count}};\n}\n")
 endwhile()
-string(APPEND text "\n}  // namespace millforce::sim::report_assets\n")
+string(APPEND text "\n}  // namespace millforce::sim::${NAMESPACE}\n")
 file(WRITE "${OUTPUT}" "${text}")

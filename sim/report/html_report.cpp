@@ -4,47 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <optional>
-#include <utility>
 
+#include "report/page_template.hpp"
 #include "report/report_assets.hpp"
 #include "report/report_data.hpp"
 #include "report/summary.hpp"
-#include "report/utf8.hpp"
 
 namespace millforce::sim {
 
 namespace {
-
-using Filling = std::pair<std::string_view, std::string_view>;
-
-/// Replaces {{name}} by the filling of that name in one pass, so that a filling may contain anything.
-std::string filled(std::string_view text, std::initializer_list<Filling> fillings) {
-    std::string out;
-    while (true) {
-        const std::size_t open = text.find("{{");
-        const std::size_t close = text.find("}}", open);
-        out += text.substr(0, open);
-        if (open == std::string_view::npos || close == std::string_view::npos) {
-            return out;
-        }
-        const std::string_view name = text.substr(open + 2, close - open - 2);
-        for (const auto& [key, filling] : fillings) {
-            if (key == name) {
-                out += filling;
-            }
-        }
-        text.remove_prefix(close + 2);
-    }
-}
-
-/// A library's file without its pointer to a source map: nothing here is loaded from elsewhere.
-std::string_view without_source_map(std::string_view text) {
-    const std::size_t mark = text.rfind("# sourceMappingURL=");
-    return mark == std::string_view::npos ? text : text.substr(0, mark - 2);
-}
 
 /// Times that are compared are written alike: in minutes where the longest of them is.
 std::string readable_time(double time_s, double longest_s) {
@@ -160,31 +130,6 @@ std::string figures_table_html(std::span<const RunResult> runs) {
 }
 
 }  // namespace
-
-std::string html_escaped(std::string_view text) {
-    std::string out;
-    while (!text.empty()) {
-        const std::size_t length = utf8_length(text);
-        const std::string_view sequence = text.substr(0, length);
-        if (length == 0) {
-            out += "\uFFFD";
-        } else if (sequence == "&") {
-            out += "&amp;";
-        } else if (sequence == "<") {
-            out += "&lt;";
-        } else if (sequence == ">") {
-            out += "&gt;";
-        } else if (sequence == "\"") {
-            out += "&quot;";
-        } else if (sequence == "'") {
-            out += "&#39;";
-        } else {
-            out += sequence;
-        }
-        text.remove_prefix(length == 0 ? 1 : length);
-    }
-    return out;
-}
 
 std::string report_html(const ScenarioInfo& info, std::span<const RunResult> runs) {
     const std::string title = html_escaped(info.title.empty() ? info.name : info.title);

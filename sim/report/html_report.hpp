@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "report/run_result.hpp"
 
@@ -12,8 +11,5 @@ namespace millforce::sim {
 /// are drawn from the embedded data. The page asks the network for nothing, and its content security policy forbids it
 /// to. The first run is the controlled one. `runs` must not be empty.
 std::string report_html(const ScenarioInfo& info, std::span<const RunResult> runs);
-
-/// Text as HTML: & < > " ' as entities, bytes that are not UTF-8 as U+FFFD.
-std::string html_escaped(std::string_view text);
 
 }  // namespace millforce::sim

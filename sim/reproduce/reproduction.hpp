@@ -49,6 +49,7 @@ struct Plot {
 struct Reproduction {
     std::string name;   ///< as typed: "hwang"
     std::string title;  ///< what the system is, with the paper's authors
+    std::string summary{};  ///< one paragraph: what the system does, readable without the paper
     std::vector<Figure> figures;
     std::vector<Plot> plots;
     std::vector<std::string> deviations;  ///< where this project differs from print, and why

@@ -16,6 +16,7 @@ const std::vector<std::vector<std::string>> commands{{},
                                                      {"calibrate", "spindle"},
                                                      {"calibrate", "cutting"},
                                                      {"estimate"},
+                                                     {"reproduce"},
                                                      {"cut-table"},
                                                      {"bench"},
                                                      {"parameters"}};

@@ -1,3 +1,4 @@
+#include "csv_rows.hpp"
 #include "inputs.hpp"
 
 #include <cmath>
@@ -12,34 +13,11 @@ using namespace millforce::test;
 
 namespace {
 
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> cells(const std::string& line) {
-    std::vector<std::string> result{""};
-    for (const char letter : line) {
-        if (letter == ',') {
-            result.emplace_back();
-        } else {
-            result.back() += letter;
-        }
-    }
-    return result;
-}
-
 /// Rows by their time to the microsecond.
-std::map<long, Row> rows_of(const std::string& csv) {
-    std::istringstream text(csv);
-    std::string line;
-    std::getline(text, line);
-    const std::vector<std::string> names = cells(line);
-    std::map<long, Row> rows;
-    while (std::getline(text, line)) {
-        const std::vector<std::string> values = cells(line);
-        Row row;
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            row[names[k]] = values[k];
-        }
-        rows[std::lround(std::atof(row["time_s"].c_str()) * 1e6)] = row;
+std::map<long, CsvRow> rows_of(const std::string& csv) {
+    std::map<long, CsvRow> rows;
+    for (const CsvRow& row : csv_rows(csv)) {
+        rows[std::lround(std::atof(row.at("time_s").c_str()) * 1e6)] = row;
     }
     return rows;
 }

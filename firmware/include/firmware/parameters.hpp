@@ -2,6 +2,7 @@
 
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
+#include "estimation/force_drop_law.hpp"
 #include "estimation/roughness.hpp"
 
 #include <array>
@@ -33,6 +34,31 @@ struct MachineParameters {
     CncParameters<Scalar> cnc{};
 };
 
+/// What stands between the force and the samples of a force sensor.
+template <typename Scalar>
+struct ForceSensorParameters {
+    Scalar low_pass_hz{0};
+    Scalar zero_drift_sd_N{0};
+};
+
+/// Radial immersion from force drops. The law's `valid` is left to who uses it: no largest immersion, no law.
+template <typename Scalar>
+struct ForceDropParameters {
+    estimation::ForceDropLaw<Scalar> law{};
+    Scalar revolutions{4};
+};
+
+/// Depths of cut from the shape of the force.
+template <typename Scalar>
+struct DepthShapeParameters {
+    Scalar nominal_axial_depth_mm{0};
+    Scalar nominal_radial_width_mm{0};
+    Scalar feed_per_tooth_mm{0};
+    Scalar revolutions{20};
+    Scalar tip_angle_deg{0};
+    Scalar tip_angle_sd_deg{0};
+};
+
 template <typename Scalar>
 struct ToolParameters {
     Scalar teeth{4};
@@ -50,6 +76,9 @@ struct ToolParameters {
     control::FeedControllerParameters<Scalar> control{};
     Scalar monitor_only{0};
     estimation::RoughnessModel<Scalar> roughness{};
+    ForceSensorParameters<Scalar> force_sensor{};
+    ForceDropParameters<Scalar> force_drop{};
+    DepthShapeParameters<Scalar> depth_shape{};
 };
 
 template <typename Scalar>

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "reproduce/reproduction.hpp"
+
+namespace millforce::sim {
+
+/// reproduce.json: per paper its name, title, whether all bounds hold, every figure and every deviation from print.
+/// A value that there is none of is null.
+[[nodiscard]] std::string reproduction_json(std::span<const Reproduction> reproductions);
+
+}  // namespace millforce::sim

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "reproduce/reproduction.hpp"
+
+namespace millforce::sim {
+
+/// reproduce.html: one self-contained page with a section per paper: what its system does, the figures, the plots, and
+/// where this project differs from print. Everything but the plots' drawing is plain HTML and needs no script. The page
+/// asks the network for nothing, and its content security policy forbids it to.
+[[nodiscard]] std::string reproduction_page(std::span<const Reproduction> reproductions);
+
+}  // namespace millforce::sim

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace millforce::test {
+
+using CsvRow = std::map<std::string, std::string>;
+
+inline std::vector<std::string> csv_cells(const std::string& line) {
+    std::vector<std::string> result{""};
+    for (const char letter : line) {
+        if (letter == ',') {
+            result.emplace_back();
+        } else {
+            result.back() += letter;
+        }
+    }
+    return result;
+}
+
+inline std::vector<CsvRow> csv_rows(const std::string& csv) {
+    std::istringstream text(csv);
+    std::string line;
+    std::getline(text, line);
+    const std::vector<std::string> names = csv_cells(line);
+    std::vector<CsvRow> rows;
+    while (std::getline(text, line)) {
+        const std::vector<std::string> values = csv_cells(line);
+        CsvRow row;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            row[names[k]] = values.at(k);
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+}  // namespace millforce::test

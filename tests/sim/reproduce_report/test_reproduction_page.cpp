@@ -1,0 +1,79 @@
+#include "made_up_papers.hpp"
+
+#include "reproduce_report/reproduction_json.hpp"
+#include "reproduce_report/reproduction_page.hpp"
+#include "sim/report/json_check.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce::sim;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// The JSON that the page's script reads.
+std::string page_data(const std::string& page) {
+    const std::string open = "<script id=\"plots-data\" type=\"application/json\">";
+    const std::size_t start = page.find(open) + open.size();
+    return page.substr(start, page.find("</script>", start) - start);
+}
+
+}  // namespace
+
+TEST_GROUP(ReproductionPage) {
+    std::vector<Reproduction> papers{paper_with_everything(), paper_with_a_long_table(false)};
+    std::string page = reproduction_page(papers);
+};
+
+TEST(ReproductionPage, shows_every_figure_plot_and_deviation) {
+    for (const char* part : {"A made-up paper", "What it does.", "Eq. 1: difference", "Eq. 2: no published value",
+                             "Force over angle", "What to see.", "Printed with a slip."}) {
+        CHECK_TEXT(holds(page, part), part);
+    }
+    for (int row = 1; row <= 20; ++row) {
+        CHECK(holds(page, "row " + std::to_string(row) + ": error"));
+    }
+    CHECK(holds(page, "<div id=\"everything-1\">"));
+    CHECK(holds(page_data(page), "\"everything-1\""));
+    CHECK(holds(page_data(page), "\"band_low\""));
+}
+
+TEST(ReproductionPage, folds_a_long_table_unless_a_bound_in_it_is_broken) {
+    CHECK(holds(page, "<details><summary><strong>Table 1</strong>: 20 figures, 20 within their bound"));
+    const std::vector<Reproduction> broken{paper_with_a_long_table(true)};
+    CHECK(holds(reproduction_page(broken), "<details open><summary><strong>Table 1</strong>: 20 figures, 19 within"));
+}
+
+TEST(ReproductionPage, escapes_what_papers_are_called) {
+    CHECK(holds(page, "force &lt;of&gt; &amp; on a tool"));
+    CHECK(!holds(page, "<of>"));
+}
+
+TEST(ReproductionPage, loads_nothing_from_elsewhere) {
+    CHECK(holds(page, "default-src 'none'"));
+    CHECK(!holds(page, "src=\"http"));
+}
+
+TEST(ReproductionPage, its_data_and_the_json_file_are_json_without_nan) {
+    for (const std::string& json : {page_data(page), reproduction_json(papers)}) {
+        CHECK(JsonCheck::valid(json));
+        CHECK(!holds(json, "nan"));
+        CHECK(!holds(json, "inf"));
+        CHECK(holds(json, "null"));
+    }
+}
+
+TEST(ReproductionPage, the_json_file_holds_every_figure_and_says_whether_bounds_hold) {
+    const std::string json = reproduction_json(papers);
+    for (const Reproduction& paper : papers) {
+        for (const Figure& figure : paper.figures) {
+            CHECK_TEXT(holds(json, figure.name.substr(0, figure.name.find('<'))), figure.name.c_str());
+        }
+    }
+    CHECK(holds(json, "\"holds\": true"));
+    const std::vector<Reproduction> broken{paper_with_a_long_table(true)};
+    CHECK(holds(reproduction_json(broken).substr(0, 30), "\"holds\": false"));
+}
