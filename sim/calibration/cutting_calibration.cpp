@@ -1,8 +1,10 @@
 #include "calibration/cutting_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/drive_forces.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
 
 #include <fmt/format.h>
 
@@ -60,6 +62,30 @@ std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files) {
     return cuts;
 }
 
+struct CutsAndDoubt {
+    std::vector<CutRow> cuts;
+    estimation::DriveGainDoubt<double> doubt;
+};
+
+/// Forces from currents. The gains of both drives come from standard cuts with one database: the smaller of their two
+/// doubts is taken for shared.
+CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
+    if (options.machine.empty()) {
+        throw InputError(fmt::format("{}: recordings need --machine M.toml: its gains turn currents into forces",
+                                     options.cuts.string()));
+    }
+    const MachineParameters machine = read_machine_parameters(options.machine.string());
+    const auto stretches = read_recorded_cuts(options.data, options.cuts);
+    CutsAndDoubt result{forces_of_cuts(stretches, machine), {}};
+    if (result.cuts.empty()) {
+        throw InputError(fmt::format("{}: 'k_s_N_per_mm2' cannot be determined: the table has no cut; expected cuts at two "
+                                     "feeds and several widths",
+                                     options.cuts.string()));
+    }
+    result.doubt = gain_doubt(machine, stretches.front().axis);
+    return result;
+}
+
 /// A parameter that the cuts cannot determine, and the cut that is missing.
 std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
     const auto lacks = [&](int j) { return !fit.determined(j); };
@@ -85,8 +111,8 @@ std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
 }
 
 CuttingFit<double> fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
-                                 CutSide side) {
-    auto fit = fit_cuts(cuts, options.form, side);
+                                 CutSide side, const estimation::DriveGainDoubt<double>& doubt) {
+    auto fit = fit_cuts(cuts, options.form(), side, doubt);
     const std::string lack = what_the_cuts_lack(fit);
     if (!lack.empty()) {
         throw InputError(fmt::format("{}: {}", options.data.front().string(), lack));
@@ -105,7 +131,7 @@ CutSide told_or_inferred_side(const CuttingCalibrationOptions& options, const st
     if (options.side != CutSide::unknown) {
         return options.side;
     }
-    const auto down = fit_or_refuse(options, cuts, CutSide::down);
+    const auto down = fit_or_refuse(options, cuts, CutSide::down, {});
     const double r_1 = down.parameters(estimation::cutting_r_1);
     const double error = down.standard_error(estimation::cutting_r_1);
     const CutSide side = r_1 >= 0.0 ? CutSide::down : CutSide::up;
@@ -204,7 +230,7 @@ void write_fit(const CuttingCalibrationOptions& options, const CuttingFit<double
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment(fmt::format("Coefficients of the cutting force, {} law: K_s = k_s t^p_s, r_1 = k_1 t^p_1, t in mm.",
-                             form_name(options.form)));
+                             form_name(options.form())));
     toml.comment("Fitted from " + list_of_files(options.data));
     toml.table("cutting");
     for (const FittedValue& fitted : fitted_values(fit)) {
@@ -233,11 +259,11 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
     if (options.data.empty()) {
         throw InputError("calibrate cutting: no data file; expected at least one CSV file of conditions");
     }
-    const std::vector<CutRow> cuts = read_cuts(options.data);
+    const auto [cuts, doubt] = options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data), {}};
     const CutSide side = told_or_inferred_side(options, cuts, out);
-    const auto fit = fit_or_refuse(options, cuts, side);
-    print_fit(out, fit, options.form);
-    const bool holds = check_held_out(out, cuts, options.form, side);
+    const auto fit = fit_or_refuse(options, cuts, side, doubt);
+    print_fit(out, fit, options.form());
+    const bool holds = check_held_out(out, cuts, options.form(), side);
     write_fit(options, fit, side);
     return holds ? exit_done : exit_bound_broken;
 }

@@ -77,15 +77,16 @@ std::vector<CutRow> read_conditions(const std::filesystem::path& file) {
 }
 
 estimation::CuttingFit<double> fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                        estimation::CutSide side) {
+                                        estimation::CutSide side, const estimation::DriveGainDoubt<double>& doubt) {
     std::vector<estimation::CuttingMeasurement<double>> measurements;
     measurements.reserve(cuts.size());
     for (const CutRow& row : cuts) {
         measurements.push_back(row.measurement(side));
     }
+    std::vector<estimation::CuttingMeasurement<double>> scratch(measurements.size());
     estimation::CuttingFitOptions<double> options;
     options.form = form;
-    return estimation::fit_cutting_law<double>(measurements, options);
+    return estimation::fit_cutting_law_from_currents<double>(measurements, scratch, doubt, options);
 }
 
 HeldOutErrors held_out_errors(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
