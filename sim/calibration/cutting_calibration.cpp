@@ -112,7 +112,8 @@ std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
 
 CuttingFit<double> fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
                                  CutSide side, const estimation::DriveGainDoubt<double>& doubt) {
-    auto fit = fit_cuts(cuts, options.form(), side, doubt);
+    auto fit = options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt)
+                                       : fit_cuts(cuts, options.form(), side);
     const std::string lack = what_the_cuts_lack(fit);
     if (!lack.empty()) {
         throw InputError(fmt::format("{}: {}", options.data.front().string(), lack));

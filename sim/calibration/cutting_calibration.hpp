@@ -65,9 +65,13 @@ HeldOutErrors leave_one_width_out(const std::vector<CutRow>& cuts, estimation::C
 /// All rows of a conditions file.
 std::vector<CutRow> read_conditions(const std::filesystem::path& file);
 
-/// The fit of all cuts on one side; with the doubt of the drives' gains where the forces come from their currents.
+/// The fit of all cuts on one side.
 estimation::CuttingFit<double> fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                        estimation::CutSide side,
-                                        const estimation::DriveGainDoubt<double>& doubt = {});
+                                        estimation::CutSide side);
+
+/// The same for forces from currents: their errors are absolute, and the drives' gains are in doubt.
+estimation::CuttingFit<double> fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
+                                                      estimation::CutSide side,
+                                                      const estimation::DriveGainDoubt<double>& doubt);
 
 }  // namespace millforce::sim
