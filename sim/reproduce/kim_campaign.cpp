@@ -19,7 +19,7 @@ constexpr double plant_step_s = 0.25e-3;
 constexpr int steps_per_sample = 4;
 constexpr double settling_mm = 2.0;
 constexpr double screw_pitch_mm = 10.0;
-constexpr double least_measured_s = 4.0;
+constexpr double least_measured_s = 6.0;
 constexpr double spindle_rad_s = KimStandardCut::spindle_rpm * full_turn_rad / 60.0;
 
 struct PlantForce {

@@ -44,7 +44,7 @@ struct KimMachine {
 };
 
 /// All cuts in one recording, each after running in air at its own feed: 2 mm for the drives to settle, then as many
-/// turns of the screw as take 4 s. Air once more at the end.
+/// turns of the screw as take 6 s. Air once more at the end.
 std::vector<RecordedStretch> simulate_cuts(const KimMachine& machine, const AverageChipLaw& law,
                                            const std::vector<KimCut>& cuts, std::uint64_t noise);
 
