@@ -88,9 +88,9 @@ CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
 }
 
 /// A parameter that the cuts cannot determine, and the cut that is missing.
-std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
+std::string what_the_cuts_lack(const CuttingFit<double>& fit, CuttingLawForm form) {
     const auto lacks = [&](int j) { return !fit.determined(j); };
-    if (fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm && lacks(estimation::cutting_K_te)) {
+    if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm && lacks(estimation::cutting_K_te)) {
         return fmt::format(
             "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
             "tooth; expected cuts at a second feed, larger or smaller by half",
@@ -115,7 +115,7 @@ CuttingFit<double> fit_or_refuse(const CuttingCalibrationOptions& options, const
                                  CutSide side, const estimation::DriveGainDoubt<double>& doubt) {
     auto fit = options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt)
                                        : fit_cuts(cuts, options.form(), side);
-    const std::string lack = what_the_cuts_lack(fit);
+    const std::string lack = what_the_cuts_lack(fit, options.form());
     if (!lack.empty()) {
         throw InputError(fmt::format("{}: {}", options.data.front().string(), lack));
     }
