@@ -1,11 +1,14 @@
 #include "calibration/cutting_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/drive_forces.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -60,10 +63,34 @@ std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files) {
     return cuts;
 }
 
+struct CutsAndDoubt {
+    std::vector<CutRow> cuts;
+    estimation::DriveGainDoubt<double> doubt;
+};
+
+/// Forces from currents. The gains of both drives come from standard cuts with one database: the smaller of their two
+/// doubts is taken for shared.
+CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
+    if (options.machine.empty()) {
+        throw InputError(fmt::format("{}: recordings need --machine M.toml: its gains turn currents into forces",
+                                     options.cuts.string()));
+    }
+    const MachineParameters machine = read_machine_parameters(options.machine.string());
+    const auto stretches = read_recorded_cuts(options.data, options.cuts);
+    CutsAndDoubt result{forces_of_cuts(stretches, machine), {}};
+    if (result.cuts.empty()) {
+        throw InputError(fmt::format("{}: 'k_s_N_per_mm2' cannot be determined: the table has no cut; expected cuts at two "
+                                     "feeds and several widths",
+                                     options.cuts.string()));
+    }
+    result.doubt = gain_doubt(machine, stretches.front().axis);
+    return result;
+}
+
 /// A parameter that the cuts cannot determine, and the cut that is missing.
-std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
+std::string what_the_cuts_lack(const CuttingFit<double>& fit, CuttingLawForm form) {
     const auto lacks = [&](int j) { return !fit.determined(j); };
-    if (fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm && lacks(estimation::cutting_K_te)) {
+    if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm && lacks(estimation::cutting_K_te)) {
         return fmt::format(
             "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
             "tooth; expected cuts at a second feed, larger or smaller by half",
@@ -85,9 +112,10 @@ std::string what_the_cuts_lack(const CuttingFit<double>& fit) {
 }
 
 CuttingFit<double> fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
-                                 CutSide side) {
-    auto fit = fit_cuts(cuts, options.form, side);
-    const std::string lack = what_the_cuts_lack(fit);
+                                 CutSide side, const estimation::DriveGainDoubt<double>& doubt) {
+    auto fit = options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt)
+                                       : fit_cuts(cuts, options.form(), side);
+    const std::string lack = what_the_cuts_lack(fit, options.form());
     if (!lack.empty()) {
         throw InputError(fmt::format("{}: {}", options.data.front().string(), lack));
     }
@@ -105,7 +133,7 @@ CutSide told_or_inferred_side(const CuttingCalibrationOptions& options, const st
     if (options.side != CutSide::unknown) {
         return options.side;
     }
-    const auto down = fit_or_refuse(options, cuts, CutSide::down);
+    const auto down = fit_or_refuse(options, cuts, CutSide::down, {});
     const double r_1 = down.parameters(estimation::cutting_r_1);
     const double error = down.standard_error(estimation::cutting_r_1);
     const CutSide side = r_1 >= 0.0 ? CutSide::down : CutSide::up;
@@ -180,14 +208,18 @@ bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingL
         }
     };
     one("each width in turn", [&](CuttingLawForm form) { return leave_one_width_out(cuts, form, side); });
+    // Feeds that were measured differ in their last digits.
+    const auto same_feed = [](double a, double b) { return std::abs(a - b) < 0.01 * b; };
     std::set<double> feeds;
     for (const CutRow& row : cuts) {
-        feeds.insert(row.feed_mm_s);
+        if (std::none_of(feeds.begin(), feeds.end(), [&](double feed) { return same_feed(row.feed_mm_s, feed); })) {
+            feeds.insert(row.feed_mm_s);
+        }
     }
     constexpr std::size_t most_feeds = 20;
     for (const double feed : feeds.size() <= most_feeds ? feeds : std::set<double>{}) {
         one(fmt::format("feed {:.4g} mm/s", feed), [&](CuttingLawForm form) {
-            return held_out_errors(cuts, form, side, [feed](const CutRow& row) { return row.feed_mm_s == feed; });
+            return held_out_errors(cuts, form, side, [&](const CutRow& row) { return same_feed(row.feed_mm_s, feed); });
         });
     }
     if (values == 0.0) {
@@ -204,7 +236,7 @@ void write_fit(const CuttingCalibrationOptions& options, const CuttingFit<double
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment(fmt::format("Coefficients of the cutting force, {} law: K_s = k_s t^p_s, r_1 = k_1 t^p_1, t in mm.",
-                             form_name(options.form)));
+                             form_name(options.form())));
     toml.comment("Fitted from " + list_of_files(options.data));
     toml.table("cutting");
     for (const FittedValue& fitted : fitted_values(fit)) {
@@ -233,11 +265,11 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
     if (options.data.empty()) {
         throw InputError("calibrate cutting: no data file; expected at least one CSV file of conditions");
     }
-    const std::vector<CutRow> cuts = read_cuts(options.data);
+    const auto [cuts, doubt] = options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data), {}};
     const CutSide side = told_or_inferred_side(options, cuts, out);
-    const auto fit = fit_or_refuse(options, cuts, side);
-    print_fit(out, fit, options.form);
-    const bool holds = check_held_out(out, cuts, options.form, side);
+    const auto fit = fit_or_refuse(options, cuts, side, doubt);
+    print_fit(out, fit, options.form());
+    const bool holds = check_held_out(out, cuts, options.form(), side);
     write_fit(options, fit, side);
     return holds ? exit_done : exit_bound_broken;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "calibration/conditions.hpp"
+#include "estimation/current_cutting_fit.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -14,13 +16,25 @@ namespace millforce::sim {
 struct CuttingCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;
-    estimation::CuttingLawForm form = estimation::CuttingLawForm::combined;
+    /// Not told: combined, and power for recordings of drives.
+    std::optional<estimation::CuttingLawForm> asked_form;
+    std::filesystem::path cuts;     ///< table of cuts: `data` are then recordings of drives; see recorded_cuts.hpp
+    std::filesystem::path machine;  ///< calibrated drives, for recordings
     /// unknown: the side on which the edge presses the workpiece (r_1 > 0).
     estimation::CutSide side = estimation::CutSide::unknown;
+
+    [[nodiscard]] bool from_currents() const { return !cuts.empty(); }
+    [[nodiscard]] estimation::CuttingLawForm form() const {
+        return asked_form.value_or(from_currents() ? estimation::CuttingLawForm::power
+                                                   : estimation::CuttingLawForm::combined);
+    }
 };
 
 /// Coefficients of a material and tool from cuts with known conditions and measured torque and force; the fit is
 /// estimation::fit_cutting_law. Data: conditions (CSV) with spindle_torque_Nm, normal_force_N, or feed_force_N.
+///
+/// Or recordings of drive currents, with a table that tells the cuts in them and a calibrated machine: torque and feed
+/// force then come from the currents (forces_of_cuts), and the standard errors hold the gains' doubt as well.
 ///
 /// Prints coefficients, scatter, odd cuts, and how well forces of cuts that were held out are foretold: each width in
 /// turn and each feed in turn, with the two classical laws beside the chosen one. The stated bound is that nine of ten
@@ -54,5 +68,10 @@ std::vector<CutRow> read_conditions(const std::filesystem::path& file);
 /// The fit of all cuts on one side.
 estimation::CuttingFit<double> fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
                                         estimation::CutSide side);
+
+/// The same for forces from currents: their errors are absolute, and the drives' gains are in doubt.
+estimation::CuttingFit<double> fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
+                                                      estimation::CutSide side,
+                                                      const estimation::DriveGainDoubt<double>& doubt);
 
 }  // namespace millforce::sim

@@ -137,6 +137,12 @@ firmware::Parameters<float> read_parameters(const std::string& machine_path, con
     return parameters;
 }
 
+firmware::MachineParameters<float> read_machine_parameters(const std::string& machine_path) {
+    firmware::Parameters<float> parameters;
+    read_file(ParameterFile::machine, machine_path, parameters);
+    return parameters.machine;
+}
+
 CuttingTable read_cutting_table(const std::string& tool_path) {
     TomlFile toml = TomlFile::open(tool_path);
     TomlFile::Table root = toml.root();

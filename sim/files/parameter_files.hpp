@@ -13,6 +13,9 @@ namespace millforce::sim {
 /// Throws InputError.
 firmware::Parameters<float> read_parameters(const std::string& machine_path, const std::string& tool_path);
 
+/// Reads machine.toml alone, by the same rules.
+firmware::MachineParameters<float> read_machine_parameters(const std::string& machine_path);
+
 /// The [cutting] table of a tool.toml, in full precision.
 struct CuttingTable {
     estimation::CuttingLaw<double> law;

@@ -13,6 +13,8 @@
 #include "calibration/friction_calibration.hpp"
 #include "calibration/roughness_calibration.hpp"
 #include "calibration/spindle_calibration.hpp"
+#include "calibration/standard_cut_calibration.hpp"
+#include "calibration/warm_up_calibration.hpp"
 #include "files/parameter_files.hpp"
 #include "host/commands.hpp"
 
@@ -82,18 +84,58 @@ void add_spindle(CLI::App* calibrate, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = calibrate_spindle(*options, std::cout); });
 }
 
+void add_standard_cut(CLI::App* calibrate, int& exit_code) {
+    auto options = std::make_shared<StandardCutOptions>();
+    CLI::App* command = calibrate->add_subcommand("standard-cut", "Spindle and feed drives: gains from standard cuts");
+    command->footer(
+        "Data: recordings of cuts with a tool and workpiece whose coefficients are in the database, with running in air\n"
+        "between them. CUTS.csv tells which stretch is which cut: start_s, end_s, tool_diameter_mm, flutes,\n"
+        "axial_depth_mm and radial_width_mm (0: in air), and recording where there are several. The tables go into\n"
+        "machine.toml as they are.");
+    add_data_and_output(command, *options);
+    command->add_option("--cuts", options->cuts, "Which stretch is which cut")->required()->type_name("CUTS.csv");
+    command->add_option("--machine", options->machine, "With the friction of the air cuts")
+        ->required()
+        ->type_name("M.toml");
+    command->add_option("--database", options->database, "Coefficients of the standard tool and workpiece")
+        ->required()
+        ->type_name("LIBRARY.toml");
+    command->add_option("--entry", options->entry, "Name in the database; default: its only one")->type_name("NAME");
+    command->add_option("--side", options->side, "down or up")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, CutSide>{{"down", CutSide::down}, {"up", CutSide::up}}, CLI::ignore_case));
+    command->callback([options, &exit_code] { exit_code = calibrate_standard_cut(*options, std::cout); });
+}
+
+void add_warm_up(CLI::App* calibrate, int& exit_code) {
+    auto options = std::make_shared<WarmUpCalibrationOptions>();
+    CLI::App* command = calibrate->add_subcommand("warm-up", "Spindle: idle torque of the cold bearing, time constant");
+    command->footer(
+        "Data: a recording of the spindle idling at one speed from cold for ten minutes or more (time_s,\n"
+        "spindle_angle_rad, spindle_current_A). The table goes into machine.toml as it is.");
+    command->add_option("data", options->data, "Recording of the idling spindle")->required()->type_name("IDLE.csv");
+    command->add_option("--machine", options->machine, "With the spindle's torque per ampere")
+        ->required()
+        ->type_name("M.toml");
+    command->add_option("-o,--output", options->output, "The fitted parameters")->required()->type_name("FILE.toml");
+    command->callback([options, &exit_code] { exit_code = calibrate_warm_up(*options, std::cout); });
+}
+
 void add_cutting(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<CuttingCalibrationOptions>();
     CLI::App* command = calibrate->add_subcommand("cutting", "Material and tool: coefficients from measured cuts");
     command->footer(
         "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s, spindle_torque_Nm "
         "and\n"
-        "normal_force_N or feed_force_N; cuts at two feeds and several widths. The table goes into tool.toml as it "
-        "is.\n"
+        "normal_force_N or feed_force_N; cuts at two feeds and several widths. Or recordings of\n"
+        "drive currents, with --cuts and --machine. The table goes into tool.toml as it is.\n"
         "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
     add_data_and_output(command, *options);
     command->add_option("--side", options->side, "Side of the cuts; unknown: from the data")->transform(side_names());
-    command->add_option("--law", options->form, "Which law to fit")->transform(law_names());
+    command->add_option("--cuts", options->cuts, "Table of the cuts in recordings of drive currents")
+        ->type_name("CUTS.csv");
+    command->add_option("--machine", options->machine, "Calibrated drives, for recordings")->type_name("M.toml");
+    command->add_option("--law", options->asked_form, "Which law to fit")->transform(law_names());
     command->callback([options, &exit_code] { exit_code = calibrate_cutting(*options, std::cout); });
 }
 
@@ -120,6 +162,8 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     calibrate->require_subcommand(1);
     add_friction(calibrate, exit_code);
     add_spindle(calibrate, exit_code);
+    add_standard_cut(calibrate, exit_code);
+    add_warm_up(calibrate, exit_code);
     add_cutting(calibrate, exit_code);
     add_roughness(calibrate, exit_code);
 }

@@ -63,6 +63,7 @@ void read_profile(Table& root, Scenario& scenario) {
         last_mm = p.path_mm;
         p.axial_depth_mm = point.number("axial_depth_mm", 0.0, 500.0);
         p.radial_width_mm = point.number("radial_width_mm", 0.0, scenario.cutter.diameter_mm);
+        p.feed_mm_s = point.number("feed_mm_min", 0.0, 1e5, 0.0) / 60.0;
         point.reject_unknown_keys();
         scenario.profile.points.push_back(p);
     }

@@ -42,6 +42,7 @@ struct ProfilePoint {
     double path_mm = 0.0;
     double axial_depth_mm = 0.0;
     double radial_width_mm = 0.0;
+    double feed_mm_s = 0.0;  ///< programmed from here on; 0: as before
 };
 
 struct ProfileSettings {

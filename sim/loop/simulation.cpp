@@ -19,16 +19,33 @@ namespace millforce::sim {
 
 namespace {
 
+/// One straight move for each feed of the profile.
 std::vector<Move> profile_moves(const Scenario& scenario) {
+    const double direction = scenario.profile.direction_deg * std::numbers::pi / 180.0;
+    const Eigen::Vector3d along(std::cos(direction), std::sin(direction), 0.0);
     Move move;
     move.kind = MoveKind::feed_line;
-    const double direction = scenario.profile.direction_deg * std::numbers::pi / 180.0;
-    move.end_mm =
-        Eigen::Vector3d(std::cos(direction), std::sin(direction), 0.0) * scenario.profile.length_mm;
     move.feed_mm_s = scenario.feed_mm_s;
     move.spindle_speed_rad_s = scenario.spindle_speed_rad_s;
     move.line = 1;
-    return {move};
+    std::vector<Move> moves;
+    double start_mm = 0.0;
+    const auto add_up_to = [&](double path_mm) {
+        if (path_mm > start_mm) {
+            move.start_mm = along * start_mm;
+            move.end_mm = along * path_mm;
+            moves.push_back(move);
+            start_mm = path_mm;
+        }
+    };
+    for (const ProfilePoint& point : scenario.profile.points) {
+        if (point.feed_mm_s > 0.0 && point.path_mm < scenario.profile.length_mm) {
+            add_up_to(point.path_mm);
+            move.feed_mm_s = point.feed_mm_s;
+        }
+    }
+    add_up_to(scenario.profile.length_mm);
+    return moves;
 }
 
 CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& settings) {

@@ -15,6 +15,7 @@ namespace {
 constexpr std::array all_papers{
     Paper{"hwang", reproduce_hwang, 20.0},
     Paper{"yang", reproduce_yang, 15.0},
+    Paper{"kim", reproduce_kim, 10.0},
     Paper{"roughness", reproduce_roughness, 0.5},
     Paper{"guan", reproduce_guan, 3.0},
 };
