@@ -72,6 +72,16 @@ double signed_friction_current_A(const MachineParameters& machine, std::size_t a
     return std::copysign(size, feed_m_per_min);
 }
 
+void refuse_below_velocity_floor(const RecordedStretch& stretch, const MachineParameters& machine) {
+    const double floor = static_cast<double>(machine.axes[stretch.axis].velocity_floor_mm_s);
+    if (std::abs(stretch.feed_mm_s) < floor) {
+        throw InputError(fmt::format("{}: {} feeds at {:.3g} mm/s: friction and K_x5/w are undefined near rest; expected at "
+                                     "least {}.velocity_floor_mm_s = {:g}",
+                                     stretch.conditions.place, axes[stretch.axis], stretch.feed_mm_s, axes[stretch.axis],
+                                     floor));
+    }
+}
+
 double spindle_gain_Nm_per_A(const MachineParameters& machine, double spindle_rad_s) {
     const double base = static_cast<double>(machine.spindle.base_speed_rad_s);
     const double gain = static_cast<double>(machine.spindle.K_t1_Nm_per_A);
@@ -103,6 +113,7 @@ estimation::DriveGainDoubt<double> gain_doubt(const MachineParameters& machine, 
 std::vector<CutRow> forces_of_cuts(const std::vector<RecordedStretch>& stretches, const MachineParameters& machine) {
     std::vector<CutRow> cuts;
     for (const RecordedStretch& stretch : stretches) {
+        refuse_below_velocity_floor(stretch, machine);
         if (!stretch.conditions.in_cut()) {
             continue;
         }

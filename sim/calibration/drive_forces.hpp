@@ -16,7 +16,10 @@ using MachineParameters = firmware::MachineParameters<float>;
 /// σ I_f(w) of Kim & Chung Eq. 9: the friction current in air, with the sign of the feed; without the weight's share.
 double signed_friction_current_A(const MachineParameters& machine, std::size_t axis, double feed_m_per_min);
 
-/// K_t1(ω) g(ω): torque per ampere, with field weakening.
+/// Throws InputError where the stretch is slower than the axis' velocity_floor_mm_s.
+void refuse_below_velocity_floor(const RecordedStretch& stretch, const MachineParameters& machine);
+
+/// K_t1 g(ω): torque per ampere, with field weakening.
 double spindle_gain_Nm_per_A(const MachineParameters& machine, double spindle_rad_s);
 
 /// What the drives show in air at the time of a cut: between the stretches in air before and after it in the same

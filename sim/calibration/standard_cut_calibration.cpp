@@ -209,6 +209,9 @@ int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out)
     const LibraryEntry entry = library_entry(options.database, options.entry);
     const MachineParameters machine = read_machine_parameters(options.machine.string());
     const auto stretches = read_recorded_cuts(options.data, options.cuts);
+    for (const RecordedStretch& stretch : stretches) {
+        refuse_below_velocity_floor(stretch, machine);
+    }
     const StandardCutGains gains = standard_cut_gains(stretches, machine, entry.law, options.side);
     refuse_what_cuts_lack(options, gains);
     const DatabaseDoubt doubt = database_doubt(stretches, entry.law, options.side);

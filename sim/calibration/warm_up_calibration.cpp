@@ -107,7 +107,7 @@ std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vec
     return seconds;
 }
 
-estimation::WarmUpFit<double> fit_or_refuse(const std::filesystem::path& path,
+estimation::WarmUpFit<double> warm_up_or_refuse(const std::filesystem::path& path,
                                             const std::vector<estimation::IdleTorque<double>>& torques) {
     const auto fit = estimation::fit_warm_up<double>(std::span<const estimation::IdleTorque<double>>(torques));
     switch (fit.lack) {
@@ -139,7 +139,7 @@ int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out
     for (const IdleSecond& s : seconds) {
         torques.push_back({s.time_s, spindle_gain_Nm_per_A(machine, s.speed_rad_s) * s.current_A});
     }
-    const auto fit = fit_or_refuse(options.data, torques);
+    const auto fit = warm_up_or_refuse(options.data, torques);
 
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());

@@ -162,9 +162,9 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     calibrate->require_subcommand(1);
     add_friction(calibrate, exit_code);
     add_spindle(calibrate, exit_code);
+    add_cutting(calibrate, exit_code);
     add_standard_cut(calibrate, exit_code);
     add_warm_up(calibrate, exit_code);
-    add_cutting(calibrate, exit_code);
     add_roughness(calibrate, exit_code);
 }
 

@@ -177,6 +177,11 @@ TEST(StandardCutCalibration, refuses_tables_that_do_not_fit_the_recording) {
     refuses(standard_cut(recorded), {"cuts.csv:6", "steady feed"});
 }
 
+TEST(StandardCutCalibration, refuses_feeds_below_the_velocity_floor) {
+    refuses(standard_cut(record(carbide(), {{50, 0.8}, {250, 0.8}, {250, 1.6}})),
+            {"cuts.csv:2", "near rest", "x.velocity_floor_mm_s = 1"});
+}
+
 TEST(StandardCutCalibration, lists_the_entries_of_the_database) {
     refuses(standard_cut(record(carbide(), seven_cuts), ""), {"library.toml", "--entry", "carbide, HSS"});
     refuses(standard_cut(record(carbide(), seven_cuts), "steel"), {"library.toml", "'steel'", "carbide, HSS"});
