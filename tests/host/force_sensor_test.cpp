@@ -70,7 +70,7 @@ TEST(ForceSensor, replay_tells_depths_and_their_variation_from_the_forces_shape)
 }
 
 TEST(ForceSensor, with_the_tips_angle_known_the_width_is_told_as_well_in_any_direction_of_the_feed) {
-    const std::string tool = end_mill_tool_text + "tip_angle_deg = 0.0\ntip_angle_sd_deg = 0.5\n";
+    const std::string tool = end_mill_tool_text + "tip_angle_deg = 17.19\ntip_angle_sd_deg = 0.3\n";
     for (const double direction_rad : {along_x, to_the_left_and_back}) {
         const auto rows =
             filled_rows(end_mill_recording(-20.0, 10.0, direction_rad), tool, "depth_shape_radial_width_mm");
