@@ -85,11 +85,12 @@ class RoughnessCells {
     std::size_t outside_ = 0;
 };
 
-/// The columns of the wide-band methods, where the recording has a force sensor. What their parameters lack is told once,
-/// on standard error; their cells are empty then.
+/// The columns of the wide-band methods, where the recording has a force sensor. What their parameters lack is told
+/// once, on standard error; their cells are empty then.
 class ForceSensorCells {
   public:
-    ForceSensorCells(bool is_there, const firmware::Parameters<float>& parameters) : shape_(parameters.tool.depth_shape) {
+    ForceSensorCells(bool is_there, const firmware::Parameters<float>& parameters)
+        : shape_(parameters.tool.depth_shape) {
         if (is_there) {
             estimates_.emplace(parameters);
         }
@@ -212,7 +213,8 @@ void add_replay(CLI::App& app, int& exit_code) {
         "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
         "An empty cell of the estimates is \"no estimate\". A tool with a [roughness] table adds its prediction with\n"
         "the 95 % interval, and whether the cut is in the range of the model's tests.\n"
-        "With a force sensor (fx_N, fy_N on the workpiece, in the machine's axes; currents may be missing) it adds the\n"
+        "With a force sensor (fx_N, fy_N on the workpiece, in the machine's axes; currents may be missing) it adds "
+        "the\n"
         "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
         "[force_sensor], [force_drop] and [depth_shape].");
     command->add_option("log", options->log, "Recording")->required()->type_name("LOG.csv");

@@ -10,7 +10,7 @@
 namespace millforce::sim {
 
 std::filesystem::path results_folder(const std::string& name, const std::string& first_file) {
-    const std::filesystem::path folder(name);
+    std::filesystem::path folder(name);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {

@@ -461,7 +461,8 @@ void add_deviations(std::vector<std::string>& deviations) {
 
 constexpr const char* summary =
     "A model of the force on a flat end mill: what its helical flanks and its bottom edges cut, from the material's "
-    "shear stress and the tool's angles. The simulation of this project mills with it, and tests its estimators against "
+    "shear stress and the tool's angles. The simulation of this project mills with it, and tests its estimators "
+    "against "
     "it. Here its force over a revolution is drawn for the paper's five cuts, the numbers that the paper prints are "
     "checked, and the simulated force is held against a far finer integration of the same model.";
 

@@ -25,9 +25,8 @@ class Work {
   public:
     explicit Work(std::span<const Paper> chosen) : chosen_(chosen), order_(chosen.size()), results_(chosen.size()) {
         std::iota(order_.begin(), order_.end(), std::size_t{0});
-        std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-            return chosen_[a].typical_s > chosen_[b].typical_s;
-        });
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&](std::size_t a, std::size_t b) { return chosen_[a].typical_s > chosen_[b].typical_s; });
     }
 
     void run_all() {
@@ -92,8 +91,8 @@ std::span<const Paper> papers() {
     return all_papers;
 }
 
-std::vector<Reproduction> reproduce(
-    std::span<const Paper> chosen, const std::function<void(const std::vector<std::string_view>& running)>& watch) {
+std::vector<Reproduction> reproduce(std::span<const Paper> chosen,
+                                    const std::function<void(const std::vector<std::string_view>& running)>& watch) {
     Work work(chosen);
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     std::vector<std::jthread> workers;

@@ -20,7 +20,8 @@ struct Paper {
 [[nodiscard]] std::span<const Paper> papers();
 
 /// Runs the papers, as many at once as there are cores, the longest first; the results stand in the order of `chosen`.
-/// `watch` is called now and then from this thread with the names of those that run. What a paper throws is thrown here.
+/// `watch` is called now and then from this thread with the names of those that run. What a paper throws is thrown
+/// here.
 [[nodiscard]] std::vector<Reproduction> reproduce(
     std::span<const Paper> chosen, const std::function<void(const std::vector<std::string_view>& running)>& watch);
 

@@ -300,9 +300,11 @@ void add_consistency(const std::array<Published, 2>& papers, Reproduction& resul
 }
 
 constexpr const char* summary =
-    "How smooth a ball-end-milled surface becomes is predicted while it is cut, from spindle speed, feed, tool diameter, "
+    "How smooth a ball-end-milled surface becomes is predicted while it is cut, from spindle speed, feed, tool "
+    "diameter, "
     "depth and the ratio of two cutting forces, F_x/F_z: a power law whose exponents are fitted to cutting tests. Each "
-    "prediction comes with the interval that should hold 95 of 100 new surfaces. Here tests are made from the published "
+    "prediction comes with the interval that should hold 95 of 100 new surfaces. Here tests are made from the "
+    "published "
     "law with a stated scatter, the law is fitted to them anew, and new tests show whether the interval holds what it "
     "promises.";
 

@@ -35,10 +35,9 @@ std::string row_html(const Figure& figure, const FigureTable& table) {
     if (!figure.unit.empty()) {
         name += fmt::format(" <span class=\"unit\">in {}</span>", html_escaped(figure.unit));
     }
-    return fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>{}{}{}{}<td class=\"judgement\">{}</td></tr>\n", style,
-                       name, cell_html("paper", value_text(figure.published)),
-                       cell_html("ours", value_text(figure.ours)),
-                       cell_html("difference", figure.difference()),
+    return fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>{}{}{}{}<td class=\"judgement\">{}</td></tr>\n",
+                       style, name, cell_html("paper", value_text(figure.published)),
+                       cell_html("ours", value_text(figure.ours)), cell_html("difference", figure.difference()),
                        cell_html("bound", figure.bound_text()), judgement);
 }
 
@@ -47,7 +46,7 @@ std::string table_html(const FigureTable& table) {
     for (const Figure& figure : table.figures) {
         rows += row_html(figure, table);
     }
-    const std::string html =
+    std::string html =
         "<table class=\"reproduced\">\n<thead><tr><th scope=\"col\">Figure</th><th scope=\"col\">Paper</th>"
         "<th scope=\"col\">Ours</th><th scope=\"col\">Difference</th><th scope=\"col\">Bound</th>"
         "<th scope=\"col\"></th></tr></thead>\n<tbody>\n" +
@@ -76,9 +75,9 @@ std::string deviations_html(const Reproduction& reproduction) {
     for (const std::string& deviation : reproduction.deviations) {
         html += fmt::format("<li>{}</li>\n", html_escaped(deviation));
     }
-    return html.empty() ? html
-                        : "<h3>Where this differs from print, and why</h3>\n<ul class=\"deviations\">\n" + html +
-                              "</ul>\n";
+    return html.empty()
+               ? html
+               : "<h3>Where this differs from print, and why</h3>\n<ul class=\"deviations\">\n" + html + "</ul>\n";
 }
 
 std::string verdict_html(const Reproduction& reproduction) {
@@ -88,9 +87,9 @@ std::string verdict_html(const Reproduction& reproduction) {
 
 std::string section_html(const Reproduction& reproduction) {
     const std::string name = html_escaped(reproduction.name);
-    std::string html =
-        fmt::format("<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
-                    html_escaped(reproduction.title), html_escaped(reproduction.summary), verdict_html(reproduction));
+    std::string html = fmt::format(
+        "<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
+        html_escaped(reproduction.title), html_escaped(reproduction.summary), verdict_html(reproduction));
     html += "<h3>Figures</h3>\n";
     for (const FigureTable& table : figure_tables(reproduction.figures)) {
         html += table_html(table);

@@ -17,8 +17,8 @@ constexpr std::string_view row_form = "{:<44} {:>9} {:>9} {:<4} {:>10} {:>11} {:
 
 /// Columns on a terminal: code points, which is right for all letters and signs that the names use.
 std::size_t width_of(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
 }
 
 /// Lines of at most `width` columns; those after the first stand two columns further in.
@@ -49,9 +49,9 @@ std::string row_text(const Cells&... cells) {
 std::string figure_text(const Figure& figure, const std::string& name, std::size_t indent) {
     const bool is_shown = figure.judged == Figure::Judged::shown;
     const std::vector<std::string> lines = wrapped(name, name_width, indent);
-    std::string text = row_text(lines.front(), value_text(figure.published), value_text(figure.ours), figure.unit,
-                                figure.difference(), figure.bound_text(),
-                                is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
+    std::string text =
+        row_text(lines.front(), value_text(figure.published), value_text(figure.ours), figure.unit, figure.difference(),
+                 figure.bound_text(), is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
     for (std::size_t k = 1; k < lines.size(); ++k) {
         text += lines[k] + '\n';
     }

@@ -32,8 +32,8 @@ TEST_GROUP(ForceSensor) {
         return rows;
     }
     void check_immersion(double immersion, double direction_rad) {
-        const auto rows = filled_rows(face_mill_recording(immersion, direction_rad), face_mill_tool_text,
-                                      "force_drop_immersion");
+        const auto rows =
+            filled_rows(face_mill_recording(immersion, direction_rad), face_mill_tool_text, "force_drop_immersion");
         CHECK(rows.size() > 100);
         for (const CsvRow& row : rows) {
             DOUBLES_EQUAL(immersion, number(row.at("force_drop_immersion")), 0.1 * immersion);
@@ -42,8 +42,7 @@ TEST_GROUP(ForceSensor) {
         }
     }
     void check_depths(const std::string& tool, double direction_rad) {
-        const auto rows =
-            filled_rows(end_mill_recording(20.0, 5.0, direction_rad), tool, "depth_shape_axial_depth_mm");
+        const auto rows = filled_rows(end_mill_recording(20.0, 5.0, direction_rad), tool, "depth_shape_axial_depth_mm");
         CHECK(rows.size() > 50);
         for (const CsvRow& row : rows) {
             DOUBLES_EQUAL(1.2 * 7.62, number(row.at("depth_shape_axial_depth_mm")), 0.03 * 7.62);
@@ -70,7 +69,7 @@ TEST(ForceSensor, replay_tells_depths_and_their_variation_from_the_forces_shape)
 }
 
 TEST(ForceSensor, with_the_tips_angle_known_the_width_is_told_as_well_in_any_direction_of_the_feed) {
-    const std::string tool = end_mill_tool_text + "tip_angle_deg = 0.0\ntip_angle_sd_deg = 0.5\n";
+    const std::string tool = end_mill_tool_text + "tip_angle_deg = 17.19\ntip_angle_sd_deg = 0.3\n";
     for (const double direction_rad : {along_x, to_the_left_and_back}) {
         const auto rows =
             filled_rows(end_mill_recording(-20.0, 10.0, direction_rad), tool, "depth_shape_radial_width_mm");
@@ -94,7 +93,8 @@ TEST(ForceSensor, what_the_tools_file_lacks_is_told_once_and_its_cells_are_empty
 }
 
 TEST(ForceSensor, one_force_alone_is_told_and_not_used) {
-    const std::string log = "time_s,spindle_angle_rad,spindle_current_A,x_current_A,x_velocity_mm_s,fx_N\n0,0,3,1,5,7\n";
+    const std::string log =
+        "time_s,spindle_angle_rad,spindle_current_A,x_current_A,x_velocity_mm_s,fx_N\n0,0,3,1,5,7\n";
     inputs.write("log.csv", log);
     const Ended ended = inputs.replay();
     LONGS_EQUAL(0, ended.exit_code);

@@ -14,7 +14,9 @@ TEST_GROUP(Reproduce) {
         more.insert(more.end(), {"--out", folder.path("out").string()});
         return run_millforce(more);
     }
-    std::string result(const char* file) const { return text_of(folder.path("out") / file); }
+    std::string result(const char* file) const {
+        return text_of(folder.path("out") / file);
+    }
 };
 
 TEST(Reproduce, a_paper_gives_its_table_a_page_and_json_and_is_silent_in_a_pipe) {
