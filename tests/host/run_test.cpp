@@ -60,8 +60,13 @@ TEST_GROUP(Run) {
         LONGS_EQUAL(0, ended.exit_code);
     }
     void simulate_and_record() {
-        check_ran(
-            run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")}));
+        check_ran(simulated());
+        keep_recording();
+    }
+    [[nodiscard]] Ended simulated() {
+        return run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")});
+    }
+    void keep_recording() {
         std::filesystem::rename(inputs.path("results") / "recording.csv", inputs.path("log.csv"));
     }
     /// Every row of the trace, all its estimates and the override, stands in the replay to the last digit.
@@ -151,7 +156,8 @@ TEST(Run, what_calibrate_cutting_writes_is_a_table_of_tool_toml) {
     check_ran(run_millforce(
         {"calibrate", "cutting", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "-o", inputs.name("c.toml")}));
     inputs.write("tool.toml", tool_head + inputs.read("c.toml"));
-    simulate_and_record();
+    CHECK(simulated().exit_code <= 1);  // coefficients of aluminium in a steel: the limit need not hold
+    keep_recording();
     check_ran(inputs.replay());
     check_ran(run_millforce({"estimate", MILLFORCE_TEST_DATA "/milling_6061_train.csv", "--tool",
                              inputs.name("tool.toml"), "-o", inputs.name("estimates.csv")}));
