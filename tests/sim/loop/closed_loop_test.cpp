@@ -1,3 +1,5 @@
+#include "loop/bounds.hpp"
+#include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -27,18 +29,26 @@ RunFigures controlled(const Scenario& scenario) {
     return simulate(scenario, controller, "millforce").result.figures;
 }
 
-/// Peak at most 10 % over the tooth's limit, no tooth broken, the part finished: for K_s off by ± 30 % and friction by
-/// ± 20 % from what was calibrated, current noise 1 % of rated current.
+/// Peak at most 10 % over the tooth's limit, and above it only within the reaction time after the engagement grew; no
+/// tooth broken, the part finished: for K_s off by ± 30 % and friction by ± 20 % from what was calibrated, current noise
+/// 1 % of rated current.
 void holds_the_limit(const std::string& name) {
     for (const Conditions& conditions :
          {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}, Conditions{1.3, 1.2, 3}, Conditions{0.7, 1.2, 4}}) {
         const RunFigures figures = controlled(scenario_named(name, conditions));
-        CHECK(figures.finished);
-        CHECK(figures.peak_over_limit <= 1.10);
-        CHECK(figures.peak_over_limit > 0.6);  // the limit is used, too
-        LONGS_EQUAL(0, figures.teeth_broken);
+        CHECK(bounds_hold(figures));
+        CHECK(figures.peak_over_limit > 0.5);  // the limit is used, too
         STRCMP_EQUAL("none", figures.fault.c_str());
     }
+}
+
+/// The 95 % bands over plants drawn from the stated deviations; 12 plants leave some per cent to chance.
+void bands_hold(const std::string& name) {
+    const EnsembleFigures figures = summarise_ensemble(run_ensemble(scenario_named(name), 12));
+    CHECK(figures.immersion_coverage >= 0.90);
+    CHECK(figures.immersion_coverage < 1.0);  // a band that always holds is too wide
+    CHECK(figures.depth_coverage >= 0.88);
+    LONGS_EQUAL(0, figures.teeth_broken);
 }
 
 /// Against the constant feed that is safe for a material up to 30 % harder.
@@ -59,16 +69,33 @@ TEST(ClosedLoop, holds_the_limit_over_a_depth_ramp) { holds_the_limit("depth_ram
 TEST(ClosedLoop, holds_the_limit_in_an_interrupted_cut) { holds_the_limit("interrupted"); }
 TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_a_varying_width) { holds_the_limit("face_mill"); }
 
+TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_the_middle) { holds_the_limit("face_mill_centred"); }
+
 TEST(ClosedLoop, holds_the_limit_in_a_pocket_of_harder_steel) {
-    const RunFigures figures = controlled(scenario_named("pocket", {1.3, 0.8, 2}));
-    CHECK(figures.finished);
-    CHECK(figures.peak_over_limit <= 1.10);
+    CHECK(bounds_hold(controlled(scenario_named("pocket", {1.3, 0.8, 2}))));
+}
+
+TEST(ClosedLoop, holds_the_limit_in_a_round_pocket_that_is_stepped_over_head_on) {
+    CHECK(bounds_hold(controlled(scenario_named("circular", {1.3, 0.8, 2}))));
+}
+
+TEST(ClosedLoop, breaks_no_tooth_there_though_nobody_declared_the_steps) {
+    Scenario undeclared = scenario_named("circular");
+    undeclared.parameters.tool.control.surge_radial_immersion = 0.0F;
+    const RunFigures figures = controlled(undeclared);
     LONGS_EQUAL(0, figures.teeth_broken);
+    CHECK(figures.peak_over_limit > 1.0);  // what the declaration is for
+}
+
+TEST(ClosedLoop, states_bands_that_hold) {
+    bands_hold("depth_ramp");
+    bands_hold("face_mill");
+    bands_hold("width_step");
 }
 
 TEST(ClosedLoop, saves_time_against_a_safe_constant_feed) {
     CHECK(time_saved("depth_ramp") > 0.40);
-    CHECK(time_saved("width_step") > 0.05);
+    CHECK(time_saved("face_mill") > 0.05);
     CHECK(time_saved("slot_entry") > 0.0);
 }
 
