@@ -113,6 +113,7 @@ void DriveNode::enter_start_of_life(std::uint64_t time_us) {
     health_.power = PowerState::unknown;
     pdo_received_ = {};
     has_last_count_ = false;
+    has_index_ = false;
     has_last_position_ = false;
     travel_check_ = {};
     health_.units_disagree = false;

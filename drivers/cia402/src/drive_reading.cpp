@@ -133,14 +133,20 @@ void DriveNode::read_count(std::uint64_t now_us, DriveReading& reading, RejectCo
     read_index(now_us, raw, reading);
 }
 
-void DriveNode::read_index(std::uint64_t now_us, std::uint32_t raw_count, DriveReading& reading) const {
-    if (!is_fresh(Signal::index_count, now_us) || !is_fresh(Signal::index_number, now_us)) {
-        return;
+/// A new pulse was at most a period ago, so the way since then is short; an old one may be turns ago.
+void DriveNode::read_index(std::uint64_t now_us, std::uint32_t raw_count, DriveReading& reading) {
+    if (is_fresh(Signal::index_count, now_us) && is_fresh(Signal::index_number, now_us)) {
+        const auto number = static_cast<std::uint8_t>(signals_.raw(Signal::index_number));
+        if (number != index_number_ || !has_index_) {
+            const std::uint64_t modulus = modulus_of(settings_.count_modulus, signals_.bits(Signal::count));
+            const std::int64_t since = shortest_step(signals_.raw(Signal::index_count), raw_count, modulus);
+            index_count_ = count_ - static_cast<std::uint32_t>(settings_.count_reversed ? -since : since);
+            index_number_ = number;
+            has_index_ = true;
+        }
     }
-    const std::uint64_t modulus = modulus_of(settings_.count_modulus, signals_.bits(Signal::count));
-    const std::int64_t since = shortest_step(signals_.raw(Signal::index_count), raw_count, modulus);
-    reading.index_count = count_ - static_cast<std::uint32_t>(settings_.count_reversed ? -since : since);
-    reading.index_number = static_cast<std::uint8_t>(signals_.raw(Signal::index_number));
+    reading.index_count = index_count_;
+    reading.index_number = index_number_;
 }
 
 /// The way since the position before, where there is one.

@@ -46,7 +46,7 @@ struct DriveReading {
     float current_A = 0.0F;
     float velocity_mm_s = 0.0F;
     std::uint32_t count = 0;
-    std::uint32_t index_count = 0;
+    std::uint32_t index_count = 0;  ///< of the last index pulse seen; before the first one it means nothing
     std::uint8_t index_number = 0;
 };
 
@@ -88,7 +88,7 @@ class DriveNode {
     [[nodiscard]] bool is_fresh(Signal signal, std::uint64_t now_us) const;
     void read_current(std::uint64_t now_us, DriveReading& reading, RejectCounters& rejects) const;
     void read_count(std::uint64_t now_us, DriveReading& reading, RejectCounters& rejects);
-    void read_index(std::uint64_t now_us, std::uint32_t raw_count, DriveReading& reading) const;
+    void read_index(std::uint64_t now_us, std::uint32_t raw_count, DriveReading& reading);
     void read_velocity(std::uint64_t now_us, DriveReading& reading, RejectCounters& rejects);
     [[nodiscard]] bool moved_mm(std::uint64_t now_us, float& way_mm, float& elapsed_s);
     [[nodiscard]] float periods_since(std::uint64_t before_us, std::uint64_t now_us) const;
@@ -118,6 +118,9 @@ class DriveNode {
     std::uint32_t last_raw_count_ = 0;
     std::uint64_t last_count_us_ = 0;
     std::uint32_t count_ = 0;
+    bool has_index_ = false;
+    std::uint32_t index_count_ = 0;
+    std::uint8_t index_number_ = 0;
     bool has_last_position_ = false;
     std::uint32_t last_position_ = 0;
     std::uint64_t last_position_us_ = 0;
