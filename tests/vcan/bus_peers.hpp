@@ -138,6 +138,11 @@ class Listener {
         return true;
     }
 
+    /// Frames that came to this socket, whatever became of them.
+    [[nodiscard]] std::size_t seen() const {
+        return std::size_t{socket.health().received} + socket.health().fd_frames + socket.health().overruns;
+    }
+
     socketcan::CanSocket socket;
     std::vector<hal::CanFrame> frames{};
     std::vector<std::uint64_t> times_us{};

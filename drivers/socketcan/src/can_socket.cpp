@@ -5,7 +5,6 @@
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -117,8 +116,9 @@ bool CanSocket::set_filters() const {
 bool CanSocket::bind_to_interface() {
     sockaddr_can address{};
     address.can_family = AF_CAN;
-    address.can_ifindex = static_cast<int>(if_nametoindex(settings_.interface.data()));
-    if (address.can_ifindex == 0) {
+    interface_index_ = static_cast<int>(if_nametoindex(settings_.interface.data()));
+    address.can_ifindex = interface_index_;
+    if (interface_index_ == 0) {
         return false;
     }
     return ::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
@@ -132,23 +132,28 @@ void CanSocket::close() {
     health_.state = LinkState::absent;
 }
 
-/// Up without carrier is bus-off: a socket that was opened after it never gets its error frame.
+/// Error frames come with the next event only: a socket that was opened after one, or lost one, learns it here.
 void CanSocket::look_at_interface() {
-    ifreq request{};
-    std::copy(settings_.interface.begin(), settings_.interface.end(), std::begin(request.ifr_name));
-    if (ioctl(descriptor_, SIOCGIFFLAGS, &request) != 0) {
-        on_failure(errno);
+    const InterfaceReport report = query_.ask(interface_index_);
+    if (!report.answered) {
         return;
     }
-    const auto flags = static_cast<unsigned>(request.ifr_flags);
-    if ((flags & IFF_UP) == 0) {
+    if (!report.found) {
+        on_failure(ENODEV);
+    } else if (!report.is_up) {
         health_.state = LinkState::down;
-    } else if ((flags & IFF_RUNNING) == 0) {
-        health_.bus_offs += health_.state == LinkState::bus_off ? 0U : 1U;
-        health_.state = LinkState::bus_off;
+    } else if (!report.has_carrier) {
+        enter(LinkState::bus_off);
+    } else if (report.has_state) {
+        enter(link_state(report.state));
     } else if (health_.state == LinkState::down || health_.state == LinkState::bus_off) {
-        health_.state = LinkState::error_active;
+        enter(LinkState::error_active);
     }
+}
+
+void CanSocket::enter(LinkState state) {
+    health_.bus_offs += state == LinkState::bus_off && health_.state != LinkState::bus_off ? 1U : 0U;
+    health_.state = state;
 }
 
 void CanSocket::on_failure(int error) {
@@ -214,12 +219,9 @@ void CanSocket::take_error_frame(std::uint32_t id, std::span<const std::uint8_t>
     ++health_.error_frames;
     health_.controller_overflows += report.receive_overflow ? 1U : 0U;
     health_.restarts += report.restarted ? 1U : 0U;
-    if (!report.has_state) {
-        return;
+    if (report.has_state) {
+        enter(link_state(report.state));
     }
-    const LinkState state = link_state(report.state);
-    health_.bus_offs += state == LinkState::bus_off && health_.state != LinkState::bus_off ? 1U : 0U;
-    health_.state = state;
 }
 
 bool CanSocket::send(const hal::CanFrame& frame) {

@@ -74,3 +74,23 @@ TEST(AbsentInterface, is_a_state_and_no_failure) {
     CHECK_FALSE(socket.send(frame));
     UNSIGNED_LONGS_EQUAL(1, socket.health().send_failures);
 }
+
+TEST_GROUP(LinkMessage){};
+
+TEST(LinkMessage, any_bytes_of_any_length_are_read_within_their_bounds) {
+    std::mt19937 random(17);
+    for (int k = 0; k < 100'000; ++k) {
+        std::array<std::uint8_t, 256> bytes{};
+        for (std::uint8_t& byte : bytes) {
+            byte = static_cast<std::uint8_t>(random() % 3 == 0 ? random() : random() % 32);
+        }
+        const std::size_t length = random() % (bytes.size() + 1);
+        bytes[0] = static_cast<std::uint8_t>(length);  // a header that fits: the attributes are what is tried
+        bytes[1] = bytes[2] = bytes[3] = 0;
+        bytes[4] = 16;  // RTM_NEWLINK
+        bytes[5] = 0;
+        const InterfaceReport report = read_link_message(std::span(bytes).first(length));
+        CHECK(report.answered);
+        CHECK(report.state <= ControllerState::bus_off);
+    }
+}

@@ -8,6 +8,7 @@
 
 #include "hal/can_frame.hpp"
 #include "socketcan/error_frame.hpp"
+#include "socketcan/interface_query.hpp"
 
 /// One CAN interface of a Linux kernel, `can0` or `vcan0`, as a raw socket that never blocks, opens itself again, and
 /// tells the supervisor what is wrong with the bus.
@@ -103,13 +104,16 @@ class CanSocket {
     [[nodiscard]] bool bind_to_interface();
     void close();
     void look_at_interface();
+    void enter(LinkState state);
     [[nodiscard]] Fetched fetch(hal::CanFrame& frame, std::uint64_t& time_us);
     void take_error_frame(std::uint32_t id, std::span<const std::uint8_t> data);
     void on_failure(int error);
 
     CanSocketSettings settings_;
     LinkHealth health_{};
+    InterfaceQuery query_{};
     int descriptor_ = -1;
+    int interface_index_ = 0;
     std::uint32_t kernel_drops_ = 0;
     std::uint64_t next_look_us_ = 0;
 };
