@@ -54,6 +54,12 @@ class Child {
             kill(pid_, signal);
         }
     }
+    [[nodiscard]] bool has_ended() {
+        if (pid_ > 0 && waitpid(pid_, nullptr, WNOHANG) == pid_) {
+            pid_ = 0;
+        }
+        return pid_ == 0;
+    }
     void wait() {
         if (pid_ > 0) {
             waitpid(pid_, nullptr, 0);
@@ -136,11 +142,6 @@ class Listener {
             step();
         }
         return true;
-    }
-
-    /// Frames that came to this socket, whatever became of them.
-    [[nodiscard]] std::size_t seen() const {
-        return std::size_t{socket.health().received} + socket.health().fd_frames + socket.health().overruns;
     }
 
     socketcan::CanSocket socket;
