@@ -28,6 +28,8 @@ std::uint32_t per_mille(double value, double rated) {
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(share));
 }
 
+std::uint8_t byte(std::uint32_t value, unsigned place) { return static_cast<std::uint8_t>(value >> (8U * place)); }
+
 bool is_mapping_index(std::uint32_t index) { return index >= 0x1A00 && index <= 0x1A03; }
 bool is_communication_index(std::uint32_t index) { return index >= 0x1800 && index <= 0x1803; }
 
@@ -112,8 +114,7 @@ void CanopenDrive::latch_index(std::int32_t position) {
 
 void CanopenDrive::raise_emergency(std::uint16_t error_code, std::uint8_t error_register) {
     set(0x1001, 0, error_register);
-    send(0x080U + settings_.node_id, {static_cast<std::uint8_t>(error_code), static_cast<std::uint8_t>(error_code >> 8U),
-                                      error_register, 0, 0, 0, 0, 0});
+    send(0x080U + settings_.node_id, {byte(error_code, 0), byte(error_code, 1), error_register, 0, 0, 0, 0, 0});
 }
 
 void CanopenDrive::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
@@ -179,7 +180,7 @@ void CanopenDrive::send_pdo(unsigned number) {
     unsigned bit = 0;
     for (unsigned k = 1; k <= object(mapping, 0); ++k) {
         const std::uint32_t mapped = object(mapping, static_cast<std::uint8_t>(k));
-        const std::uint32_t value = object(static_cast<std::uint16_t>(mapped >> 16U), static_cast<std::uint8_t>(mapped >> 8U));
+        const std::uint32_t value = object(static_cast<std::uint16_t>(mapped >> 16U), byte(mapped, 1));
         for (unsigned b = 0; b < (mapped & 0xFFU) && bit < 64; ++b, ++bit) {
             const unsigned one = b < 32 ? (value >> b) & 1U : 0U;
             data[bit / 8] = static_cast<std::uint8_t>(data[bit / 8] | (one << (bit % 8)));
@@ -213,9 +214,8 @@ void CanopenDrive::answer_read(Key where) {
     const Entry& entry = found->second;
     const std::uint32_t v = entry.value;
     send(0x580U + settings_.node_id,
-         {static_cast<std::uint8_t>(0x43U | ((4U - entry.bytes) << 2U)), static_cast<std::uint8_t>(where >> 8U),
-          static_cast<std::uint8_t>(where >> 16U), static_cast<std::uint8_t>(where), static_cast<std::uint8_t>(v),
-          static_cast<std::uint8_t>(v >> 8U), static_cast<std::uint8_t>(v >> 16U), static_cast<std::uint8_t>(v >> 24U)});
+         {static_cast<std::uint8_t>(0x43U | ((4U - entry.bytes) << 2U)), byte(where, 1), byte(where, 2), byte(where, 0),
+          byte(v, 0), byte(v, 1), byte(v, 2), byte(v, 3)});
 }
 
 void CanopenDrive::answer_write(Key where, const hal::CanFrame& frame) {
@@ -272,8 +272,8 @@ std::uint32_t CanopenDrive::refusal_of_mapping(Key where, std::uint32_t value) c
             return abort_device_state;
         }
         const auto target = dictionary_.find(value >> 8U);
-        const bool fits = target != dictionary_.end() && target->second.mappable && (value & 0xFFU) == 8U * target->second.bytes;
-        return fits ? 0 : abort_not_mappable;
+        const bool is_mappable = target != dictionary_.end() && target->second.mappable;
+        return is_mappable && (value & 0xFFU) == 8U * target->second.bytes ? 0 : abort_not_mappable;
     }
     if (value > 8) {
         return abort_value;
@@ -288,9 +288,8 @@ std::uint32_t CanopenDrive::refusal_of_mapping(Key where, std::uint32_t value) c
 void CanopenDrive::abort(Key where, std::uint32_t code) {
     ++aborts_;
     send(0x580U + settings_.node_id,
-         {0x80, static_cast<std::uint8_t>(where >> 8U), static_cast<std::uint8_t>(where >> 16U),
-          static_cast<std::uint8_t>(where), static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code >> 8U),
-          static_cast<std::uint8_t>(code >> 16U), static_cast<std::uint8_t>(code >> 24U)});
+         {0x80, byte(where, 1), byte(where, 2), byte(where, 0), byte(code, 0), byte(code, 1), byte(code, 2),
+          byte(code, 3)});
 }
 
 void CanopenDrive::send(std::uint32_t id, std::vector<std::uint8_t> bytes) {

@@ -1,6 +1,7 @@
 #include "bus/loopback_bus.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace millforce::sim {
@@ -20,7 +21,7 @@ void LoopbackBus::send(int from, const hal::CanFrame& frame, std::uint64_t time_
 /// Overhead of a frame without stuffing 47 bits (67 with a 29-bit id), a tenth of stuff bits.
 std::uint64_t LoopbackBus::frame_time_us(const hal::CanFrame& frame) const {
     const double bits = 1.1 * ((frame.extended ? 67.0 : 47.0) + 8.0 * (frame.remote ? 0.0 : frame.length));
-    return static_cast<std::uint64_t>(bits / bit_rate_ * 1e6 + 0.5);
+    return static_cast<std::uint64_t>(std::llround(bits / bit_rate_ * 1e6));
 }
 
 /// The frame that wins arbitration when the bus is free next.

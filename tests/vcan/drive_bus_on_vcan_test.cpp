@@ -55,7 +55,9 @@ void write_recording(const std::string& file) {
     for (int k = 0; k < 100; ++k) {
         const double t = 0.01 * k;
         const int fault = k % 20;
-        const auto write = [&](double after_s, const std::string& frame) { log << log_line(t + after_s, frame) << "\n"; };
+        const auto write = [&](double after_s, const std::string& frame) {
+            log << log_line(t + after_s, frame) << "\n";
+        };
         write(0.0, "080#");
         if (fault == 2) {
             write(0.0, "080#");  // SYNC twice
@@ -167,7 +169,8 @@ TEST(DriveBusOnVcan, cangen_with_every_id_and_length_is_counted_and_leaves_a_bus
     }
     everything.run_ms(20);
     const auto& health = everything.socket.health();
-    std::printf("\n    cangen: %u frames, %u of CAN FD, %u overruns\n", health.received, health.fd_frames, health.overruns);
+    std::printf("\n    cangen: %u frames, %u of CAN FD, %u overruns\n", health.received, health.fd_frames,
+                health.overruns);
     CHECK(health.received + health.fd_frames + health.overruns >= 18432 + 500 + 200 + 1000 + 200);
     CHECK(health.fd_frames > 300);
     CHECK(machine.bus.rejects().total() > 0);

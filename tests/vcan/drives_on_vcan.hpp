@@ -138,7 +138,9 @@ class BusOnVcan {
         }
         return true;
     }
-    [[nodiscard]] bool all_operational(std::size_t drives) const { return all_are(drives, cia402::NodeState::operational); }
+    [[nodiscard]] bool all_operational(std::size_t drives) const {
+        return all_are(drives, cia402::NodeState::operational);
+    }
     [[nodiscard]] bool all_are(std::size_t drives, cia402::NodeState state) const {
         for (std::size_t role = 0; role < drives; ++role) {
             if (bus.health(static_cast<cia402::DriveRole>(role)).state != state) {

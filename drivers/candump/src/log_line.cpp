@@ -99,7 +99,8 @@ bool read_id(Cursor& cursor, std::uint32_t& id, bool& has_eight_digits) {
         ++digits;
     }
     has_eight_digits = digits == 8;
-    const std::uint32_t largest = has_eight_digits ? error_frame_flag | largest_extended_id : hal::largest_standard_can_id;
+    const std::uint32_t largest =
+        has_eight_digits ? error_frame_flag | largest_extended_id : hal::largest_standard_can_id;
     return (digits == 3 || digits == 8) && id <= largest && cursor.at() == '#';
 }
 

@@ -8,7 +8,7 @@
 /// Lines of the log that `candump -L` writes and `canplayer` reads:
 ///
 ///     (1436509052.249713) can0 181#1122334455667788        11-bit id: three digits, data
-///     (1436509052.249713) can0 0000018A#1122 R             29-bit id: eight digits; R or T, received or sent, is optional
+///     (1436509052.249713) can0 0000018A#1122 R             29-bit id: eight digits; at the end R or T may stand
 ///     (1436509052.249713) can0 181#R8                      remote frame, with or without its length
 ///     (1436509052.249713) can0 123##5112233                CAN FD: a digit of flags, up to 64 bytes
 ///     (1436509052.249713) can0 20000004#0001000000000000   error frame: bit 29 of the id
