@@ -32,7 +32,7 @@ class Cursor {
     [[nodiscard]] char at() const { return place_ < text_.size() ? text_[place_] : '\0'; }
     [[nodiscard]] bool is_at_end() const { return place_ >= text_.size(); }
     [[nodiscard]] std::size_t place() const { return place_; }
-    [[nodiscard]] std::string_view since(std::size_t begin) const { return text_.substr(begin, place_ - begin); }
+    [[nodiscard]] std::string_view since(std::size_t begin) const { return {text_.data() + begin, place_ - begin}; }
     bool take(char c) {
         const bool is_there = !is_at_end() && text_[place_] == c;
         place_ += is_there ? 1U : 0U;

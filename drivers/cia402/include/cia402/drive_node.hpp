@@ -26,7 +26,8 @@ enum class NodeState : std::uint8_t {
     lost,         ///< the heartbeat stayed away; left by the next heartbeat
 };
 
-/// For the supervisor. Nothing here latches but the counters and `emergency`.
+/// For the supervisor. Nothing here latches but the counters and `emergency`. A drive with a fault still tells its
+/// current, and the sample carries it: what a fault means for the cut is the supervisor's to judge.
 struct NodeHealth {
     NodeState state = NodeState::unused;
     PowerState power = PowerState::unknown;
