@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "cia402/objects.hpp"
+#include "cia402/pdo_mapping.hpp"
+#include "hal/drive_sample.hpp"
+
+/// How the drives of a machine are wired to the bus, mapped and scaled. Plain data; check() before use.
+
+namespace millforce::cia402 {
+
+/// One drive per role, and its place in arrays.
+enum class DriveRole : std::uint8_t { spindle, x_axis, y_axis, z_axis };
+inline constexpr std::size_t drive_capacity = 1 + hal::axis_count;
+
+enum class CurrentSource : std::uint8_t {
+    current_actual,  ///< 0x6078, per mille of rated current 0x6075
+    torque_actual,   ///< 0x6077, per mille of rated torque 0x6076, over the torque constant
+};
+
+/// What a drive's rated current means. Samples carry A rms.
+enum class CurrentBasis : std::uint8_t {
+    rms,
+    peak,  ///< amplitude of the phase current: √2 times rms
+};
+
+enum class VelocitySource : std::uint8_t {
+    velocity_actual,      ///< 0x606C
+    position_difference,  ///< of 0x6064 between two SYNCs
+};
+
+struct ObjectAddress {
+    std::uint16_t index = 0;  ///< 0: none
+    std::uint8_t subindex = 0;
+};
+
+struct DriveSettings {
+    std::uint8_t node_id = 0;  ///< 1…127; 0: this role has no drive on the bus
+    /// TPDO 1…4 of the drive, by place.
+    std::array<PdoMapping, largest_pdo_count> pdos{};
+
+    CurrentSource current_source = CurrentSource::current_actual;
+    CurrentBasis current_basis = CurrentBasis::rms;
+    bool current_reversed = false;
+    float rated_current_A = 0.0F;           ///< of `current_basis`; 0: read from 0x6075 (mA)
+    float rated_torque_Nm = 0.0F;           ///< 0: read from 0x6076 (mN·m); only with torque_actual
+    float torque_constant_Nm_per_A = 0.0F;  ///< N·m per A of `current_basis`; only with torque_actual
+    float largest_share_of_rated = 4.0F;    ///< of current or torque; beyond it the value is rejected
+
+    /// Axes. The units of a drive are what its gear and factor objects make of them: calibrate, or read its manual.
+    VelocitySource velocity_source = VelocitySource::velocity_actual;
+    float velocity_mm_s_per_unit = 0.0F;  ///< of 0x606C; negative: the drive counts against the machine axis
+    float position_mm_per_unit = 0.0F;    ///< of 0x6064; with 0x606C too, the two are compared (Reject::units_disagree)
+    float largest_velocity_mm_s = 2000.0F;
+
+    /// Spindle: the object that carries the encoder count, and what latches it at the index pulse, if anything does.
+    ObjectAddress count_object{object::position_actual, 0};
+    ObjectAddress index_count_object{};   ///< the count at the last index pulse, e.g. 0x60BA (touch probe value)
+    ObjectAddress index_number_object{};  ///< increases at each index pulse, e.g. 0x60D5 (touch probe edge counter)
+    std::uint32_t count_modulus = 0;      ///< counts after which the object begins again at 0; 0: the object's width
+    std::uint32_t largest_count_step = 1U << 20U;  ///< per SYNC period
+    bool count_reversed = false;                   ///< the count decreases in the cutting direction (M3)
+
+    std::uint32_t heartbeat_timeout_us = 0;  ///< 0: the heartbeat is not watched
+    std::uint16_t heartbeat_period_ms = 0;   ///< written to 0x1017 at start; 0: left as it is
+    bool write_mapping = false;              ///< write `pdos` to the drive at start; else it is mapped so already
+    std::uint32_t stale_us = 20'000;         ///< age up to which a PDO that does not come at every SYNC is used
+};
+
+struct BusSettings {
+    std::array<DriveSettings, drive_capacity> drives{};  ///< by DriveRole
+
+    /// Master: reads and writes objects at start (SDO) and starts the nodes (NMT). Else a listener that sends nothing
+    /// of the two: the CNC is the master, and all rated values are given.
+    bool is_master = false;
+    bool produces_sync = false;
+    std::uint32_t sync_id = cob_id::sync;
+    std::uint32_t sync_period_us = 1000;
+    /// A sample is handed over when all PDOs of its SYNC are there, at the latest after this time.
+    std::uint32_t collect_us = 800;
+};
+
+/// First thing that is wrong with the settings.
+enum class SettingsError : std::uint8_t {
+    none,
+    no_drive,
+    node_id,             ///< above 127, or used twice
+    pdo_mapping,         ///< see check(PdoMapping)
+    id_used_twice,       ///< two PDOs, or a PDO and the SYNC, with one CAN id
+    object_missing,      ///< no PDO carries the current or torque, or the count, or velocity or position
+    object_width,        ///< an object that is read has more than 32 bits
+    rated_value,         ///< negative, not finite; or 0 for a listener, who cannot ask
+    torque_constant,     ///< torque_actual without a torque constant
+    unit,                ///< velocity or position unit 0 or not finite
+    limit,               ///< largest_… not above 0 or not finite; modulus of 1 or steps beyond half of it
+    heartbeat,           ///< timeout not above the period
+    sync,                ///< period 0 or above 1 s, collect_us 0 or above the period, or an id outside 1…0x7FF
+};
+[[nodiscard]] SettingsError check(const BusSettings& settings);
+
+}  // namespace millforce::cia402

@@ -1,0 +1,239 @@
+#include "cia402/drive_bus.hpp"
+
+#include "cia402/objects.hpp"
+
+namespace millforce::cia402 {
+
+namespace {
+
+constexpr std::uint64_t sync_lost_after_periods = 3;
+/// A producer's next SYNC is never further ahead than this by the clock of poll(): a clock that was set costs no more.
+constexpr std::uint64_t largest_sync_wait_periods = 2;
+
+std::size_t add_filter(std::span<hal::CanFilter, DriveBus::filter_capacity> filters, std::size_t count,
+                       std::uint32_t id) {
+    filters[count] = {id, hal::largest_standard_can_id};
+    return count + 1;
+}
+
+}  // namespace
+
+DriveBus::DriveBus(const BusSettings& settings) : settings_(settings) {
+    health_.sync_lost = true;
+    if (check(settings) != SettingsError::none) {
+        settings_ = {};
+        return;
+    }
+    for (std::size_t k = 0; k < drive_capacity; ++k) {
+        if (settings.drives[k].node_id != 0) {
+            nodes_[k] = DriveNode(settings.drives[k], settings, k == static_cast<std::size_t>(DriveRole::spindle));
+        }
+    }
+}
+
+void DriveBus::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
+    if (frame.length > hal::largest_can_length) {
+        rejects_.add(Reject::frame_length);
+        return;
+    }
+    if (frame.extended || frame.remote || frame.id > hal::largest_standard_can_id) {
+        rejects_.add(Reject::not_standard_data);
+        return;
+    }
+    if (frame.id == settings_.sync_id) {
+        on_sync(frame, time_us);
+        return;
+    }
+    for (std::size_t k = 0; k < drive_capacity; ++k) {
+        if (nodes_[k].node_id() == 0) {
+            continue;
+        }
+        // What comes when the sample is handed over already belongs to no sample: it would be the next one's.
+        const bool is_synchronous = is_sync_pdo(k, frame.id);
+        if (is_synchronous && !cycle_open_ && nodes_[k].health().state == NodeState::operational) {
+            rejects_.add(Reject::pdo_late);
+            return;
+        }
+        if (nodes_[k].on_frame(frame, time_us, rejects_)) {
+            if (cycle_open_ && is_complete()) {
+                hand_over();
+            }
+            return;
+        }
+    }
+    rejects_.add(Reject::foreign_id);
+}
+
+void DriveBus::on_sync(const hal::CanFrame& frame, std::uint64_t time_us) {
+    if (frame.length > 1) {
+        rejects_.add(Reject::sync_length);
+        return;
+    }
+    if (settings_.produces_sync) {
+        rejects_.add(Reject::sync_foreign);
+        return;
+    }
+    if (had_sync_ && time_us < sync_time_us_ + settings_.sync_period_us / 2) {
+        rejects_.add(Reject::sync_early);
+        return;
+    }
+    begin_cycle(time_us);
+}
+
+void DriveBus::begin_cycle(std::uint64_t time_us) {
+    if (cycle_open_) {
+        hand_over();
+    }
+    for (DriveNode& node : nodes_) {
+        node.begin_cycle();
+    }
+    sync_time_us_ = time_us;
+    had_sync_ = true;
+    cycle_open_ = true;
+    health_.sync_lost = false;
+    ++health_.syncs;
+}
+
+bool DriveBus::is_complete() const {
+    bool any_operational = false;
+    for (const DriveNode& node : nodes_) {
+        if (!node.is_complete()) {
+            return false;
+        }
+        any_operational = any_operational || node.health().state == NodeState::operational;
+    }
+    return any_operational;
+}
+
+void DriveBus::hand_over() {
+    health_.samples_incomplete += is_complete() ? 0U : 1U;
+    health_.samples_untaken += sample_ready_ ? 1U : 0U;
+    sample_ = {};
+    sample_.time_us = static_cast<std::uint32_t>(sync_time_us_);
+    for (std::size_t k = 0; k < drive_capacity; ++k) {
+        const DriveReading reading = nodes_[k].read(sync_time_us_, rejects_);
+        nodes_[k].end_cycle();
+        put(k, reading);
+    }
+    sample_ready_ = true;
+    cycle_open_ = false;
+}
+
+void DriveBus::put(std::size_t role, const DriveReading& reading) {
+    if (role != static_cast<std::size_t>(DriveRole::spindle)) {
+        const std::size_t axis = role - 1;
+        sample_.axis_current_A[axis] = reading.current_A;
+        sample_.axis_velocity_mm_s[axis] = reading.velocity_mm_s;
+        if (reading.has_current && reading.has_velocity) {
+            sample_.present = static_cast<std::uint8_t>(sample_.present | hal::axis_mask(axis));
+        }
+        return;
+    }
+    sample_.spindle_current_A = reading.current_A;
+    sample_.spindle_count = reading.count;
+    sample_.spindle_index_count = reading.index_count;
+    sample_.spindle_index_number = reading.index_number;
+    if (reading.has_current) {
+        sample_.present = static_cast<std::uint8_t>(sample_.present | hal::mask(hal::Present::spindle_current));
+    }
+    if (reading.has_count) {
+        sample_.present = static_cast<std::uint8_t>(sample_.present | hal::mask(hal::Present::spindle_count));
+    }
+}
+
+void DriveBus::poll(std::uint64_t time_us) {
+    for (DriveNode& node : nodes_) {
+        node.poll(time_us, rejects_);
+    }
+    if (cycle_open_ && time_us >= sync_time_us_ + settings_.collect_us) {
+        hand_over();
+    }
+    if (settings_.produces_sync) {
+        produce_sync(time_us);
+    }
+    const std::uint64_t patience_us = sync_lost_after_periods * settings_.sync_period_us;
+    health_.sync_lost = !had_sync_ || time_us > sync_time_us_ + patience_us;
+}
+
+void DriveBus::produce_sync(std::uint64_t time_us) {
+    const std::uint64_t period_us = settings_.sync_period_us;
+    const bool is_first_or_clock_was_set =
+        !had_sync_ || next_sync_us_ > time_us + largest_sync_wait_periods * period_us;
+    if (is_first_or_clock_was_set) {
+        next_sync_us_ = time_us;
+    }
+    if (time_us < next_sync_us_) {
+        return;
+    }
+    const std::uint64_t late_periods = (time_us - next_sync_us_) / period_us;
+    health_.syncs_skipped += static_cast<std::uint32_t>(late_periods);
+    next_sync_us_ += (late_periods + 1) * period_us;
+    begin_cycle(time_us);
+    sync_to_send_ = true;
+}
+
+bool DriveBus::take_frame(hal::CanFrame& frame) {
+    if (sync_to_send_) {
+        sync_to_send_ = false;
+        frame = {};
+        frame.id = settings_.sync_id;
+        return true;
+    }
+    for (DriveNode& node : nodes_) {
+        if (node.node_id() != 0 && node.take_frame(frame)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool DriveBus::take_sample(hal::DriveSample& sample) {
+    if (!sample_ready_) {
+        return false;
+    }
+    sample = sample_;
+    sample_ready_ = false;
+    return true;
+}
+
+std::uint64_t DriveBus::next_event_us(std::uint64_t now_us) const {
+    std::uint64_t next_us = now_us + settings_.sync_period_us;
+    if (settings_.produces_sync) {
+        next_us = had_sync_ && next_sync_us_ < next_us ? next_sync_us_ : next_us;
+    }
+    if (cycle_open_ && sync_time_us_ + settings_.collect_us < next_us) {
+        next_us = sync_time_us_ + settings_.collect_us;
+    }
+    return next_us > now_us ? next_us : now_us;
+}
+
+bool DriveBus::is_sync_pdo(std::size_t role, std::uint32_t id) const {
+    for (const PdoMapping& pdo : settings_.drives[role].pdos) {
+        if (pdo.is_used() && pdo.id == id) {
+            return pdo.at_every_sync();
+        }
+    }
+    return false;
+}
+
+std::size_t DriveBus::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
+    std::size_t count = add_filter(filters, 0, settings_.sync_id);
+    for (const DriveSettings& drive : settings_.drives) {
+        if (drive.node_id == 0) {
+            continue;
+        }
+        for (const PdoMapping& pdo : drive.pdos) {
+            count = pdo.is_used() ? add_filter(filters, count, pdo.id) : count;
+        }
+        count = add_filter(filters, count, cob_id::heartbeat + drive.node_id);
+        count = add_filter(filters, count, cob_id::emergency + drive.node_id);
+        if (settings_.is_master) {
+            count = add_filter(filters, count, cob_id::sdo_response + drive.node_id);
+        }
+    }
+    return count;
+}
+
+const NodeHealth& DriveBus::health(DriveRole role) const { return nodes_[static_cast<std::size_t>(role)].health(); }
+
+}  // namespace millforce::cia402

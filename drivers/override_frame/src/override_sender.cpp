@@ -1,0 +1,59 @@
+#include "override_frame/override_sender.hpp"
+
+#include "nmt_states.hpp"
+
+namespace millforce::override_frame {
+
+void OverrideSender::update(const hal::FeedOverride& feed_override, std::uint64_t time_us) {
+    const bool is_urgent = !has_override_ || feed_override.hold != newest_.hold || feed_override.fault != newest_.fault;
+    const bool is_new_tick = !has_override_ || feed_override.heartbeat != newest_.heartbeat;
+    newest_ = feed_override;
+    has_override_ = true;
+    override_due_ = override_due_ || is_urgent;
+    if (is_new_tick) {
+        tick_us_ = time_us;
+        ticks_ = true;
+    }
+}
+
+void OverrideSender::poll(std::uint64_t time_us) {
+    const bool ticks = has_override_ && time_us <= tick_us_ + settings_.tick_timeout_us;
+    heartbeat_due_ = heartbeat_due_ || ticks != ticks_ || time_us >= next_heartbeat_us_;
+    ticks_ = ticks;
+    if (time_us >= next_heartbeat_us_) {
+        next_heartbeat_us_ = time_us + settings_.heartbeat_period_us;
+    }
+    if (has_override_ && time_us >= next_override_us_) {
+        override_due_ = true;
+        // In step with the clock where poll() comes in time, else from now on: no burst.
+        const std::uint64_t in_step_us = next_override_us_ + settings_.period_us;
+        next_override_us_ = in_step_us > time_us ? in_step_us : time_us + settings_.period_us;
+    }
+}
+
+std::uint8_t OverrideSender::nmt_state() const {
+    if (!has_override_) {
+        return nmt_pre_operational;
+    }
+    return ticks_ ? nmt_operational : nmt_stopped;
+}
+
+bool OverrideSender::take_frame(hal::CanFrame& frame) {
+    if (override_due_) {
+        override_due_ = false;
+        frame = encode(newest_, settings_.id);
+        return true;
+    }
+    if (!heartbeat_due_) {
+        return false;
+    }
+    heartbeat_due_ = !booted_;  // the boot-up is followed by the state
+    frame = {};
+    frame.id = heartbeat_id + settings_.node_id;
+    frame.length = 1;
+    frame.data[0] = booted_ ? nmt_state() : nmt_boot_up;
+    booted_ = true;
+    return true;
+}
+
+}  // namespace millforce::override_frame

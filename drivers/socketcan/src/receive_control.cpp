@@ -1,0 +1,51 @@
+#include "receive_control.hpp"
+
+#include <cstring>
+
+#include "socketcan/can_socket.hpp"
+
+namespace millforce::socketcan {
+
+namespace {
+
+constexpr std::int64_t longest_age_us = 1'000'000;
+
+std::int64_t microseconds(const timespec& time) {
+    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000 + time.tv_nsec / 1000;
+}
+
+timespec now(clockid_t clock) {
+    timespec time{};
+    clock_gettime(clock, &time);
+    return time;
+}
+
+}  // namespace
+
+std::uint64_t monotonic_us() { return static_cast<std::uint64_t>(microseconds(now(CLOCK_MONOTONIC))); }
+
+ReceiveControl receive_control(msghdr& message) {
+    ReceiveControl control;
+    for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
+        if (part->cmsg_level != SOL_SOCKET) {
+            continue;
+        }
+        if (part->cmsg_type == SO_TIMESTAMPNS && part->cmsg_len >= CMSG_LEN(sizeof control.time)) {
+            std::memcpy(&control.time, CMSG_DATA(part), sizeof control.time);
+            control.has_time = true;
+        } else if (part->cmsg_type == SO_RXQ_OVFL && part->cmsg_len >= CMSG_LEN(sizeof control.drops)) {
+            std::memcpy(&control.drops, CMSG_DATA(part), sizeof control.drops);
+            control.has_drops = true;
+        }
+    }
+    return control;
+}
+
+std::uint64_t monotonic_from(const timespec& realtime) {
+    const std::int64_t age_us = microseconds(now(CLOCK_REALTIME)) - microseconds(realtime);
+    const std::uint64_t now_us = monotonic_us();
+    const bool is_plausible = age_us >= 0 && age_us <= longest_age_us && static_cast<std::uint64_t>(age_us) <= now_us;
+    return is_plausible ? now_us - static_cast<std::uint64_t>(age_us) : now_us;
+}
+
+}  // namespace millforce::socketcan

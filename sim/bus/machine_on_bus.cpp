@@ -1,0 +1,68 @@
+#include "bus/machine_on_bus.hpp"
+
+#include <cmath>
+
+namespace millforce::sim {
+
+MachineOnBus::MachineOnBus(const MachineOnBusSettings& settings) : settings_(settings) {
+    for (std::size_t place = 0; place < settings.rated_current_A.size(); ++place) {
+        CanopenDriveSettings drive;
+        drive.node_id = static_cast<std::uint8_t>(place + 1);
+        drive.rated_current_A = settings.rated_current_A[place];
+        drive.heartbeat_ms = settings.heartbeat_ms;
+        drives_.emplace_back(drive);
+    }
+}
+
+void MachineOnBus::set(const hal::DriveSample& sample) {
+    const double elapsed_s = has_time_ ? 1e-6 * static_cast<std::uint32_t>(sample.time_us - last_time_us_) : 0.0;
+    has_time_ = true;
+    last_time_us_ = sample.time_us;
+    if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0) {
+        drives_[0].set_current_A(static_cast<double>(sample.spindle_current_A));
+    }
+    if ((sample.present & hal::mask(hal::Present::spindle_count)) != 0) {
+        drives_[0].set_position(static_cast<std::int32_t>(sample.spindle_count));
+    }
+    if (sample.spindle_index_number != last_index_number_) {
+        last_index_number_ = sample.spindle_index_number;
+        drives_[0].latch_index(static_cast<std::int32_t>(sample.spindle_index_count));
+    }
+    for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
+        if ((sample.present & hal::axis_mask(axis)) != 0) {
+            set_axis(axis, sample, elapsed_s);
+        }
+    }
+}
+
+void MachineOnBus::set_axis(std::size_t axis, const hal::DriveSample& sample, double elapsed_s) {
+    const auto velocity_mm_s = static_cast<double>(sample.axis_velocity_mm_s[axis]);
+    position_mm_[axis] += velocity_mm_s * elapsed_s;
+    CanopenDrive& drive = drives_[1 + axis];
+    drive.set_current_A(static_cast<double>(sample.axis_current_A[axis]));
+    drive.set_velocity(static_cast<std::int32_t>(std::lround(velocity_mm_s / settings_.velocity_unit_mm_s)));
+    drive.set_position(static_cast<std::int32_t>(std::lround(position_mm_[axis] / settings_.position_unit_mm)));
+}
+
+void MachineOnBus::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
+    for (CanopenDrive& drive : drives_) {
+        drive.on_frame(frame, time_us);
+    }
+}
+
+void MachineOnBus::poll(std::uint64_t time_us) {
+    for (CanopenDrive& drive : drives_) {
+        drive.poll(time_us);
+    }
+}
+
+std::vector<hal::CanFrame> MachineOnBus::take_frames() {
+    std::vector<hal::CanFrame> frames;
+    for (CanopenDrive& drive : drives_) {
+        const auto more = drive.take_frames();
+        frames.insert(frames.end(), more.begin(), more.end());
+    }
+    return frames;
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bus/canopen_drive.hpp"
+#include "hal/can_frame.hpp"
+#include "hal/drive_sample.hpp"
+
+namespace millforce::sim {
+
+/// How the drives of a simulated machine are wired: nodes 1…4 are spindle, x, y, z.
+struct MachineOnBusSettings {
+    std::array<double, 1 + hal::axis_count> rated_current_A{12.0, 12.0, 12.0, 12.0};
+    double velocity_unit_mm_s = 0.001;  ///< of 0x606C
+    double position_unit_mm = 0.0001;   ///< of 0x6064
+    std::uint16_t heartbeat_ms = 50;
+};
+
+/// A machine's four drives as one participant of a bus: what its sensors tell goes in, frames go in and out. As
+/// delivered each sends TPDO 1 with position, current and statusword; velocity (0x606C) and the spindle's index pulse
+/// (0x60BA, 0x60D5) are there to be mapped.
+class MachineOnBus {
+  public:
+    explicit MachineOnBus(const MachineOnBusSettings& settings);
+
+    /// What is not present in the sample stays as it was. The positions of the axes are the sum of their velocities.
+    void set(const hal::DriveSample& sample);
+    void on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
+    void poll(std::uint64_t time_us);
+    [[nodiscard]] std::vector<hal::CanFrame> take_frames();
+
+    /// 0: spindle, 1…3: x, y, z.
+    [[nodiscard]] CanopenDrive& drive(std::size_t place) { return drives_.at(place); }
+
+  private:
+    void set_axis(std::size_t axis, const hal::DriveSample& sample, double elapsed_s);
+
+    MachineOnBusSettings settings_;
+    std::vector<CanopenDrive> drives_;
+    std::array<double, hal::axis_count> position_mm_{};
+    std::uint32_t last_time_us_ = 0;
+    std::uint8_t last_index_number_ = 0;
+    bool has_time_ = false;
+};
+
+}  // namespace millforce::sim

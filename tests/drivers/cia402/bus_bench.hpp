@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cia402/drive_bus.hpp>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bus/canopen_drive.hpp"
+#include "bus/loopback_bus.hpp"
+
+/// The driver as master or listener and simulated drives on one bus in memory.
+
+namespace millforce::cia402::bench {
+
+inline MappedObject mapped(std::uint16_t index, std::uint8_t bits) { return {index, 0, bits}; }
+
+/// As a drive is delivered: position, current, statusword in TPDO 1.
+inline PdoMapping first_pdo(std::uint8_t node_id) {
+    PdoMapping pdo;
+    pdo.id = cob_id::tpdo1 + node_id;
+    pdo.object_count = 3;
+    pdo.objects = {mapped(object::position_actual, 32), mapped(object::current_actual, 16),
+                   mapped(object::statusword, 16)};
+    return pdo;
+}
+
+inline DriveSettings spindle_drive(std::uint8_t node_id) {
+    DriveSettings drive;
+    drive.node_id = node_id;
+    drive.pdos[0] = first_pdo(node_id);
+    return drive;
+}
+
+inline DriveSettings axis_drive(std::uint8_t node_id) {
+    DriveSettings drive = spindle_drive(node_id);
+    drive.velocity_source = VelocitySource::position_difference;
+    drive.position_mm_per_unit = 0.001F;
+    return drive;
+}
+
+/// Spindle at node 1, x at node 2; the driver is master and produces SYNC.
+inline BusSettings two_drives() {
+    BusSettings settings;
+    settings.is_master = true;
+    settings.produces_sync = true;
+    settings.drives[0] = spindle_drive(1);
+    settings.drives[1] = axis_drive(2);
+    return settings;
+}
+
+class BusBench {
+  public:
+    explicit BusBench(const BusSettings& settings) : bus(settings) {
+        master_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { bus.on_frame(frame, t); });
+    }
+
+    sim::CanopenDrive& add_drive(const sim::CanopenDriveSettings& settings) {
+        drives.push_back(std::make_unique<sim::CanopenDrive>(settings));
+        sim::CanopenDrive* drive = drives.back().get();
+        places_.push_back(wire.attach([drive](const hal::CanFrame& f, std::uint64_t t) { drive->on_frame(f, t); }));
+        return *drive;
+    }
+
+    void run_us(std::uint64_t duration_us) {
+        for (const std::uint64_t end_us = now_us + duration_us; now_us < end_us; now_us += 20) {
+            step();
+        }
+    }
+    void run_ms(std::uint64_t duration_ms) { run_us(1000 * duration_ms); }
+
+    /// A frame by a stranger on the bus.
+    void inject(const hal::CanFrame& frame) { wire.send(-1, frame, now_us); }
+
+    sim::LoopbackBus wire{};
+    DriveBus bus;
+    std::vector<std::unique_ptr<sim::CanopenDrive>> drives{};
+    std::vector<hal::DriveSample> samples{};
+    std::uint64_t now_us = 1'000'000;
+
+  private:
+    void step() {
+        bus.poll(now_us);
+        hal::CanFrame frame;
+        while (bus.take_frame(frame)) {
+            wire.send(master_, frame, now_us);
+        }
+        for (std::size_t k = 0; k < drives.size(); ++k) {
+            drives[k]->poll(now_us);
+            for (const hal::CanFrame& sent : drives[k]->take_frames()) {
+                wire.send(places_[k], sent, now_us);
+            }
+        }
+        wire.advance_to(now_us);
+        hal::DriveSample sample;
+        if (bus.take_sample(sample)) {
+            samples.push_back(sample);
+        }
+    }
+
+    int master_ = 0;
+    std::vector<int> places_{};
+};
+
+/// With both drives powered and heartbeats at 20 ms.
+class TwoDrives : public BusBench {
+  public:
+    explicit TwoDrives(const BusSettings& settings = two_drives()) : BusBench(settings) {
+        add_drive({1, 12.0, 8.0, 20});
+        add_drive({2, 10.0, 6.0, 20});
+    }
+    sim::CanopenDrive& spindle() { return *drives[0]; }
+    sim::CanopenDrive& x() { return *drives[1]; }
+    [[nodiscard]] const NodeHealth& spindle_health() const { return bus.health(DriveRole::spindle); }
+    [[nodiscard]] const NodeHealth& x_health() const { return bus.health(DriveRole::x_axis); }
+    [[nodiscard]] bool both_operational() const {
+        return spindle_health().state == NodeState::operational && x_health().state == NodeState::operational;
+    }
+};
+
+inline bool has(const hal::DriveSample& sample, hal::Present quantity) {
+    return (sample.present & hal::mask(quantity)) != 0;
+}
+
+inline hal::CanFrame frame(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
+    hal::CanFrame f;
+    f.id = id;
+    for (const std::uint8_t byte : bytes) {
+        f.data[f.length++] = byte;
+    }
+    return f;
+}
+
+}  // namespace millforce::cia402::bench

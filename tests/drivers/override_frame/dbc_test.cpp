@@ -1,0 +1,64 @@
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "override_frame/override_frame.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+
+namespace {
+
+struct DbcSignal {
+    unsigned first_bit = 0;
+    unsigned bits = 0;
+    double scale = 0.0;
+};
+
+/// Unsigned little-endian signals of one message.
+std::map<std::string, DbcSignal> signals_of(const std::string& message) {
+    std::map<std::string, DbcSignal> signals;
+    std::ifstream file(MILLFORCE_SOURCE_DIR "/drivers/millforce.dbc");
+    bool is_in_message = false;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("BO_ ")) {
+            is_in_message = line.starts_with(message);
+        }
+        char name[40] = {};
+        DbcSignal signal;
+        if (is_in_message && std::sscanf(line.c_str(), " SG_ %39s : %u|%u@1+ (%lf", name, &signal.first_bit,
+                                         &signal.bits, &signal.scale) == 4) {
+            signals[name] = signal;
+        }
+    }
+    return signals;
+}
+
+double value_of(const DbcSignal& signal, const hal::CanFrame& frame) {
+    double value = 0.0;
+    for (unsigned k = signal.bits; k-- > 0;) {
+        const unsigned bit = signal.first_bit + k;
+        value = 2.0 * value + static_cast<double>((frame.data[bit / 8] >> (bit % 8)) & 1U);
+    }
+    return value * signal.scale;
+}
+
+}  // namespace
+
+TEST_GROUP(Dbc){};
+
+TEST(Dbc, describes_the_override_frame_as_it_is_encoded) {
+    auto signals = signals_of("BO_ 510 FeedOverride: 8 ");
+    CHECK_EQUAL(7U, signals.size());
+    UNSIGNED_LONGS_EQUAL(510, override_frame::default_id);
+    const hal::CanFrame frame = override_frame::encode({1.2345F, true, 7, 3, 0xBEEF}, override_frame::default_id);
+    DOUBLES_EQUAL(1.2345, value_of(signals["Ratio"], frame), 1e-9);
+    DOUBLES_EQUAL(1, value_of(signals["Hold"], frame), 0);
+    DOUBLES_EQUAL(0, value_of(signals["Reserved"], frame), 0);
+    DOUBLES_EQUAL(7, value_of(signals["State"], frame), 0);
+    DOUBLES_EQUAL(3, value_of(signals["Fault"], frame), 0);
+    DOUBLES_EQUAL(0xBEEF, value_of(signals["Counter"], frame), 0);
+    DOUBLES_EQUAL(frame.data[7], value_of(signals["Checksum"], frame), 0);
+}

@@ -1,0 +1,173 @@
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "socketcan/can_socket.hpp"
+
+/// The other side of a vcan interface: can-utils, iproute2, and processes of our own.
+
+namespace millforce::vcan {
+
+inline void sleep_ms(int duration_ms) { std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms)); }
+
+/// The exit code of a shell command; what it prints goes nowhere.
+inline int shell(const std::string& command) {
+    const int status = std::system((command + " >/dev/null 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// A process that is ended with the object.
+class Child {
+  public:
+    explicit Child(const std::function<void()>& work) : pid_(fork()) {
+        if (pid_ == 0) {
+            work();
+            _exit(0);
+        }
+    }
+    explicit Child(const std::string& command)
+        : Child([&] { execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr); }) {}
+    ~Child() {
+        send_signal(SIGCONT);
+        send_signal(SIGKILL);
+        wait();
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    void send_signal(int signal) const {
+        if (pid_ > 0) {
+            kill(pid_, signal);
+        }
+    }
+    [[nodiscard]] bool has_ended() {
+        if (pid_ > 0 && waitpid(pid_, nullptr, WNOHANG) == pid_) {
+            pid_ = 0;
+        }
+        return pid_ == 0;
+    }
+    void wait() {
+        if (pid_ > 0) {
+            waitpid(pid_, nullptr, 0);
+        }
+        pid_ = 0;
+    }
+
+  private:
+    pid_t pid_;
+};
+
+inline std::string temporary_file(const std::string& name) {
+    const char* folder = std::getenv("TMPDIR");
+    return std::string(folder != nullptr ? folder : "/tmp") + "/" + std::to_string(getpid()) + "_" + name;
+}
+
+inline std::vector<std::string> lines_of(const std::string& file) {
+    std::ifstream in(file);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// `candump -L` of an interface into a file, from when the constructor returns.
+class Candump {
+  public:
+    explicit Candump(const std::string& interface)
+        : file_(temporary_file("candump")), process_("stdbuf -oL candump -L " + interface + " >" + file_) {
+        sleep_ms(100);
+    }
+    ~Candump() { unlink(file_.c_str()); }
+    Candump(const Candump&) = delete;
+    Candump& operator=(const Candump&) = delete;
+
+    /// Frames as `123#1122`, without time and interface.
+    [[nodiscard]] std::vector<std::string> frames() const {
+        sleep_ms(50);
+        std::vector<std::string> frames = lines_of(file_);
+        for (std::string& line : frames) {
+            line = line.substr(line.rfind(' ') + 1);
+        }
+        return frames;
+    }
+
+  private:
+    std::string file_;
+    Child process_;
+};
+
+inline socketcan::CanSocketSettings on(const std::string& interface) {
+    socketcan::CanSocketSettings settings;
+    settings.set_interface(interface);
+    settings.look_period_us = 10'000;
+    return settings;
+}
+
+/// A driver's socket that is open, and what it received.
+class Listener {
+  public:
+    explicit Listener(const socketcan::CanSocketSettings& settings) : socket(settings) {
+        socket.poll(socketcan::monotonic_us());
+    }
+
+    /// Polls and fetches for so long.
+    void run_ms(int duration_ms) {
+        const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * static_cast<unsigned>(duration_ms);
+        while (socketcan::monotonic_us() < end_us) {
+            step();
+        }
+    }
+    /// Until it holds; false after two seconds.
+    bool run_until(const std::function<bool()>& holds) {
+        const std::uint64_t end_us = socketcan::monotonic_us() + 2'000'000;
+        while (!holds()) {
+            if (socketcan::monotonic_us() > end_us) {
+                return false;
+            }
+            step();
+        }
+        return true;
+    }
+
+    socketcan::CanSocket socket;
+    std::vector<hal::CanFrame> frames{};
+    std::vector<std::uint64_t> times_us{};
+
+  private:
+    void step() {
+        socket.wait(1000);
+        socket.poll(socketcan::monotonic_us());
+        hal::CanFrame frame;
+        std::uint64_t time_us = 0;
+        while (socket.receive(frame, time_us)) {
+            frames.push_back(frame);
+            times_us.push_back(time_us);
+        }
+    }
+};
+
+inline hal::CanFrame frame_of(std::uint32_t id, std::initializer_list<int> bytes) {
+    hal::CanFrame frame;
+    frame.id = id;
+    for (const int byte : bytes) {
+        frame.data[frame.length++] = static_cast<std::uint8_t>(byte);
+    }
+    return frame;
+}
+
+}  // namespace millforce::vcan

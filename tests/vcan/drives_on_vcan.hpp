@@ -1,0 +1,190 @@
+#pragma once
+
+#include <linux/can.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bus/canopen_drive.hpp"
+#include "bus_peers.hpp"
+#include "cia402/drive_bus.hpp"
+
+/// Simulated drives in a process of their own, and the driver's bus on a socket.
+
+namespace millforce::vcan {
+
+inline constexpr int counts_per_sync = 137;
+
+/// A plain blocking socket: the drives share nothing with the driver under test.
+class PlainSocket {
+  public:
+    explicit PlainSocket(const std::string& interface) : descriptor_(socket(PF_CAN, SOCK_RAW, CAN_RAW)) {
+        sockaddr_can address{};
+        address.can_family = AF_CAN;
+        address.can_ifindex = static_cast<int>(if_nametoindex(interface.c_str()));
+        if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+            std::perror("bind");
+        }
+    }
+    ~PlainSocket() { close(descriptor_); }
+    PlainSocket(const PlainSocket&) = delete;
+    PlainSocket& operator=(const PlainSocket&) = delete;
+
+    [[nodiscard]] bool receive(hal::CanFrame& frame) const {
+        pollfd waited{descriptor_, POLLIN, 0};
+        can_frame raw{};
+        if (poll(&waited, 1, 1) != 1 || read(descriptor_, &raw, sizeof raw) != sizeof raw) {
+            return false;
+        }
+        frame.id = raw.can_id & CAN_EFF_MASK;
+        frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+        frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+        frame.length = raw.len;
+        std::copy_n(std::begin(raw.data), 8, frame.data.begin());
+        return true;
+    }
+    void send(const hal::CanFrame& frame) const {
+        can_frame raw{};
+        raw.can_id = frame.id;
+        raw.len = frame.length;
+        std::copy_n(frame.data.begin(), 8, std::begin(raw.data));
+        if (write(descriptor_, &raw, sizeof raw) != sizeof raw && errno != ENOBUFS && errno != ENETDOWN) {
+            std::perror("write");
+        }
+    }
+
+  private:
+    int descriptor_;
+};
+
+/// Drives at nodes 1…count, heartbeat 20 ms. At each SYNC every one moves by `counts_per_sync`; node 1 draws 6 A.
+inline void run_drives(const std::string& interface, int count) {
+    const PlainSocket socket(interface);
+    std::vector<std::unique_ptr<sim::CanopenDrive>> drives;
+    for (int node = 1; node <= count; ++node) {
+        sim::CanopenDriveSettings settings;
+        settings.node_id = static_cast<std::uint8_t>(node);
+        settings.heartbeat_ms = 20;
+        drives.push_back(std::make_unique<sim::CanopenDrive>(settings));
+        drives.back()->set_current_A(6.0);
+    }
+    std::int32_t position = 0;
+    for (;;) {
+        hal::CanFrame frame;
+        const bool received = socket.receive(frame);
+        const std::uint64_t now_us = socketcan::monotonic_us();
+        position += received && frame.id == 0x080 ? counts_per_sync : 0;
+        for (const auto& drive : drives) {
+            drive->set_position(position);
+            if (received) {
+                drive->on_frame(frame, now_us);
+            }
+            drive->poll(now_us);
+            for (const hal::CanFrame& sent : drive->take_frames()) {
+                socket.send(sent);
+            }
+        }
+    }
+}
+
+inline cia402::DriveSettings drive_settings(std::size_t role) {
+    using namespace cia402;
+    DriveSettings drive;
+    drive.node_id = static_cast<std::uint8_t>(role + 1);
+    drive.heartbeat_timeout_us = 200'000;
+    drive.pdos[0].id = 0x181 + static_cast<std::uint32_t>(role);
+    drive.pdos[0].object_count = 3;
+    drive.pdos[0].objects = {MappedObject{object::position_actual, 0, 32}, MappedObject{object::current_actual, 0, 16},
+                             MappedObject{object::statusword, 0, 16}};
+    drive.velocity_source = VelocitySource::position_difference;
+    drive.position_mm_per_unit = 0.0001F;
+    return drive;
+}
+
+inline cia402::BusSettings bus_settings(std::size_t drives, std::uint32_t period_us) {
+    cia402::BusSettings settings;
+    settings.is_master = true;
+    settings.produces_sync = true;
+    settings.sync_period_us = period_us;
+    settings.collect_us = period_us;
+    for (std::size_t role = 0; role < drives; ++role) {
+        settings.drives[role] = drive_settings(role);
+    }
+    return settings;
+}
+
+/// The driver's whole way: socket, bus, samples.
+class BusOnVcan {
+  public:
+    explicit BusOnVcan(const cia402::BusSettings& settings) : bus(settings), socket(socket_settings(bus)) {}
+
+    void run_ms(int duration_ms) {
+        const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * static_cast<unsigned>(duration_ms);
+        while (socketcan::monotonic_us() < end_us) {
+            step();
+        }
+    }
+    bool run_until(const std::function<bool()>& holds) {
+        const std::uint64_t end_us = socketcan::monotonic_us() + 5'000'000;
+        while (!holds()) {
+            if (socketcan::monotonic_us() > end_us) {
+                return false;
+            }
+            step();
+        }
+        return true;
+    }
+    [[nodiscard]] bool all_operational(std::size_t drives) const {
+        return all_are(drives, cia402::NodeState::operational);
+    }
+    [[nodiscard]] bool all_are(std::size_t drives, cia402::NodeState state) const {
+        for (std::size_t role = 0; role < drives; ++role) {
+            if (bus.health(static_cast<cia402::DriveRole>(role)).state != state) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    cia402::DriveBus bus;
+    socketcan::CanSocket socket;
+    std::vector<hal::DriveSample> samples{};
+
+  private:
+    static socketcan::CanSocketSettings socket_settings(const cia402::DriveBus& bus) {
+        auto settings = on("vcan0");
+        std::array<hal::CanFilter, cia402::DriveBus::filter_capacity> filters{};
+        settings.filter_count = bus.filters(filters);
+        std::copy_n(filters.begin(), settings.filter_count, settings.filters.begin());
+        return settings;
+    }
+    void step() {
+        std::uint64_t now_us = socketcan::monotonic_us();
+        socket.wait(bus.next_event_us(now_us) - now_us);
+        now_us = socketcan::monotonic_us();
+        socket.poll(now_us);
+        hal::CanFrame frame;
+        std::uint64_t time_us = 0;
+        while (socket.receive(frame, time_us)) {
+            bus.on_frame(frame, time_us);
+            take_sample();
+        }
+        bus.poll(socketcan::monotonic_us());
+        take_sample();
+        while (bus.take_frame(frame)) {
+            socket.send(frame);
+        }
+    }
+    void take_sample() {
+        hal::DriveSample sample;
+        if (bus.take_sample(sample)) {
+            samples.push_back(sample);
+        }
+    }
+};
+
+}  // namespace millforce::vcan
