@@ -114,6 +114,7 @@ void DriveNode::enter_start_of_life(std::uint64_t time_us) {
     pdo_received_ = {};
     has_last_count_ = false;
     has_index_ = false;
+    index_number_ = 0;
     has_last_position_ = false;
     travel_check_ = {};
     health_.units_disagree = false;
