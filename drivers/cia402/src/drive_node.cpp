@@ -114,6 +114,7 @@ void DriveNode::enter_start_of_life(std::uint64_t time_us) {
     pdo_received_ = {};
     has_last_count_ = false;
     has_index_ = false;
+    index_number_ = 0;
     has_last_position_ = false;
     travel_check_ = {};
     health_.units_disagree = false;
@@ -133,10 +134,8 @@ void DriveNode::poll(std::uint64_t time_us, RejectCounters& rejects) {
         heartbeat_us_ = time_us;
         enter_start_of_life(time_us);
     }
-    const bool is_watched = settings_.heartbeat_timeout_us != 0 &&
-                            (health_.state == NodeState::operational || health_.state == NodeState::starting);
-    if (is_watched && time_us > heartbeat_us_ + settings_.heartbeat_timeout_us &&
-        health_.state == NodeState::operational) {
+    const bool is_watched = settings_.heartbeat_timeout_us != 0 && health_.state == NodeState::operational;
+    if (is_watched && time_us > heartbeat_us_ + settings_.heartbeat_timeout_us) {
         health_.state = NodeState::lost;
         health_.power = PowerState::unknown;
         health_.times_lost += health_.times_lost < UINT32_MAX ? 1U : 0U;

@@ -125,6 +125,7 @@ void DriveNode::read_count(std::uint64_t now_us, DriveReading& reading, RejectCo
     last_raw_count_ = raw;
     last_count_us_ = now_us;
     if (!is_possible) {
+        index_number_ = 0;  // the drive may count from elsewhere now: the index is not known until its next pulse
         rejects.add(Reject::position_step);
         return;
     }
@@ -133,16 +134,19 @@ void DriveNode::read_count(std::uint64_t now_us, DriveReading& reading, RejectCo
     read_index(now_us, raw, reading);
 }
 
-/// A new pulse was at most a period ago, so the way since then is short; an old one may be turns ago.
+/// A new pulse was at most a period ago, so the way since then is short. One that was there before the drive was first
+/// read may be turns ago: then a modulus of whole revolutions gives its angle all the same.
 void DriveNode::read_index(std::uint64_t now_us, std::uint32_t raw_count, DriveReading& reading) {
     if (is_fresh(Signal::index_count, now_us) && is_fresh(Signal::index_number, now_us)) {
-        const auto number = static_cast<std::uint8_t>(signals_.raw(Signal::index_number));
-        if (number != index_number_ || !has_index_) {
+        const std::uint32_t raw_number = signals_.raw(Signal::index_number);
+        const bool is_new = has_index_ ? raw_number != last_raw_index_number_ : raw_number != 0;
+        has_index_ = true;
+        last_raw_index_number_ = raw_number;
+        if (is_new) {
             const std::uint64_t modulus = modulus_of(settings_.count_modulus, signals_.bits(Signal::count));
             const std::int64_t since = shortest_step(signals_.raw(Signal::index_count), raw_count, modulus);
             index_count_ = count_ - static_cast<std::uint32_t>(settings_.count_reversed ? -since : since);
-            index_number_ = number;
-            has_index_ = true;
+            index_number_ = static_cast<std::uint8_t>(index_number_ == UINT8_MAX ? 1 : index_number_ + 1);
         }
     }
     reading.index_count = index_count_;

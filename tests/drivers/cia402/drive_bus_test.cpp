@@ -342,6 +342,29 @@ TEST(DriveBus, a_spindle_that_counts_backwards_with_a_modulus_and_an_index_is_un
     CHECK(machine.samples.back().spindle_index_number >= 3);
 }
 
+TEST(DriveBus, after_a_count_that_jumped_the_index_is_unknown_until_its_next_pulse) {
+    BusSettings settings = two_drives();
+    settings.drives[0].largest_count_step = 500;
+    settings.drives[0].index_count_object = {0x60BA, 0};
+    settings.drives[0].index_number_object = {0x60D5, 0};
+    settings.drives[0].write_mapping = true;
+    settings.drives[0].pdos[1].id = 0x281;
+    settings.drives[0].pdos[1].object_count = 2;
+    settings.drives[0].pdos[1].objects = {mapped(0x60BA, 32), mapped(0x60D5, 16)};
+    TwoDrives machine(settings);
+    machine.spindle().latch_index(-100);
+    machine.run_ms(100);
+    UNSIGNED_LONGS_EQUAL(1, machine.samples.back().spindle_index_number);
+    LONGS_EQUAL(100, machine.samples.back().spindle_count - machine.samples.back().spindle_index_count);
+    machine.spindle().set_position(100'000);
+    machine.run_ms(5);
+    UNSIGNED_LONGS_EQUAL(0, machine.samples.back().spindle_index_number);
+    machine.spindle().latch_index(99'990);
+    machine.run_ms(5);
+    UNSIGNED_LONGS_EQUAL(1, machine.samples.back().spindle_index_number);
+    LONGS_EQUAL(10, machine.samples.back().spindle_count - machine.samples.back().spindle_index_count);
+}
+
 TEST(DriveBus, by_event_pdos_are_used_until_they_are_stale) {
     BusSettings settings = two_drives();
     settings.is_master = false;

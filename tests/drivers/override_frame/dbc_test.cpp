@@ -40,7 +40,7 @@ double value_of(const DbcSignal& signal, const hal::CanFrame& frame) {
     double value = 0.0;
     for (unsigned k = signal.bits; k-- > 0;) {
         const unsigned bit = signal.first_bit + k;
-        value = 2.0 * value + static_cast<double>((frame.data[bit / 8] >> (bit % 8)) & 1U);
+        value = 2.0 * value + static_cast<double>((static_cast<unsigned>(frame.data[bit / 8]) >> (bit % 8)) & 1U);
     }
     return value * signal.scale;
 }

@@ -47,8 +47,8 @@ struct DriveReading {
     float current_A = 0.0F;
     float velocity_mm_s = 0.0F;
     std::uint32_t count = 0;
-    std::uint32_t index_count = 0;  ///< of the last index pulse seen; before the first one it means nothing
-    std::uint8_t index_number = 0;
+    std::uint32_t index_count = 0;
+    std::uint8_t index_number = 0;  ///< 0: no pulse yet; then 1…255 and again from 1
 };
 
 /// Cost of on_frame: a walk over the mapped objects (at most 8). One thread.
@@ -120,6 +120,7 @@ class DriveNode {
     std::uint64_t last_count_us_ = 0;
     std::uint32_t count_ = 0;
     bool has_index_ = false;
+    std::uint32_t last_raw_index_number_ = 0;
     std::uint32_t index_count_ = 0;
     std::uint8_t index_number_ = 0;
     bool has_last_position_ = false;
