@@ -4,11 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <utility>
 
 namespace millforce::sim {
 
 void print_fitted(std::ostream& out, const FittedValue& fitted) {
+    if (std::isnan(fitted.standard_error)) {
+        out << fmt::format("  {:<40} {:>12.6g}   not fitted\n", fitted.key.name, fitted.value);
+        return;
+    }
     out << fmt::format("  {:<40} {:>12.6g} ± {:<10.3g} {}\n", fitted.key.name, fitted.value, fitted.standard_error,
                        fitted.key.unit);
 }

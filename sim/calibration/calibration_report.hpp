@@ -21,7 +21,7 @@ struct FittedValue {
     double standard_error = 0.0;
 };
 
-/// Prints one aligned line "name  value ± standard error  unit".
+/// Prints one aligned line "name  value ± standard error  unit"; a value without a standard error was not fitted.
 void print_fitted(std::ostream& out, const FittedValue& fitted);
 
 /// Writes KEY and KEY_se. Throws InputError where the value lies outside of what the parameter files allow: such a fit

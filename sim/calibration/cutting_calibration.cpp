@@ -146,24 +146,28 @@ CutSide told_or_inferred_side(const CuttingCalibrationOptions& options, const st
     return told ? side : CutSide::down;
 }
 
-/// Values at t = 1 mm, as the law holds them.
-std::array<FittedValue, 6> fitted_values(const CuttingFit<double>& fit) {
+/// Values at t = 1 mm, as the law holds them. What the chosen form has not is 0, without a standard error.
+std::array<FittedValue, 6> fitted_values(const CuttingFit<double>& fit, CuttingLawForm form) {
     const auto& law = fit.law;
-    const auto se = [&](int j) { return fit.standard_error(j); };
     const auto& keys = cutting_coefficient_keys;
+    const auto fitted = [&](const CalibrationKey& key, bool is_held, double value, int j) {
+        return is_held ? FittedValue{key, 0.0, no_estimate} : FittedValue{key, value, fit.standard_error(j)};
+    };
+    const bool no_exponents = form == CuttingLawForm::linear_edge;
+    const bool no_edge = form == CuttingLawForm::power;
     return {{{keys[0], law.k_s_N_per_mm2, fit.k_s_standard_error()},
-             {keys[1], law.p_s, se(estimation::cutting_p_s)},
+             fitted(keys[1], no_exponents, law.p_s, estimation::cutting_p_s),
              {keys[2], law.k_1, fit.k_1_standard_error()},
-             {keys[3], law.p_1, se(estimation::cutting_p_1)},
-             {keys[4], law.K_te_N_per_mm, se(estimation::cutting_K_te)},
-             {keys[5], law.K_re_N_per_mm, se(estimation::cutting_K_re)}}};
+             fitted(keys[3], no_exponents, law.p_1, estimation::cutting_p_1),
+             fitted(keys[4], no_edge, law.K_te_N_per_mm, estimation::cutting_K_te),
+             fitted(keys[5], no_edge, law.K_re_N_per_mm, estimation::cutting_K_re)}};
 }
 
 void print_fit(std::ostream& out, const CuttingFit<double>& fit, CuttingLawForm form) {
     out << fmt::format("{} law, feed per tooth {:.4g} to {:.4g} mm, mean chip thickness {:.4g} to {:.4g} mm\n",
                        form_name(form), fit.minimum_feed_per_tooth_mm, fit.maximum_feed_per_tooth_mm,
                        fit.law.minimum_chip_thickness_mm, fit.law.maximum_chip_thickness_mm);
-    for (const FittedValue& fitted : fitted_values(fit)) {
+    for (const FittedValue& fitted : fitted_values(fit, form)) {
         print_fitted(out, fitted);
     }
     const auto scatter = [&](std::string_view name, const estimation::CuttingScatter<double>& s) {
@@ -239,7 +243,7 @@ void write_fit(const CuttingCalibrationOptions& options, const CuttingFit<double
                              form_name(options.form())));
     toml.comment("Fitted from " + list_of_files(options.data));
     toml.table("cutting");
-    for (const FittedValue& fitted : fitted_values(fit)) {
+    for (const FittedValue& fitted : fitted_values(fit, options.form())) {
         write_fitted(toml, fitted);
     }
     const auto& law = fit.law;

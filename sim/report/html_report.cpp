@@ -65,7 +65,7 @@ std::string headline_html(std::span<const RunResult> runs) {
     const std::string time = readable_time(figures.time_s, longest_s);
     std::string out;
     if (saved) {
-        out += stat(limit_held(figures) ? "hero held" : "hero", fmt::format("{:.1f} %", std::abs(*saved)),
+        out += stat(limit_held(figures) && *saved >= 0.0 ? "hero held" : "hero", fmt::format("{:.1f} %", std::abs(*saved)),
                     *saved < 0.0 ? "more machining time than a constant feed that is safe everywhere"
                                  : "less machining time than a constant feed that is safe everywhere");
         out += stat("", time, fmt::format("instead of {}", readable_time(constant_s, longest_s)));
