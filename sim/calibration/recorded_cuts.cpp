@@ -22,7 +22,7 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 /// The recording that a row of the table names, or the only one.
 std::string named_recording(const CsvReader& csv, std::optional<CsvColumn> column,
                             const std::vector<std::filesystem::path>& recordings) {
-    const std::string name = column ? std::string(csv.text(*column)) : std::string();
+    std::string name = column ? std::string(csv.text(*column)) : std::string();
     if (name.empty()) {
         if (recordings.size() > 1) {
             throw InputError(fmt::format("{}:{}: column 'recording': empty; expected the name of one of the {} recordings",

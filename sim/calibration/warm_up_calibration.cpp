@@ -92,6 +92,7 @@ std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vec
                                      path.string()));
     }
     std::vector<double> speeds;
+    speeds.reserve(seconds.size());
     for (const IdleSecond& second : seconds) {
         speeds.push_back(second.speed_rad_s);
     }
@@ -136,6 +137,7 @@ int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out
     const MachineParameters machine = read_machine_parameters(options.machine.string());
     const auto seconds = at_one_speed(options.data, read_idle_seconds(options.data));
     std::vector<estimation::IdleTorque<double>> torques;
+    torques.reserve(seconds.size());
     for (const IdleSecond& s : seconds) {
         torques.push_back({s.time_s, spindle_gain_Nm_per_A(machine, s.speed_rad_s) * s.current_A});
     }

@@ -152,15 +152,16 @@ void add_force_ratio(Reproduction& result) {
     };
     bool monotone = true;
     double last = -std::numeric_limits<double>::infinity();
-    for (double R_r = 0.05; R_r <= 2.0; R_r += 0.05) {
-        const double now = ratio(CutSide::down, R_r);
+    for (int k = 1; k <= 40; ++k) {
+        const double now = ratio(CutSide::down, 0.05 * k);
         monotone = monotone && now > last;
         last = now;
     }
     const auto change = [&](CutSide side) {
         double lowest = std::numeric_limits<double>::infinity();
         double highest = -lowest;
-        for (double R_r = 0.05; R_r <= 0.2; R_r += 0.01) {
+        for (int k = 5; k <= 20; ++k) {
+            const double R_r = 0.01 * k;
             lowest = std::min(lowest, ratio(side, R_r));
             highest = std::max(highest, ratio(side, R_r));
         }
@@ -384,27 +385,27 @@ void add_engagement(const std::vector<KimCampaign>& campaigns, const std::vector
 
 std::vector<std::string> deviations() {
     return {
-        "Eq. 4 prints R_r before the brackets of F_ax and F_ay; integration of the edge elements gives R_a. In B_r the "
-        "printed φ_N is the entry angle φ_r.",
-        "Table 3 prints K_x4 = 196.61 and K_x5 = −1911.00: K_t1 and K_t2 of Eq. 8 to the digit. With them F_ax is −7644 N "
-        "at 0.25 m/min where the axis only overcomes its friction. Here both are calibrated, by standard cuts.",
-        "Section 3.3 refers to Tables 3 and 4 for the coefficients; they stand in Tables 2 and 4. Fig. 5 and Fig. 6 give no "
-        "unit of current; here: ampere.",
-        "The tangential force of its largest feed and width is some 1070 N by its own coefficients, not below 1000 N.",
-        "The paper's forces for the comparison come from a dynamometer. Here the plant's cutting force has the published "
+        ("Eq. 4 prints R_r before the brackets of F_ax and F_ay; integration of the edge elements gives R_a. In B_r the "
+        "printed φ_N is the entry angle φ_r."),
+        ("Table 3 prints K_x4 = 196.61 and K_x5 = −1911.00: K_t1 and K_t2 of Eq. 8 to the digit. With them F_ax is −7644 N "
+        "at 0.25 m/min where the axis only overcomes its friction. Here both are calibrated, by standard cuts."),
+        ("Section 3.3 refers to Tables 3 and 4 for the coefficients; they stand in Tables 2 and 4. Fig. 5 and Fig. 6 give no "
+        "unit of current; here: ampere."),
+        ("The tangential force of its largest feed and width is some 1070 N by its own coefficients, not below 1000 N."),
+        ("The paper's forces for the comparison come from a dynamometer. Here the plant's cutting force has the published "
         "law, and between it and the coefficients stand the simulated drives: inertia, friction with pre-sliding and "
         "Stribeck's fall at low feed, ripple over the screw's pitch, noise of 1 % of the rated current, quantisation to a "
-        "per mille, and a bearing that warms up.",
-        "The helix is not printed: 30°. At 12 mm depth its lag is a tooth pitch, and the force hardly ripples.",
-        "Each cut has running in air at its own feed before it: idle current and friction are taken from there, not from "
-        "Eqs. 8 and 9 of another day. So r_1 comes out as well, where the paper finds large errors.",
-        "In the plant K_x5 has no counterpart. What the fit gives is what the quadratic of Eq. 9 leaves of Stribeck's "
-        "friction at the lowest feed.",
-        "The plant's chip is the paper's, f_z sin φ. With the trochoidal chip over the same engagement angles the force of a "
-        "cut 0.2 mm wide at 0.14 mm per tooth is 9 % higher, because such a cut removes more than f_z a_e.",
-        "Immersion and depth are solved together, since t_a depends on the immersion; the depth comes from F_at as well, "
+        "per mille, and a bearing that warms up."),
+        ("The helix is not printed: 30°. At 12 mm depth its lag is a tooth pitch, and the force hardly ripples."),
+        ("Each cut has running in air at its own feed before it: idle current and friction are taken from there, not from "
+        "Eqs. 8 and 9 of another day. So r_1 comes out as well, where the paper finds large errors."),
+        ("In the plant K_x5 has no counterpart. What the fit gives is what the quadratic of Eq. 9 leaves of Stribeck's "
+        "friction at the lowest feed."),
+        ("The plant's chip is the paper's, f_z sin φ. With the trochoidal chip over the same engagement angles the force of a "
+        "cut 0.2 mm wide at 0.14 mm per tooth is 9 % higher, because such a cut removes more than f_z a_e."),
+        ("Immersion and depth are solved together, since t_a depends on the immersion; the depth comes from F_at as well, "
         "because F_ax crosses zero near R_r = 1.4. In up milling below R_r = 0.3 the ratio tells nothing, and the estimator "
-        "says so.",
+        "says so."),
     };
 }
 
