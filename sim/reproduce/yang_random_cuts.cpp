@@ -144,7 +144,7 @@ std::vector<RandomCutOutcome> random_cuts(const RandomCutOptions& options) {
 }
 
 RandomCutSummary summary_of(const std::vector<RandomCutOutcome>& outcomes) {
-    RandomCutSummary summary{};
+    RandomCutSummary all{};
     std::array<bool, 12> occurs{};
     double sum_percent = 0.0;
     double within = 0.0;
@@ -158,17 +158,17 @@ RandomCutSummary summary_of(const std::vector<RandomCutOutcome>& outcomes) {
         sum_percent += std::abs(outcome.axial_error_percent) + std::abs(outcome.radial_error_percent);
         within += (std::abs(outcome.axial_error_in_sd) <= 2.0 ? 0.5 : 0.0) +
                   (std::abs(outcome.radial_error_in_sd) <= 2.0 ? 0.5 : 0.0);
-        summary.largest_answered_percent = std::max(summary.largest_answered_percent, larger_error_percent(outcome));
+        all.largest_answered_percent = std::max(all.largest_answered_percent, larger_error_percent(outcome));
     }
-    summary.mean_error_percent = 0.5 * sum_percent / count;
-    summary.within_two_sd_share = within / count;
-    summary.answered_share = count / static_cast<double>(outcomes.size());
-    summary.percentile_95_percent = percentile_95(outcomes, [](const RandomCutOutcome&) { return true; });
-    summary.percentile_95_up_percent = percentile_95(outcomes, [](const RandomCutOutcome& o) { return o.up_milling; });
-    summary.percentile_95_down_percent =
+    all.mean_error_percent = 0.5 * sum_percent / count;
+    all.within_two_sd_share = within / count;
+    all.answered_share = count / static_cast<double>(outcomes.size());
+    all.percentile_95_percent = percentile_95(outcomes, [](const RandomCutOutcome&) { return true; });
+    all.percentile_95_up_percent = percentile_95(outcomes, [](const RandomCutOutcome& o) { return o.up_milling; });
+    all.percentile_95_down_percent =
         percentile_95(outcomes, [](const RandomCutOutcome& o) { return !o.up_milling; });
-    summary.categories = static_cast<std::size_t>(std::count(occurs.begin(), occurs.end(), true));
-    return summary;
+    all.categories = static_cast<std::size_t>(std::count(occurs.begin(), occurs.end(), true));
+    return all;
 }
 
 }  // namespace millforce::sim::yang
