@@ -111,6 +111,7 @@ struct ControlOutput {
     CutState state = CutState::air;
     Fault fault = Fault::none;
     Limit limit = Limit::none;
+    bool fading = false;  ///< the section of the cut falls: the tool leaves, or the part ends
 };
 
 template <typename Scalar>
@@ -152,6 +153,7 @@ class FeedController {
         output.state = state_;
         output.fault = fault_;
         output.limit = limit;
+        output.fading = trend_.fading();
         output.hold = state_ == CutState::fault || input.feed_hold;
         output.ratio = ratio_;
         if (parameters_.monitor_only && state_ != CutState::fault) {

@@ -61,12 +61,14 @@ class ForceControlTick {
     [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return estimator_.estimate(); }
     [[nodiscard]] const estimation::CutEstimator<Scalar>& estimator() const { return estimator_; }
 
-    /// The engagement for display and record. "No estimate" outside a cut, and in `entry`: until the cutter's radius is
-    /// in the workpiece its arc begins and ends anywhere, and the law of a straight cut does not describe it. (The
+    /// The engagement for display and record. "No estimate" outside a cut, in `entry`, and
+    /// in a cut that fades: while the cutter's radius enters the workpiece or leaves it the arc begins and ends anywhere,
+    /// and the law of a straight cut does not describe it. (The
     /// controller goes on with the forces themselves, and may not raise the feed in that state.)
     [[nodiscard]] estimation::EngagementEstimate<Scalar> engagement() const {
         estimation::EngagementEstimate<Scalar> shown = estimator_.estimate().engagement;
-        const bool arc_is_known = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
+        const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
+        const bool arc_is_known = is_cutting && !control_.fading;
         shown.immersion_valid = shown.immersion_valid && arc_is_known;
         shown.depth_valid = shown.depth_valid && arc_is_known;
         return shown;
