@@ -307,11 +307,12 @@ class FeedController {
     }
 
     void watch_turns(const ControlInput<Scalar>& input) {
-        way_since_estimate_mm_ += input.path_speed_mm_s * input.dt_s;
+        const Scalar way_mm = input.path_speed_mm_s * input.dt_s;
+        way_since_estimate_mm_ += way_mm;
         const bool turned = turn_.update({input.dt_s, input.velocity_x_mm_s, input.velocity_y_mm_s,
                                           input.path_speed_mm_s, ratio_ * input.programmed_feed_mm_s,
                                           input.programmed_feed_mm_s});
-        const Scalar left_mm = turn_travel_left_mm_ - input.path_speed_mm_s * input.dt_s;
+        const Scalar left_mm = turn_travel_left_mm_ - way_mm;
         turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
         turned_now_ = turned;
         if (turned && state_ == CutState::exit) {
