@@ -8,7 +8,7 @@
 
 #include "cutting/angle_units.hpp"
 #include "cutting/cutting_force.hpp"
-#include "reproduce/butterworth.hpp"
+#include "machine/butterworth.hpp"
 
 namespace millforce::sim {
 namespace {

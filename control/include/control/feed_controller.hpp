@@ -309,9 +309,12 @@ class FeedController {
     void watch_turns(const ControlInput<Scalar>& input) {
         const Scalar way_mm = input.path_speed_mm_s * input.dt_s;
         way_since_estimate_mm_ += way_mm;
+        constexpr Scalar turn_rad = static_cast<Scalar>(6.28318530717958648L);
+        const Scalar teeth_rad_s = input.cut.spindle_speed_rad_s * parameters_.teeth;
         const bool turned = turn_.update({input.dt_s, input.velocity_x_mm_s, input.velocity_y_mm_s,
                                           input.path_speed_mm_s, ratio_ * input.programmed_feed_mm_s,
-                                          input.programmed_feed_mm_s});
+                                          input.programmed_feed_mm_s,
+                                          teeth_rad_s > Scalar(0) ? turn_rad / teeth_rad_s : Scalar(0)});
         const Scalar left_mm = turn_travel_left_mm_ - way_mm;
         turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
         turned_now_ = turned;

@@ -66,16 +66,35 @@ class ForceDrop {
           detector_(settings.detector),
           immersion_(law, settings.immersion) {}
 
-    void restart() { profile_.restart(); }
+    void restart() {
+        profile_.restart();
+        complete_ = false;
+    }
 
     /// Returns true when an estimate was made: read estimate(). `feed_per_tooth_mm` as commanded or measured.
     bool add(const ForceDropSample<Scalar>& sample, Scalar feed_per_tooth_mm) {
-        if (!profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N)) {
+        if (!collect(sample)) {
             return false;
         }
         evaluate(feed_per_tooth_mm);
-        profile_.clear();
         return true;
+    }
+
+    /// add() in two steps: collect() for the sampling loop, evaluate() for whatever runs beside it. Where collect() says
+    /// that the revolutions are whole, samples are dropped until evaluate() has taken them.
+    bool collect(const ForceDropSample<Scalar>& sample) {
+        complete_ =
+            complete_ || profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N);
+        return complete_;
+    }
+    [[nodiscard]] bool complete() const { return complete_; }
+    const Estimate& evaluate(Scalar feed_per_tooth_mm) {
+        if (complete_) {
+            estimate_profile(feed_per_tooth_mm);
+            profile_.clear();
+            complete_ = false;
+        }
+        return estimate_;
     }
 
     [[nodiscard]] const Estimate& estimate() const { return estimate_; }
@@ -84,7 +103,7 @@ class ForceDrop {
     [[nodiscard]] const ForceJump<Scalar>& jump() const { return jump_; }
 
   private:
-    void evaluate(Scalar feed_per_tooth_mm) {
+    void estimate_profile(Scalar feed_per_tooth_mm) {
         if (settings_.known_immersion > Scalar(0)) {
             measure_known(feed_per_tooth_mm);
             return;
@@ -332,6 +351,7 @@ class ForceDrop {
     ForceDropMeasurement<Scalar> measurement_{};
     ForceJump<Scalar> jump_{};
     Estimate estimate_{};
+    bool complete_ = false;
 };
 
 }  // namespace millforce::estimation

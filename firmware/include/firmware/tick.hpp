@@ -4,6 +4,7 @@
 #include "estimation/cut_estimator.hpp"
 #include "estimation/roughness.hpp"
 #include "firmware/parameters.hpp"
+#include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
 
@@ -13,16 +14,21 @@
 /// Rezeroing in air is its own: while the controller's state is `air`, the spindle turns evenly and its torque is near
 /// its idle value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows
 /// can so not be taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain.
+///
+/// Beside it runs a WideBand monitor (NoWideBand where the memory is short): an immersion from force drops enters the
+/// solver as one more measurement of the engagement. What the cut has changed since the drops were seen adds to its
+/// variance. Its work() is not part of step(): call it where there is time, as soon as work_due() says so.
 
 namespace millforce::firmware {
 
-template <typename Scalar>
+template <typename Scalar, typename WideBand = WideBandMonitor<Scalar>>
 class ForceControlTick {
   public:
     explicit ForceControlTick(const Parameters<Scalar>& parameters)
         : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
                      parameters.tool.law),
           controller_(controller_parameters(parameters)),
+          wide_band_(parameters),
           control_parameters_(controller_parameters(parameters)),
           roughness_model_(parameters.tool.roughness),
           tool_diameter_mm_(parameters.tool.diameter_mm),
@@ -37,10 +43,13 @@ class ForceControlTick {
         if (!has_angle) {
             estimator_.restart();
         }
+        wide_band_.add(dt_s, sample, may_be_in_cut());
+        estimator_.tell_immersion(immersion_by_force_drops());
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
                                                        sample.spindle_index_number, signals);
         if (fresh) {
             rezero_in_air(program.rapid);
+            follow_section();
             predict_roughness(signals);
         }
         return output_of(controller_.step(control_input(dt_s, signals, program, fresh)));
@@ -58,6 +67,19 @@ class ForceControlTick {
 
     void reset_fault() { controller_.reset(); }
 
+    /// Work beside the tick, in the same thread or between two steps; some milliseconds on a desktop processor.
+    [[nodiscard]] bool work_due() const { return wide_band_.work_due(); }
+    void work() {
+        const std::uint32_t before = wide_band_.estimate().force_drops;
+        wide_band_.work();
+        if (wide_band_.estimate().force_drops != before) {
+            section_of_drops_mm2_ = sections_ > 0 ? section_sum_mm2_ / Scalar(sections_) : Scalar(0);
+            section_sum_mm2_ = Scalar(0);
+            sections_ = 0;
+        }
+    }
+    [[nodiscard]] const WideBandEstimate<Scalar>& wide_band() const { return wide_band_.estimate(); }
+
     [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return estimator_.estimate(); }
     [[nodiscard]] const estimation::CutEstimator<Scalar>& estimator() const { return estimator_; }
 
@@ -67,8 +89,7 @@ class ForceControlTick {
     /// controller goes on with the forces themselves, and may not raise the feed in that state.)
     [[nodiscard]] estimation::EngagementEstimate<Scalar> engagement() const {
         estimation::EngagementEstimate<Scalar> shown = estimator_.estimate().engagement;
-        const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
-        const bool arc_is_known = is_cutting && !control_.fading;
+        const bool arc_is_known = is_in_cut();
         shown.immersion_valid = shown.immersion_valid && arc_is_known;
         shown.depth_valid = shown.depth_valid && arc_is_known;
         return shown;
@@ -78,6 +99,36 @@ class ForceControlTick {
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return roughness_; }
 
   private:
+    [[nodiscard]] bool is_in_cut() const {
+        const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
+        return is_cutting && !control_.fading;
+    }
+
+    /// Without a tangential force (no spindle current: a force sensor alone) nothing tells air from cut.
+    [[nodiscard]] bool may_be_in_cut() const { return !estimator_.estimate().tangential_N.valid || is_in_cut(); }
+
+    /// Sections since the force drops were taken last.
+    void follow_section() {
+        section_sum_mm2_ += estimator_.estimate().section_mm2;
+        ++sections_;
+    }
+
+    /// The immersion of the drops' revolutions. Where the section has grown since by a share, the width may have grown as
+    /// much or the depth instead: evenly likely between the two.
+    [[nodiscard]] estimation::Measurement<Scalar> immersion_by_force_drops() const {
+        estimation::Measurement<Scalar> told = wide_band_.estimate().force_drop_immersion;
+        const Scalar now_mm2 = estimator_.estimate().section_mm2;
+        told.valid = told.valid && section_of_drops_mm2_ > Scalar(0) && now_mm2 > Scalar(0);
+        if (told.valid) {
+            const Scalar growth = now_mm2 / section_of_drops_mm2_ - Scalar(1);
+            constexpr Scalar of_even_distribution = static_cast<Scalar>(0.0833333333L);  // 1/12
+            told.variance += of_even_distribution * estimation::square(growth * told.value);
+            told.value *= Scalar(1) + Scalar(0.5F) * growth;
+            told.valid = estimation::square(growth) < Scalar(0.25F);
+        }
+        return told;
+    }
+
     /// Since the last sample; 0 for the first one and where the clock went backwards.
     Scalar elapsed_s(std::uint32_t time_us) {
         const auto elapsed_us = static_cast<std::int32_t>(time_us - last_time_us_);
@@ -216,6 +267,7 @@ class ForceControlTick {
 
     estimation::CutEstimator<Scalar> estimator_;
     control::FeedController<Scalar> controller_;
+    WideBand wide_band_;
     control::FeedControllerParameters<Scalar> control_parameters_;
     estimation::RoughnessPredictor<Scalar> roughness_model_;
     Scalar tool_diameter_mm_;
@@ -229,6 +281,9 @@ class ForceControlTick {
     bool has_time_ = false;
     bool was_rezeroed_ = false;
     int air_periods_ = 0;
+    Scalar section_sum_mm2_{0};
+    Scalar section_of_drops_mm2_{0};
+    int sections_ = 0;
 };
 
 }  // namespace millforce::firmware
