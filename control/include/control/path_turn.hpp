@@ -35,13 +35,19 @@ class PathTurn {
     }
 
   private:
+    /// What is no number passes through and does not stay.
+    static void follow(Scalar& smooth, Scalar now, Scalar share) {
+        const Scalar next = smooth + (now - smooth) * share;
+        smooth = share < Scalar(1) && next - next == Scalar(0) ? next : now;
+    }
+
     Motion smoothed(const Motion& m) {
         constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
         const Scalar over_s = m.tooth_period_s - settling_s;
         const Scalar share = over_s > m.dt_s ? m.dt_s / over_s : Scalar(1);
-        smooth_.velocity_x_mm_s += (m.velocity_x_mm_s - smooth_.velocity_x_mm_s) * share;
-        smooth_.velocity_y_mm_s += (m.velocity_y_mm_s - smooth_.velocity_y_mm_s) * share;
-        smooth_.path_speed_mm_s += (m.path_speed_mm_s - smooth_.path_speed_mm_s) * share;
+        follow(smooth_.velocity_x_mm_s, m.velocity_x_mm_s, share);
+        follow(smooth_.velocity_y_mm_s, m.velocity_y_mm_s, share);
+        follow(smooth_.path_speed_mm_s, m.path_speed_mm_s, share);
         Motion motion = m;
         motion.velocity_x_mm_s = smooth_.velocity_x_mm_s;
         motion.velocity_y_mm_s = smooth_.velocity_y_mm_s;

@@ -38,9 +38,14 @@ class FeedFrame {
 
     Pose update(Scalar dt_s, Scalar x_velocity_mm_s, Scalar y_velocity_mm_s) {
         using std::sqrt;
-        const Scalar share = has_velocity_ && dt_s < averaging_s ? dt_s / averaging_s : Scalar(1);
-        x_mm_s_ += (x_velocity_mm_s - x_mm_s_) * share;
-        y_mm_s_ += (y_velocity_mm_s - y_mm_s_) * share;
+        if (has_velocity_ && dt_s < averaging_s) {
+            const Scalar share = dt_s / averaging_s;
+            x_mm_s_ += (x_velocity_mm_s - x_mm_s_) * share;
+            y_mm_s_ += (y_velocity_mm_s - y_mm_s_) * share;
+        } else {
+            x_mm_s_ = x_velocity_mm_s;
+            y_mm_s_ = y_velocity_mm_s;
+        }
         has_velocity_ = true;
         Pose pose;
         pose.speed_mm_s = sqrt(estimation::square(x_mm_s_) + estimation::square(y_mm_s_));
