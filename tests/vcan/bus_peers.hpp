@@ -22,6 +22,14 @@
 
 namespace millforce::vcan {
 
+/// Where the driver under test is, and where its peers are: both on vcan0, or on two controllers of one bus.
+inline std::string interface_named_by(const char* variable) {
+    const char* name = std::getenv(variable);
+    return name != nullptr ? name : "vcan0";
+}
+inline std::string controller_interface() { return interface_named_by("MILLFORCE_CAN_CONTROLLER"); }
+inline std::string peer_interface() { return interface_named_by("MILLFORCE_CAN_PEER"); }
+
 inline void sleep_ms(int duration_ms) { std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms)); }
 
 /// The exit code of a shell command; what it prints goes nowhere.

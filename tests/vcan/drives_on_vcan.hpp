@@ -199,7 +199,7 @@ class BusOnVcan {
 
   private:
     static socketcan::CanSocketSettings socket_settings(const cia402::DriveBus& bus) {
-        auto settings = on("vcan0");
+        auto settings = on(controller_interface());
         std::array<hal::CanFilter, cia402::DriveBus::filter_capacity> filters{};
         settings.filter_count = bus.filters(filters);
         std::copy_n(filters.begin(), settings.filter_count, settings.filters.begin());
