@@ -13,17 +13,18 @@ namespace {
 constexpr float largest_ratio = 1.5F;
 constexpr int frames_per_cangen = 1000;  // as many as the socket holds: none is lost, however busy this machine is
 
-/// MILLFORCE_CANGEN_FRAMES, 20 000 where it is not set.
-int frames_to_generate() {
-    const char* given = std::getenv("MILLFORCE_CANGEN_FRAMES");
-    return given != nullptr ? std::atoi(given) : 20'000;
-}
-
 /// All ids and lengths by chance, and more of those that the receivers look at.
 constexpr std::array<const char*, 14> cangen_options{
     "-I r -L r -D r", "-I 1FE -L 8 -D r", "-I 1FE -L r -D r", "-I 77E -L r -D r", "-I 181 -L r -D r",
     "-I 182 -L 8 -D r", "-I 080 -L r -D r", "-I 081 -L r -D r", "-I 701 -L r -D r", "-I 702 -L 1 -D i",
     "-e -I r -L r -D r", "-R -I r", "-I i -L i -D i", "-I 080 -L 0"};
+
+/// MILLFORCE_CANGEN_FRAMES, 20 000 where it is not set; in rounds, one with each options at least.
+int cangen_rounds() {
+    const char* given = std::getenv("MILLFORCE_CANGEN_FRAMES");
+    const int frames = given != nullptr ? std::atoi(given) : 20'000;
+    return std::max(frames / frames_per_cangen, static_cast<int>(cangen_options.size()));
+}
 
 cia402::BusSettings listener_settings() {
     cia402::BusSettings settings = bus_settings(2, 1000);
@@ -125,7 +126,7 @@ TEST(CangenFuzz, each_frame_is_sound_or_counted_by_its_reason_and_no_override_is
     Listener listener(on(controller_interface()));
     CHECK(listener.socket.is_up());
     FuzzedReceivers receivers;
-    const int rounds = (frames_to_generate() + frames_per_cangen - 1) / frames_per_cangen;
+    const int rounds = cangen_rounds();
     for (int round = 0; round < rounds; ++round) {
         const char* options = cangen_options[static_cast<std::size_t>(round) % cangen_options.size()];
         Child cangen("cangen " + peer_interface() + " -g 0 -p 10 -n " + std::to_string(frames_per_cangen) + " " +

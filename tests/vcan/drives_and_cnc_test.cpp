@@ -14,7 +14,7 @@ TEST_GROUP(DrivesAndCnc) {
 };
 
 TEST(DrivesAndCnc, four_drives_are_started_and_sampled_without_a_lost_count) {
-    for (const std::uint32_t period_us : {5000U, 1000U}) {
+    for (const std::uint32_t period_us : {5000U * slower(), 1000U * slower()}) {
         const Child drives([] { run_drives(peer_interface(), 4); });
         BusOnVcan machine(bus_settings(4, period_us));
         CHECK(machine.run_until([&] { return machine.all_operational(4); }));
@@ -35,7 +35,7 @@ TEST(DrivesAndCnc, four_drives_are_started_and_sampled_without_a_lost_count) {
 
 TEST(DrivesAndCnc, drives_that_vanish_are_lost_and_come_back_by_themselves) {
     const Child drives([] { run_drives(peer_interface(), 2); });
-    BusOnVcan machine(bus_settings(2, 2000));
+    BusOnVcan machine(bus_settings(2, 2000 * slower()));
     CHECK(machine.run_until([&] { return machine.all_operational(2); }));
     drives.send_signal(SIGSTOP);
     CHECK(machine.run_until([&] { return machine.all_are(2, NodeState::lost); }));
@@ -50,7 +50,7 @@ TEST(DrivesAndCnc, drives_that_vanish_are_lost_and_come_back_by_themselves) {
 
 TEST(DrivesAndCnc, an_interface_that_goes_down_stops_the_samples_contents_and_not_the_program) {
     const Child drives([] { run_drives(peer_interface(), 2); });
-    BusOnVcan machine(bus_settings(2, 2000));
+    BusOnVcan machine(bus_settings(2, 2000 * slower()));
     CHECK(machine.run_until([&] { return machine.all_operational(2); }));
     LONGS_EQUAL(0, shell("ip link set " + controller_interface() + " down"));
     CHECK(machine.run_until([&] { return machine.all_are(2, NodeState::lost); }));
