@@ -91,19 +91,24 @@ struct DriveNames {
     const char* prefix;
     const char* count;
 };
-constexpr std::array<DriveNames, 4> drive_names{{{"Spindle", "SpindleCount"}, {"X", "XPosition"}, {"Y", "YPosition"},
-                                                 {"Z", "ZPosition"}}};
+constexpr std::array<DriveNames, 4> drive_names{
+    {{"Spindle", "SpindleCount"}, {"X", "XPosition"}, {"Y", "YPosition"}, {"Z", "ZPosition"}}};
 
 void print_of_drive(const hal::CanFrame& frame, const DriveNames& names, std::int32_t position, double per_mille) {
     const std::string prefix = names.prefix;
     switch (frame.id & 0x780U) {
         case 0x180:
-            print(frame, {{names.count, position}, {prefix + "Current", per_mille / 1000.0},
-                          {prefix + "Statusword", 0x0237}});
+            print(frame,
+                  {{names.count, position}, {prefix + "Current", per_mille / 1000.0}, {prefix + "Statusword", 0x0237}});
             break;
-        case 0x080: print(frame, {{prefix + "ErrorCode", 0x3210}, {prefix + "ErrorRegister", 0x05}}); break;
-        case 0x700: print(frame, {{prefix + "NmtState", frame.data[0]}}); break;
-        default: break;
+        case 0x080:
+            print(frame, {{prefix + "ErrorCode", 0x3210}, {prefix + "ErrorRegister", 0x05}});
+            break;
+        case 0x700:
+            print(frame, {{prefix + "NmtState", frame.data[0]}});
+            break;
+        default:
+            break;
     }
 }
 

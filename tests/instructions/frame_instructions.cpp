@@ -90,8 +90,8 @@ int main() {
         CALLGRIND_ZERO_STATS;
         counted_step(receivers, true, frame_of(0x3A5, 8), time_us + 600, sample);
         CALLGRIND_DUMP_STATS_AT("foreign");
-        const hal::CanFrame out = millforce::override_frame::encode(
-            {0.8F, false, 3, 0, static_cast<std::uint32_t>(k)}, millforce::override_frame::default_id);
+        const hal::CanFrame out = millforce::override_frame::encode({0.8F, false, 3, 0, static_cast<std::uint32_t>(k)},
+                                                                    millforce::override_frame::default_id);
         CALLGRIND_ZERO_STATS;
         alive += counted_step(receivers, false, out, time_us, sample) ? 1U : 0U;
         CALLGRIND_DUMP_STATS_AT("override");

@@ -15,10 +15,10 @@
 
 namespace {
 
-using millforce::firmware::ForceControlTick;
-using millforce::firmware::Parameters;
 using millforce::bench::encoder_counts_per_rev;
 using millforce::bench::teeth;
+using millforce::firmware::ForceControlTick;
+using millforce::firmware::Parameters;
 namespace hal = millforce::hal;
 
 constexpr float sample_interval_s = 0.001F;

@@ -27,8 +27,12 @@ inline std::string interface_named_by(const char* variable) {
     const char* name = std::getenv(variable);
     return name != nullptr ? name : "vcan0";
 }
-inline std::string controller_interface() { return interface_named_by("MILLFORCE_CAN_CONTROLLER"); }
-inline std::string peer_interface() { return interface_named_by("MILLFORCE_CAN_PEER"); }
+inline std::string controller_interface() {
+    return interface_named_by("MILLFORCE_CAN_CONTROLLER");
+}
+inline std::string peer_interface() {
+    return interface_named_by("MILLFORCE_CAN_PEER");
+}
 
 /// SYNC periods are longer by this factor where the machine under the bus is emulated.
 inline std::uint32_t slower() {
@@ -36,7 +40,9 @@ inline std::uint32_t slower() {
     return factor != nullptr ? static_cast<std::uint32_t>(std::atoi(factor)) : 1;
 }
 
-inline void sleep_ms(int duration_ms) { std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms)); }
+inline void sleep_ms(int duration_ms) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms));
+}
 
 /// The exit code of a shell command; what it prints goes nowhere.
 inline int shell(const std::string& command) {

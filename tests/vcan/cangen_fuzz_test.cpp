@@ -15,9 +15,9 @@ constexpr int frames_per_cangen = 1000;  // as many as the socket holds: none is
 
 /// All ids and lengths by chance, and more of those that the receivers look at.
 constexpr std::array<const char*, 14> cangen_options{
-    "-I r -L r -D r", "-I 1FE -L 8 -D r", "-I 1FE -L r -D r", "-I 77E -L r -D r", "-I 181 -L r -D r",
-    "-I 182 -L 8 -D r", "-I 080 -L r -D r", "-I 081 -L r -D r", "-I 701 -L r -D r", "-I 702 -L 1 -D i",
-    "-e -I r -L r -D r", "-R -I r", "-I i -L i -D i", "-I 080 -L 0"};
+    "-I r -L r -D r",    "-I 1FE -L 8 -D r", "-I 1FE -L r -D r", "-I 77E -L r -D r", "-I 181 -L r -D r",
+    "-I 182 -L 8 -D r",  "-I 080 -L r -D r", "-I 081 -L r -D r", "-I 701 -L r -D r", "-I 702 -L 1 -D i",
+    "-e -I r -L r -D r", "-R -I r",          "-I i -L i -D i",   "-I 080 -L 0"};
 
 /// MILLFORCE_CANGEN_FRAMES, 20 000 where it is not set; in rounds, one with each options at least.
 int cangen_rounds() {
@@ -36,7 +36,9 @@ cia402::BusSettings listener_settings() {
     return settings;
 }
 
-bool is_plain(const hal::CanFrame& frame) { return !frame.extended && !frame.remote; }
+bool is_plain(const hal::CanFrame& frame) {
+    return !frame.extended && !frame.remote;
+}
 
 /// What a drive's bus may use: its objects with the length that they have.
 bool is_sound_to_the_bus(const hal::CanFrame& frame) {
@@ -44,14 +46,18 @@ bool is_sound_to_the_bus(const hal::CanFrame& frame) {
         return false;
     }
     switch (frame.id) {
-        case 0x080: return frame.length <= 1;
+        case 0x080:
+            return frame.length <= 1;
         case 0x081:
         case 0x082:
         case 0x181:
-        case 0x182: return frame.length == 8;
+        case 0x182:
+            return frame.length == 8;
         case 0x701:
-        case 0x702: return frame.length == 1;
-        default: return false;
+        case 0x702:
+            return frame.length == 1;
+        default:
+            return false;
     }
 }
 

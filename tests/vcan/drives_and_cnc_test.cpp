@@ -9,9 +9,10 @@ using namespace millforce::vcan;
 using cia402::NodeState;
 
 /// On any kind of interface: run on vcan0, and on two SJA1000 controllers of one bus.
-TEST_GROUP(DrivesAndCnc) {
-    void teardown() override { shell("ip link set " + controller_interface() + " up"); }
-};
+TEST_GROUP(DrivesAndCnc){void teardown() override{shell("ip link set " + controller_interface() + " up");
+}
+}
+;
 
 TEST(DrivesAndCnc, four_drives_are_started_and_sampled_without_a_lost_count) {
     for (const std::uint32_t period_us : {5000U * slower(), 1000U * slower()}) {

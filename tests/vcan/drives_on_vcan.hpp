@@ -80,8 +80,12 @@ struct FrameCounts {
     std::atomic<std::uint64_t> overrides{0};
 };
 
-inline bool is_sync(const hal::CanFrame& frame) { return frame.id == cia402::cob_id::sync; }
-inline bool is_pdo(const hal::CanFrame& frame) { return frame.id > 0x180 && frame.id <= 0x180 + cia402::drive_capacity; }
+inline bool is_sync(const hal::CanFrame& frame) {
+    return frame.id == cia402::cob_id::sync;
+}
+inline bool is_pdo(const hal::CanFrame& frame) {
+    return frame.id > 0x180 && frame.id <= 0x180 + cia402::drive_capacity;
+}
 
 /// Drives at nodes 1…count, heartbeat 20 ms. At each SYNC every one moves by `counts_per_sync`; node 1 draws 6 A.
 /// `counts`: SYNCs that came, PDOs that went out.

@@ -36,7 +36,9 @@ class Cnc {
             return current().is_alive == expected;
         });
     }
-    [[nodiscard]] override_frame::ReceivedOverride current() const { return receiver_.current(socketcan::monotonic_us()); }
+    [[nodiscard]] override_frame::ReceivedOverride current() const {
+        return receiver_.current(socketcan::monotonic_us());
+    }
 
   private:
     static override_frame::OverrideReceiverSettings settings() {

@@ -100,8 +100,8 @@ void AdcCurrents::take_scan(std::span<const std::uint8_t> scan, std::uint64_t no
 void AdcCurrents::watch_gap(std::int64_t time_ns) {
     const std::int64_t period_ns = std::int64_t{settings_.sample_period_us} * 1000;
     // Unsigned, so that absurd stamps cannot overflow.
-    const auto elapsed_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) -
-                                                      static_cast<std::uint64_t>(last_time_ns_));
+    const auto elapsed_ns =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(last_time_ns_));
     if (period_ns > 0 && last_time_ns_ > 0 && elapsed_ns > period_ns + period_ns / 2) {
         const std::int64_t missing = (elapsed_ns + period_ns / 2) / period_ns - 1;
         const std::uint32_t room = UINT32_MAX - health_.overruns;

@@ -13,14 +13,16 @@ namespace millforce::iio {
 
 namespace {
 
-bool is_factor(float value) { return value - value == 0.0F && (value > 0.0F || value < 0.0F); }
+bool is_factor(float value) {
+    return value - value == 0.0F && (value > 0.0F || value < 0.0F);
+}
 
 int open_to_read(const Path& path, Fault& fault) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) {
-        fault = {errno == ENOENT || errno == ENODEV || errno == ENXIO ? IioError::file_missing
-                                                                      : IioError::file_unreadable,
-                 errno, path};
+        fault = {
+            errno == ENOENT || errno == ENODEV || errno == ENXIO ? IioError::file_missing : IioError::file_unreadable,
+            errno, path};
     }
     return descriptor;
 }
@@ -174,7 +176,8 @@ Fault AdcCurrents::read_clock() {
     if (text.error != IioError::none) {
         return {text.error, text.number, file};
     }
-    const auto* const found = std::find_if(clocks.begin(), clocks.end(), [&](const NamedClock& known) { return known.name == text.view(); });
+    const auto* const found =
+        std::find_if(clocks.begin(), clocks.end(), [&](const NamedClock& known) { return known.name == text.view(); });
     if (found == clocks.end()) {
         return {IioError::clock, 0, file};
     }

@@ -47,8 +47,8 @@ bool AnalogueOverride::prepare() {
         fail(offset_fault);
         return false;
     }
-    const bool fits = scale_mV > 0.0F && settings_.lowest_V <= settings_.highest_V &&
-                      settings_.lowest_raw <= settings_.highest_raw;
+    const bool fits =
+        scale_mV > 0.0F && settings_.lowest_V <= settings_.highest_V && settings_.lowest_raw <= settings_.highest_raw;
     if (!fits) {
         fault.error = scale_mV > 0.0F ? IioError::settings : IioError::not_a_number;
         fail(fault);
@@ -66,8 +66,7 @@ std::int64_t AnalogueOverride::raw_of(float V) const {
     if (!(raw > lowest)) {  // a raw value that is no number, too
         return settings_.lowest_raw;
     }
-    return raw >= highest ? settings_.highest_raw
-                          : static_cast<std::int64_t>(raw + (raw >= 0.0F ? 0.5F : -0.5F));
+    return raw >= highest ? settings_.highest_raw : static_cast<std::int64_t>(raw + (raw >= 0.0F ? 0.5F : -0.5F));
 }
 
 void AnalogueOverride::put(float V, std::uint64_t time_us) {

@@ -13,9 +13,13 @@ namespace {
 
 constexpr std::string_view white_space = " \t\r\n";
 
-bool is_missing(int number) { return number == ENOENT || number == ENOTDIR || number == ENODEV || number == ENXIO; }
+bool is_missing(int number) {
+    return number == ENOENT || number == ENOTDIR || number == ENODEV || number == ENXIO;
+}
 
-IioError read_error(int number) { return is_missing(number) ? IioError::file_missing : IioError::file_unreadable; }
+IioError read_error(int number) {
+    return is_missing(number) ? IioError::file_missing : IioError::file_unreadable;
+}
 
 template <typename Value>
 IioError parse_whole(std::string_view text, Value& value) {
@@ -37,17 +41,28 @@ std::string_view without_number(std::string_view name) {
 
 std::string_view name_of(IioError error) {
     switch (error) {
-        case IioError::none: return "none";
-        case IioError::path_too_long: return "path too long";
-        case IioError::file_missing: return "file missing";
-        case IioError::file_unreadable: return "file cannot be read";
-        case IioError::file_unwritable: return "file cannot be written";
-        case IioError::not_a_number: return "not a number";
-        case IioError::scan_format: return "not a scan format";
-        case IioError::scan_layout: return "scan elements contradict each other";
-        case IioError::channel_disabled: return "channel disabled";
-        case IioError::clock: return "unknown clock";
-        case IioError::settings: return "settings";
+        case IioError::none:
+            return "none";
+        case IioError::path_too_long:
+            return "path too long";
+        case IioError::file_missing:
+            return "file missing";
+        case IioError::file_unreadable:
+            return "file cannot be read";
+        case IioError::file_unwritable:
+            return "file cannot be written";
+        case IioError::not_a_number:
+            return "not a number";
+        case IioError::scan_format:
+            return "not a scan format";
+        case IioError::scan_layout:
+            return "scan elements contradict each other";
+        case IioError::channel_disabled:
+            return "channel disabled";
+        case IioError::clock:
+            return "unknown clock";
+        case IioError::settings:
+            return "settings";
     }
     return "unknown";
 }
@@ -109,7 +124,9 @@ IioError parse(std::string_view text, float& value) {
     return IioError::none;
 }
 
-IioError parse(std::string_view text, std::int64_t& value) { return parse_whole(text, value); }
+IioError parse(std::string_view text, std::int64_t& value) {
+    return parse_whole(text, value);
+}
 
 IioError write_attribute(const Path& path, std::string_view text, int& number) {
     number = 0;

@@ -57,8 +57,8 @@ bool CounterInput::read_raw(std::int64_t& raw) {
 
 std::int64_t CounterInput::step_from_last(std::int64_t raw) const {
     if (settings_.modulus == 0) {
-        const auto step = static_cast<std::uint32_t>(static_cast<std::uint64_t>(raw) -
-                                                     static_cast<std::uint64_t>(last_raw_));
+        const auto step =
+            static_cast<std::uint32_t>(static_cast<std::uint64_t>(raw) - static_cast<std::uint64_t>(last_raw_));
         return static_cast<std::int32_t>(step);
     }
     const std::int64_t modulus = settings_.modulus;

@@ -8,10 +8,10 @@ namespace millforce::hal {
 
 /// Of an output, for the supervisor.
 struct OutputHealth {
-    bool is_ready = false;        ///< the way out is open and its last write was taken
-    bool ticks = false;           ///< false: none yet, or none within the output's time-out; the safe value is out
-    int last_error = 0;           ///< errno of the last call that failed; 0: none did
-    std::uint32_t failures = 0;   ///< writes that were not taken; saturates
+    bool is_ready = false;       ///< the way out is open and its last write was taken
+    bool ticks = false;          ///< false: none yet, or none within the output's time-out; the safe value is out
+    int last_error = 0;          ///< errno of the last call that failed; 0: none did
+    std::uint32_t failures = 0;  ///< writes that were not taken; saturates
 };
 
 /// A way for the override to reach the CNC: CAN frame, analogue voltage, hold line. update() with each tick's output,

@@ -40,13 +40,17 @@ TEST_GROUP(FeedHoldLine) {
     std::uint64_t now_us = 1'000'000;
     std::uint32_t heartbeat = 0;
 
-    void tick(hal::OverrideOutput& output, bool hold = false, std::uint8_t fault = 0, float ratio = 0.8F) {
+    void tick(hal::OverrideOutput & output, bool hold = false, std::uint8_t fault = 0, float ratio = 0.8F) {
         output.update({ratio, hold, 3, fault, ++heartbeat}, now_us += 1000);
         output.poll(now_us);
     }
-    bool is_released() const { return (port.levels & FeedHoldLine::release_line) != 0; }
-    bool pulse() const { return (port.levels & FeedHoldLine::pulse_line) != 0; }
-    int pulses(FeedHoldLine& line, int ticks, bool hold) {
+    bool is_released() const {
+        return (port.levels & FeedHoldLine::release_line) != 0;
+    }
+    bool pulse() const {
+        return (port.levels & FeedHoldLine::pulse_line) != 0;
+    }
+    int pulses(FeedHoldLine & line, int ticks, bool hold) {
         int changes = 0;
         for (int k = 0; k < ticks; ++k) {
             const bool before = pulse();

@@ -27,10 +27,12 @@ TEST_GROUP(AnalogueOverride) {
         settings.safe_V = 0.25F;
         return settings;
     }
-    void tick(hal::OverrideOutput& output, float ratio, bool hold = false, std::uint8_t fault = 0) {
+    void tick(hal::OverrideOutput & output, float ratio, bool hold = false, std::uint8_t fault = 0) {
         output.update({ratio, hold, 3, fault, ++heartbeat}, now_us += 1000);
     }
-    int raw() const { return std::stoi(dac.read("out_voltage0_raw")); }
+    int raw() const {
+        return std::stoi(dac.read("out_voltage0_raw"));
+    }
 };
 
 TEST(AnalogueOverride, is_the_ratio_in_volts_within_its_limits) {

@@ -1,5 +1,5 @@
-#include "fake_iio.hpp"
 #include "iio/counter_input.hpp"
+#include "fake_iio.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -19,7 +19,7 @@ TEST_GROUP(CounterInput) {
         settings.mm_per_count = 0.001F;
         return settings;
     }
-    bool read(CounterInput& counter, const std::string& text) {
+    bool read(CounterInput & counter, const std::string& text) {
         tree.write("count", text + "\n");
         return counter.read(now_us += 1000);
     }

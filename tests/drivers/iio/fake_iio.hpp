@@ -82,9 +82,14 @@ class FakeAdc : public FakeTree {
     /// A scan as the device lays it out: voltage0, voltage3, four bytes of nothing, the time.
     static std::vector<std::uint8_t> scan(unsigned first, int third, std::int64_t time_ns) {
         const auto shifted = static_cast<unsigned>(third) << 4U;
-        std::vector<std::uint8_t> bytes{static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(first >> 8U),
-                                        static_cast<std::uint8_t>(shifted >> 8U), static_cast<std::uint8_t>(shifted),
-                                        0xEE, 0xEE, 0xEE, 0xEE};
+        std::vector<std::uint8_t> bytes{static_cast<std::uint8_t>(first),
+                                        static_cast<std::uint8_t>(first >> 8U),
+                                        static_cast<std::uint8_t>(shifted >> 8U),
+                                        static_cast<std::uint8_t>(shifted),
+                                        0xEE,
+                                        0xEE,
+                                        0xEE,
+                                        0xEE};
         for (unsigned k = 0; k < 8; ++k) {
             bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(time_ns) >> (8U * k)));
         }

@@ -19,10 +19,27 @@ TEST(ScanFormat, is_read_as_the_kernel_writes_it) {
 }
 
 TEST(ScanFormat, that_no_channel_can_have_is_none) {
-    for (const char* text : {"", "le", "le:", "xe:s12/16>>4", "le:x12/16>>4", "le:s12", "le:s12/16", "le:s12/16>>",
-                             "le:s12/16>>5", "le:s0/16>>0", "le:s17/16>>0", "le:s12/12>>0", "le:s12/24>>0",
-                             "le:s12/16>>4 ", "le:s12/16>>-1", "le:s300/16>>0", "le:s12/16X0>>0", "le:s12/16X17>>0",
-                             "le:s12/16>>4>>4", "LE:s12/16>>4", "le:s+12/16>>4"}) {
+    for (const char* text : {"",
+                             "le",
+                             "le:",
+                             "xe:s12/16>>4",
+                             "le:x12/16>>4",
+                             "le:s12",
+                             "le:s12/16",
+                             "le:s12/16>>",
+                             "le:s12/16>>5",
+                             "le:s0/16>>0",
+                             "le:s17/16>>0",
+                             "le:s12/12>>0",
+                             "le:s12/24>>0",
+                             "le:s12/16>>4 ",
+                             "le:s12/16>>-1",
+                             "le:s300/16>>0",
+                             "le:s12/16X0>>0",
+                             "le:s12/16X17>>0",
+                             "le:s12/16>>4>>4",
+                             "LE:s12/16>>4",
+                             "le:s+12/16>>4"}) {
         CHECK_FALSE_TEXT(parse_scan_format(text).has_value(), text);
     }
 }
@@ -41,8 +58,8 @@ TEST(ScanFormat, decodes_every_width_back_to_what_went_in) {
     for (unsigned bits = 1; bits <= 63; ++bits) {
         for (const bool is_signed : {false, true}) {
             const unsigned shift = 64 - bits;
-            const ScanFormat format{false, is_signed, static_cast<std::uint8_t>(bits), 64, 1,
-                                    static_cast<std::uint8_t>(shift)};
+            const ScanFormat format{false, is_signed, static_cast<std::uint8_t>(bits),
+                                    64,    1,         static_cast<std::uint8_t>(shift)};
             const std::uint64_t pattern = random() >> shift;
             const bool is_negative = is_signed && (pattern >> (bits - 1)) != 0;
             const auto value = static_cast<std::int64_t>(is_negative ? pattern | (~std::uint64_t{0} << bits) : pattern);
@@ -76,8 +93,8 @@ TEST(ScanFormat, fuzz_never_gives_a_format_beyond_its_ranges) {
             ++formats;
             CHECK(format->bits > 0 && format->bits + format->shift <= format->storage_bits && format->bytes() <= 128);
             const std::int64_t value = decode(std::vector<std::uint8_t>(3, 0xFF), *format);
-            CHECK(format->bits > 62 || (value < (std::int64_t{1} << format->bits) &&
-                                        value >= -(std::int64_t{1} << format->bits)));
+            CHECK(format->bits > 62 ||
+                  (value < (std::int64_t{1} << format->bits) && value >= -(std::int64_t{1} << format->bits)));
         }
     }
     CHECK(formats > 1000);

@@ -54,9 +54,9 @@ struct AdcSettings {
     bool configures = true;
     std::uint32_t buffer_scans = 1024;
     std::array<AdcChannel, drive_capacity> channels{};  ///< spindle, x, y, z
-    std::uint32_t sample_period_us = 0;  ///< of the device, to tell gaps; 0: gaps are not told
-    std::uint32_t stale_us = 20'000;     ///< without a value for so long the state is `silent`
-    std::uint32_t look_period_us = 100'000;  ///< between tries to open
+    std::uint32_t sample_period_us = 0;                 ///< of the device, to tell gaps; 0: gaps are not told
+    std::uint32_t stale_us = 20'000;                    ///< without a value for so long the state is `silent`
+    std::uint32_t look_period_us = 100'000;             ///< between tries to open
 };
 
 enum class AdcState : std::uint8_t {
@@ -75,10 +75,10 @@ inline constexpr std::size_t adc_rejects = 3;
 
 struct AdcHealth {
     AdcState state = AdcState::absent;
-    Fault fault{};                ///< of the last failure
+    Fault fault{};  ///< of the last failure
     std::uint32_t opened = 0;
-    std::uint32_t scans = 0;      ///< wraps
-    std::uint32_t overruns = 0;   ///< scans that are missing between two timestamps
+    std::uint32_t scans = 0;     ///< wraps
+    std::uint32_t overruns = 0;  ///< scans that are missing between two timestamps
     std::array<std::uint32_t, adc_rejects> rejects{};
 };
 

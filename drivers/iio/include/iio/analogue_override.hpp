@@ -16,7 +16,8 @@ namespace millforce::iio {
 /// clamped to lowest_V…highest_V and lowest_raw…highest_raw. safe_V is out from the start, at hold, at any fault, where
 /// the ratio is no number, where ticks stay away, and after the object's end.
 /// A converter keeps its last value when this program is killed or its processor stops: a voltage proves nothing.
-/// A CNC that follows it must watch something that lives as well: the pulse of gpio::FeedHoldLine, or the CAN heartbeat.
+/// A CNC that follows it must watch something that lives as well: the pulse of gpio::FeedHoldLine, or the CAN
+/// heartbeat.
 struct AnalogueOverrideSettings {
     Path device{};          ///< folder in sysfs
     ChannelName channel{};  ///< `voltage0`
@@ -28,7 +29,8 @@ struct AnalogueOverrideSettings {
     std::int32_t lowest_raw = 0;
     std::int32_t highest_raw = 4095;
     std::uint32_t tick_timeout_us = 20'000;
-    std::uint32_t refresh_us = 100'000;  ///< an unchanged value is written again after so long, a missing device looked for
+    std::uint32_t refresh_us =
+        100'000;  ///< an unchanged value is written again after so long, a missing device looked for
 };
 
 class AnalogueOverride final : public hal::OverrideOutput {

@@ -14,16 +14,16 @@ inline constexpr std::size_t attribute_capacity = 64;
 
 enum class IioError : std::uint8_t {
     none,
-    path_too_long,      ///< more than 159 characters, or an empty path
-    file_missing,       ///< no such file: the device is not there, or has no such channel
-    file_unreadable,    ///< not allowed, a folder, in use by another, or failing
-    file_unwritable,    ///< the same, for what is written at start
-    not_a_number,       ///< empty, longer than 63 characters, not finite, or no number
-    scan_format,        ///< a `_type` that is none, or none that a channel can have
-    scan_layout,        ///< two elements with one index, more than 16 of them, or more than 256 bytes
-    channel_disabled,   ///< the channel's scan element is off, and `configures` is false
-    clock,              ///< current_timestamp_clock names no clock of Linux
-    settings,           ///< nothing is wired, or a factor is 0 or not finite
+    path_too_long,     ///< more than 159 characters, or an empty path
+    file_missing,      ///< no such file: the device is not there, or has no such channel
+    file_unreadable,   ///< not allowed, a folder, in use by another, or failing
+    file_unwritable,   ///< the same, for what is written at start
+    not_a_number,      ///< empty, longer than 63 characters, not finite, or no number
+    scan_format,       ///< a `_type` that is none, or none that a channel can have
+    scan_layout,       ///< two elements with one index, more than 16 of them, or more than 256 bytes
+    channel_disabled,  ///< the channel's scan element is off, and `configures` is false
+    clock,             ///< current_timestamp_clock names no clock of Linux
+    settings,          ///< nothing is wired, or a factor is 0 or not finite
 };
 [[nodiscard]] std::string_view name_of(IioError error);
 

@@ -18,8 +18,8 @@ struct CounterSettings {
 };
 
 struct CounterHealth {
-    bool is_ready = false;      ///< the last read gave a count
-    Fault fault{};              ///< of the last failure
+    bool is_ready = false;  ///< the last read gave a count
+    Fault fault{};          ///< of the last failure
     std::uint32_t opened = 0;
     std::uint32_t steps_too_large = 0;
 };
