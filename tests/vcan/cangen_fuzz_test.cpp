@@ -147,10 +147,14 @@ TEST(CangenFuzz, each_frame_is_sound_or_counted_by_its_reason_and_no_override_is
         listener.frames.clear();
         listener.times_us.clear();
     }
-    std::printf("\n    cangen: %d frames, %d rejected by the drive bus, %d by the CNC, %u overruns\n", receivers.frames,
-                receivers.rejected_by_bus, receivers.rejected_by_cnc, listener.socket.health().overruns);
-    UNSIGNED_LONGS_EQUAL(rounds * frames_per_cangen,
-                         static_cast<unsigned>(receivers.frames) + listener.socket.health().overruns);
+    std::printf(
+        "\n    cangen: %d frames, %d rejected by the drive bus, %d by the CNC, %u overruns, %u of the controller\n",
+        receivers.frames, receivers.rejected_by_bus, receivers.rejected_by_cnc, listener.socket.health().overruns,
+        listener.socket.health().controller_overflows);
+    // The emulated SJA1000 overflows on remote frames: a fault of a controller for real, told to the last frame.
+    UNSIGNED_LONGS_EQUAL(rounds * frames_per_cangen, static_cast<unsigned>(receivers.frames) +
+                                                         listener.socket.health().overruns +
+                                                         listener.socket.health().controller_overflows);
     CHECK(receivers.frames > rounds * frames_per_cangen / 2);
     for (const Reject reason : {Reject::foreign_id, Reject::not_standard_data, Reject::pdo_length, Reject::sync_length,
                                 Reject::emergency_malformed, Reject::heartbeat_malformed, Reject::sync_early}) {
