@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "firmware/tick.hpp"
+#include "machine_and_tool.hpp"
 
 /// Feeds the tick a synthetic cut and lets callgrind write down the instructions of each step, one dump per step with
 /// the name of its kind: `plain` between two tooth periods, `estimating` at the end of one. To be run by
@@ -14,7 +15,8 @@
 
 namespace {
 
-using millforce::estimation::CutSide;
+using millforce::bench::encoder_counts_per_rev;
+using millforce::bench::teeth;
 using millforce::firmware::ForceControlTick;
 using millforce::firmware::Parameters;
 namespace hal = millforce::hal;
@@ -22,37 +24,12 @@ namespace hal = millforce::hal;
 constexpr float sample_interval_s = 0.001F;
 constexpr std::uint32_t sample_interval_us = 1000;
 constexpr float spindle_speed_rad_s = 418.879F;  // 4000 rpm
-constexpr float encoder_counts_per_rev = 8192.0F;
-constexpr float teeth = 4.0F;
 constexpr float feed_mm_s = 20.0F;
 
 constexpr int air_samples = 100;
 constexpr int settling_samples = 100;  // from contact until each window lies wholly in the cut
 constexpr int counted_samples = 300;
 constexpr int samples = air_samples + settling_samples + counted_samples;
-
-Parameters<float> machine_and_tool() {
-    Parameters<float> parameters;
-    parameters.machine.spindle.K_t1_Nm_per_A = 0.7F;
-    parameters.machine.spindle.K_t2_Nm = -0.953F;
-    parameters.machine.spindle.inertia_kg_m2 = 0.004F;
-    parameters.machine.encoder_counts_per_rev = encoder_counts_per_rev;
-    for (auto& axis : parameters.machine.axes) {
-        axis.positive.K_x2_A_min_per_m = 0.65F;
-        axis.negative.K_x2_A_min_per_m = 0.65F;
-        axis.K_x3_A = 1.6F;
-        axis.K_x4_N_per_A = 120.0F;
-        axis.mass_kg = 250.0F;
-        axis.velocity_floor_mm_s = 2.0F;
-    }
-    parameters.tool.teeth = teeth;
-    parameters.tool.side = static_cast<float>(CutSide::down);
-    parameters.tool.tooth_force_limit_N = 700.0F;
-    parameters.tool.law = millforce::estimation::linear_edge_law(1650.0F, 22.0F, 620.0F, 28.0F);
-    parameters.tool.law.K_s_relative_sd = 0.15F;
-    parameters.tool.law.r_1_relative_sd = 0.05F;
-    return parameters;
-}
 
 /// Sample `index` of a straight cut along +x that begins after `air_samples`.
 hal::DriveSample sample_of(int index, const Parameters<float>& parameters) {
@@ -90,7 +67,7 @@ extern "C" [[gnu::noinline]] void counted_step(ForceControlTick<float>& tick, co
 }
 
 int main() {
-    const Parameters<float> parameters = machine_and_tool();
+    const Parameters<float> parameters = millforce::bench::machine_and_tool();
     ForceControlTick<float> tick(parameters);
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = feed_mm_s;
