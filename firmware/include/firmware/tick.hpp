@@ -70,12 +70,10 @@ class ForceControlTick {
     /// Work beside the tick, in the same thread or between two steps; some milliseconds on a desktop processor.
     [[nodiscard]] bool work_due() const { return wide_band_.work_due(); }
     void work() {
-        const std::uint32_t before = wide_band_.estimate().force_drops;
+        const WideBandEstimate<Scalar> before = wide_band_.estimate();
         wide_band_.work();
-        if (wide_band_.estimate().force_drops != before) {
-            section_of_drops_mm2_ = sections_ > 0 ? section_sum_mm2_ / Scalar(sections_) : Scalar(0);
-            section_sum_mm2_ = Scalar(0);
-            sections_ = 0;
+        if (wide_band_.estimate().force_drops != before.force_drops) {
+            take_section_of_drops(before.force_drop_immersion);
         }
     }
     [[nodiscard]] const WideBandEstimate<Scalar>& wide_band() const { return wide_band_.estimate(); }
@@ -107,14 +105,33 @@ class ForceControlTick {
     /// Without a tangential force (no spindle current: a force sensor alone) nothing tells air from cut.
     [[nodiscard]] bool may_be_in_cut() const { return !estimator_.estimate().tangential_N.valid || is_in_cut(); }
 
+    /// The mean section of the drops' revolutions; and how much of its growth since the last drops the width had.
+    void take_section_of_drops(const estimation::Measurement<Scalar>& last) {
+        constexpr Scalar least_growth2 = static_cast<Scalar>(0.0016L);  // 4 %
+        const estimation::Measurement<Scalar>& now = wide_band_.estimate().force_drop_immersion;
+        const Scalar section_mm2 = sections_ > 0 ? section_sum_mm2_ / Scalar(sections_) : Scalar(0);
+        if (last.valid && now.valid && section_of_drops_mm2_ > Scalar(0) && last.value > Scalar(0)) {
+            const Scalar growth = section_mm2 / section_of_drops_mm2_ - Scalar(1);
+            if (estimation::square(growth) > least_growth2) {
+                const Scalar seen = estimation::clamp((now.value / last.value - Scalar(1)) / growth, Scalar(0), Scalar(1));
+                width_share_ += Scalar(0.5F) * (seen - width_share_);
+            }
+        } else {
+            width_share_ = Scalar(0.5F);
+        }
+        section_of_drops_mm2_ = section_mm2;
+        section_sum_mm2_ = Scalar(0);
+        sections_ = 0;
+    }
+
     /// Sections since the force drops were taken last.
     void follow_section() {
         section_sum_mm2_ += estimator_.estimate().section_mm2;
         ++sections_;
     }
 
-    /// The immersion of the drops' revolutions. Where the section has grown since by a share, the width may have grown as
-    /// much or the depth instead: evenly likely between the two.
+    /// The immersion of the drops' revolutions. Where the section has grown since, the width may have grown as much or the
+    /// depth instead: as before the drops, and as doubtful as if all between the two were evenly likely.
     [[nodiscard]] estimation::Measurement<Scalar> immersion_by_force_drops() const {
         estimation::Measurement<Scalar> told = wide_band_.estimate().force_drop_immersion;
         const Scalar now_mm2 = estimator_.estimate().section_mm2;
@@ -123,7 +140,7 @@ class ForceControlTick {
             const Scalar growth = now_mm2 / section_of_drops_mm2_ - Scalar(1);
             constexpr Scalar of_even_distribution = static_cast<Scalar>(0.0833333333L);  // 1/12
             told.variance += of_even_distribution * estimation::square(growth * told.value);
-            told.value *= Scalar(1) + Scalar(0.5F) * growth;
+            told.value *= Scalar(1) + width_share_ * growth;
             told.valid = estimation::square(growth) < Scalar(0.25F);
         }
         return told;
@@ -283,6 +300,7 @@ class ForceControlTick {
     int air_periods_ = 0;
     Scalar section_sum_mm2_{0};
     Scalar section_of_drops_mm2_{0};
+    Scalar width_share_{Scalar(0.5F)};  ///< of the section's growth
     int sections_ = 0;
 };
 
