@@ -79,6 +79,7 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
     {ParameterFile::machine, "cnc", "acceleration_mm_s2", "mm/s²", 2000.0F, 1.0F, 1e6F, "Acceleration limit of the path velocity.", MILLFORCE_FIELD(machine.cnc.acceleration_mm_s2)},
     {ParameterFile::machine, "cnc", "stale_s", "s", 0.05F, 0.001F, 10.0F, "Without a drive sample for longer the controller faults and holds the feed.", MILLFORCE_FIELD(machine.cnc.stale_s)},
     {ParameterFile::machine, "cnc", "sample_rate_hz", "Hz", 1000.0F, 10.0F, 1e5F, "Rate of the drive samples.", MILLFORCE_FIELD(machine.cnc.sample_rate_hz)},
+    {ParameterFile::machine, "cnc", "solver_values_per_tick", "1", 0.0F, 0.0F, 1000.0F, "Values of the engagement's misfit that one tick works out (some hundred instructions each), for small processors; 0: all at once.", MILLFORCE_FIELD(machine.cnc.solver_values_per_tick)},
 
     {ParameterFile::tool, "tool", "teeth", "1", required, 1.0F, 12.0F, "Number of teeth or inserts.", MILLFORCE_FIELD(tool.teeth)},
     {ParameterFile::tool, "tool", "diameter_mm", "mm", required, 0.1F, 1000.0F, "Cutting diameter.", MILLFORCE_FIELD(tool.diameter_mm)},
