@@ -108,15 +108,17 @@ class Loop {
         machine_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
         steps_per_sample_ = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+        steps_to_sample_ = steps_per_sample_;
     }
 
     Simulated run(const std::string& name) {
         const auto started = std::chrono::steady_clock::now();
         Simulated simulated;
         double next_report_s = 1.0;
+        wait_for_the_controller();
         while (!cnc_.finished() && machine_.time_s() < settings_.longest_run_s && !judge_.fault_stopped()) {
             step_plant();
-            if (++steps_ % steps_per_sample_ == 0) {
+            if (--steps_to_sample_ <= 0) {
                 sample();
             }
             if (settings_.progress && machine_.time_s() > next_report_s) {
@@ -134,6 +136,18 @@ class Loop {
     }
 
   private:
+    /// Spindle on, axes standing.
+    void wait_for_the_controller() {
+        const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
+        while (!controller_.is_ready()) {
+            machine_.advance(settings_.plant_step_s, standing, {});
+            if (--steps_to_sample_ <= 0) {
+                override_ = controller_.step(machine_.sample(), program_status());
+                steps_to_sample_ = controller_.plant_steps(steps_per_sample_);
+            }
+        }
+    }
+
     void step_plant() {
         const double dt_s = settings_.plant_step_s;
         cnc_.step(static_cast<double>(override_.ratio), override_.hold);
@@ -190,12 +204,16 @@ class Loop {
         load_.spindle_torque_Nm = cutting_load_.spindle_torque_Nm;
     }
 
-    void sample() {
-        const hal::DriveSample drives = machine_.sample();
+    [[nodiscard]] hal::ProgramStatus program_status() const {
         hal::ProgramStatus program;
         program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
         program.rapid = cnc_.is_rapid();
-        override_ = controller_.step(drives, program);
+        return program;
+    }
+
+    void sample() {
+        override_ = controller_.step(machine_.sample(), program_status());
+        steps_to_sample_ = controller_.plant_steps(steps_per_sample_);
         judge_.follow(machine_.time_s(), override_, controller_, settings_.trace_interval_s);
     }
 
@@ -214,7 +232,7 @@ class Loop {
     double path_mm_ = 0.0;
     double peak_total_N_ = 0.0;
     int steps_per_sample_ = 4;
-    long steps_ = 0;
+    int steps_to_sample_ = 4;
 };
 
 }  // namespace

@@ -30,6 +30,8 @@ float seconds(std::uint64_t microseconds) { return static_cast<float>(microsecon
 
 /// SYNC periods without a sample after which the tick runs without one.
 constexpr std::uint64_t silent_after_periods = 5;
+/// The fault has long been latched then: a log with a gap of hours is not ticked through.
+constexpr std::uint64_t longest_silence_us = 10'000'000;
 constexpr float at_rest_mm_s = 0.5F;
 constexpr std::uint64_t shown_for_us = 1'000'000;
 
@@ -90,6 +92,9 @@ void CanController::run_ticks() {
         const auto age_us = static_cast<std::uint32_t>(static_cast<std::uint32_t>(bus_time_us_) - sample.time_us);
         sync_time_us_ = bus_time_us_ - age_us;
         tick_on_sample();
+    }
+    if (has_begun_ && bus_time_us_ > next_silent_us_ + longest_silence_us) {
+        next_silent_us_ = bus_time_us_ - longest_silence_us;
     }
     while (has_begun_ && bus_time_us_ >= next_silent_us_) {
         tick_without_sample();
