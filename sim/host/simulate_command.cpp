@@ -17,6 +17,7 @@
 #include "host/results_folder.hpp"
 #include "live/plant_on_can.hpp"
 #include "live/plant_wiring.hpp"
+#include "live/service.hpp"
 #include "loop/bounds.hpp"
 #include "loop/recording.hpp"
 #include "loop/simulation.hpp"
@@ -137,7 +138,6 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
     settings.sync_id = bus->drives.sync_id;
-    settings.plant_step_s = SimulationSettings{}.plant_step_s;
     return std::make_unique<PlantOnCan>(settings);
 }
 
@@ -148,7 +148,10 @@ int simulate_scenario(const SimulateOptions& options) {
     const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;
     if (!options.interface.empty()) {
-        results.push_back(run(scenario, "millforce", *controller_behind(options.interface, scenario), recording));
+        const auto controller = controller_behind(options.interface, scenario);
+        become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        results.push_back(run(scenario, "millforce", *controller, recording));
+        leave_real_time();
     } else if (!is_baseline) {
         results.push_back(run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
     }

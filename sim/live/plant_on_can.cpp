@@ -18,7 +18,6 @@ PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings)
       socket_(settings.interface),
       machine_(settings.machine),
       cnc_(settings.cnc),
-      step_us_(static_cast<std::uint64_t>(std::lround(settings.plant_step_s * 1e6))),
       start_us_(socketcan::monotonic_us()),
       plant_us_(start_us_),
       due_us_(start_us_) {}
@@ -32,6 +31,8 @@ hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::Pr
         longest_delay_us_ = std::max(longest_delay_us_, now_us > due_us_ ? now_us - due_us_ : 0);
         machine_.on_frame(sync_, now_us);
     }
+    machine_.poll(now_us);
+    cnc_.poll(now_us);
     send_all();
     await_sync();
     const override_frame::ReceivedOverride got = cnc_.feed_override(due_us_);
@@ -93,12 +94,11 @@ void PlantOnCan::send_all() {
     }
 }
 
-/// Whole steps; what is left of one is made up for at the next sample.
-int PlantOnCan::plant_steps(int) {
-    const std::uint64_t behind_us = due_us_ > plant_us_ ? due_us_ - plant_us_ : 0;
-    const std::uint64_t steps = std::max<std::uint64_t>(1, (behind_us + step_us_ / 2) / step_us_);
-    plant_us_ += steps * step_us_;
-    return static_cast<int>(steps);
+OverrideSource::PlantSteps PlantOnCan::plant_steps(const PlantSteps& usual) {
+    const double elapsed_s = 1e-6 * static_cast<double>(std::max<std::uint64_t>(due_us_ - plant_us_, 1));
+    plant_us_ = due_us_;
+    const int count = std::max(1, static_cast<int>(std::lround(elapsed_s / usual.step_s)));
+    return {count, elapsed_s / count};
 }
 
 }  // namespace millforce::sim

@@ -16,13 +16,12 @@ struct PlantOnCanSettings {
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
-    double plant_step_s = 0.25e-3;
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start
 };
 
 /// The simulated machine's side of a real CAN interface: its drives and its CNC, in real time, nothing shared with the
-/// controller but frames. The plant keeps the time of the bus: each SYNC calls for the steps that lie between its
-/// stamp and the last one's; where SYNC stays away for 5 ms the plant goes on by the clock, and its CNC finds out by
+/// controller but frames. The plant keeps the time of the bus: its steps are stretched by at most a
+/// third so that they end at the SYNC's stamp; where SYNC stays away for 5 ms the plant goes on by the clock, and its CNC finds out by
 /// itself that the controller is dead.
 ///
 /// Throws InputError where no controller is heard within the patience.
@@ -33,7 +32,7 @@ class PlantOnCan : public OverrideSource {
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(TracePoint&) const override {}  // the estimates are the controller's own
     [[nodiscard]] bool is_ready() const override { return is_ready_; }
-    [[nodiscard]] int plant_steps(int usual) override;
+    [[nodiscard]] PlantSteps plant_steps(const PlantSteps& usual) override;
 
     /// Longest time that the plant's computation was behind a SYNC.
     [[nodiscard]] std::uint64_t longest_delay_us() const { return longest_delay_us_; }
@@ -51,7 +50,6 @@ class PlantOnCan : public OverrideSource {
     CncOnBus cnc_;
     hal::CanFrame sync_{};
     bool sync_is_pending_ = false;
-    std::uint64_t step_us_;
     std::uint64_t start_us_;
     std::uint64_t plant_us_;  ///< where the plant stands, on the bus's clock
     std::uint64_t due_us_;    ///< where it is to stand at the next sample

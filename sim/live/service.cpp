@@ -41,6 +41,11 @@ std::vector<std::string> become_real_time() {
     return notes;
 }
 
+void leave_real_time() {
+    const sched_param usual{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &usual);
+}
+
 const std::atomic<bool>& stop_on_signal() {
     struct sigaction action {};
     action.sa_handler = ask_to_stop;

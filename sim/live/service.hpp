@@ -10,6 +10,9 @@ namespace millforce::sim {
 /// as a note for the user: the program runs without it, and its latencies are the machine's.
 std::vector<std::string> become_real_time();
 
+/// Back to the usual scheduler.
+void leave_real_time();
+
 /// From now on SIGINT and SIGTERM set the flag instead of ending the program.
 const std::atomic<bool>& stop_on_signal();
 

@@ -22,8 +22,12 @@ class OverrideSource {
 
     /// Before it is, the spindle turns and the program waits.
     [[nodiscard]] virtual bool is_ready() const { return true; }
-    /// Steps of the plant until the next sample: `usual`, but where a bus sets the time.
-    [[nodiscard]] virtual int plant_steps(int usual) { return usual; }
+    /// How the plant is to step until the next sample: as usual, but where a bus sets the time.
+    struct PlantSteps {
+        int count = 0;
+        double step_s = 0.0;
+    };
+    [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
 
 /// The estimates of a tick at this moment.

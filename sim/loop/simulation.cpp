@@ -107,8 +107,9 @@ class Loop {
           judge_(scenario_) {
         machine_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
-        steps_per_sample_ = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
-        steps_to_sample_ = steps_per_sample_;
+        usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+        usual_.step_s = settings.plant_step_s;
+        steps_ = usual_;
     }
 
     Simulated run(const std::string& name) {
@@ -118,7 +119,7 @@ class Loop {
         wait_for_the_controller();
         while (!cnc_.finished() && machine_.time_s() < settings_.longest_run_s && !judge_.fault_stopped()) {
             step_plant();
-            if (--steps_to_sample_ <= 0) {
+            if (--steps_.count <= 0) {
                 sample();
             }
             if (settings_.progress && machine_.time_s() > next_report_s) {
@@ -140,16 +141,16 @@ class Loop {
     void wait_for_the_controller() {
         const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
         while (!controller_.is_ready()) {
-            machine_.advance(settings_.plant_step_s, standing, {});
-            if (--steps_to_sample_ <= 0) {
+            machine_.advance(steps_.step_s, standing, {});
+            if (--steps_.count <= 0) {
                 override_ = controller_.step(machine_.sample(), program_status());
-                steps_to_sample_ = controller_.plant_steps(steps_per_sample_);
+                steps_ = controller_.plant_steps(usual_);
             }
         }
     }
 
     void step_plant() {
-        const double dt_s = settings_.plant_step_s;
+        const double dt_s = steps_.step_s;
         cnc_.step(static_cast<double>(override_.ratio), override_.hold);
         const Eigen::Vector3d direction = cnc_.direction();
         machine_.advance(dt_s, {cnc_.position_mm(), direction * cnc_.feed_mm_s(), cnc_.spindle_speed_rad_s()}, load_);
@@ -181,7 +182,7 @@ class Loop {
         }
         const double tooth_period_s = 2.0 * std::numbers::pi / (speed * static_cast<double>(scenario_.cutter.teeth));
         const double feed_per_tooth = history_.feed_per_tooth_mm(tooth_period_s);
-        const double turned_rad = speed * settings_.plant_step_s;
+        const double turned_rad = speed * steps_.step_s;
         const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
         for (int k = 0; k < points; ++k) {
             const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
@@ -213,7 +214,7 @@ class Loop {
 
     void sample() {
         override_ = controller_.step(machine_.sample(), program_status());
-        steps_to_sample_ = controller_.plant_steps(steps_per_sample_);
+        steps_ = controller_.plant_steps(usual_);
         judge_.follow(machine_.time_s(), override_, controller_, settings_.trace_interval_s);
     }
 
@@ -231,8 +232,8 @@ class Loop {
     hal::FeedOverride override_{};
     double path_mm_ = 0.0;
     double peak_total_N_ = 0.0;
-    int steps_per_sample_ = 4;
-    int steps_to_sample_ = 4;
+    OverrideSource::PlantSteps usual_{};
+    OverrideSource::PlantSteps steps_{};  ///< left until the next sample
 };
 
 }  // namespace

@@ -60,6 +60,7 @@ CanSocket::CanSocket(const CanSocketSettings& settings) : settings_(settings) { 
 CanSocket::~CanSocket() { close(); }
 
 void CanSocket::poll(std::uint64_t now_us) {
+    polled_us_ = now_us;
     if (now_us < next_look_us_) {
         return;
     }
@@ -217,7 +218,7 @@ CanSocket::Fetched CanSocket::fetch(ReceivedFrame& received) {
         return Fetched::skipped;
     }
     copy_frame(raw, received.frame);
-    received.time_us = beside.has_time ? clock_.monotonic_from(beside.time) : monotonic_us();
+    received.time_us = beside.has_time ? clock_.monotonic_from(beside.time, polled_us_) : monotonic_us();
     // Set by the kernel on what came from this very socket.
     received.is_own = (message.msg_flags & MSG_CONFIRM) != 0;
     ++health_.received;

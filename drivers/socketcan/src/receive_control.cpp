@@ -9,7 +9,6 @@ namespace millforce::socketcan {
 namespace {
 
 constexpr std::int64_t longest_age_us = 1'000'000;
-constexpr std::int64_t largest_lead_us = 1'000;  // by which two clocks that were read one after the other may differ
 
 std::int64_t microseconds(const timespec& time) {
     return static_cast<std::int64_t>(time.tv_sec) * 1'000'000 + time.tv_nsec / 1000;
@@ -54,18 +53,18 @@ std::int64_t StampClock::unix_offset_us() {
     return offset_us_;
 }
 
-std::uint64_t StampClock::monotonic_from(const timespec& stamp) {
-    const auto now_us = static_cast<std::int64_t>(monotonic_us());
+std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t now_us) {
+    const auto near_us = static_cast<std::int64_t>(now_us);
     const auto is_plausible = [&](std::int64_t time_us) {
-        return time_us > 0 && time_us <= now_us + largest_lead_us && time_us >= now_us - longest_age_us;
+        return time_us > 0 && time_us <= near_us + longest_age_us && time_us >= near_us - longest_age_us;
     };
     std::int64_t time_us = microseconds(stamp) - unix_offset_us();
     if (!is_plausible(time_us)) {
         measure();
         time_us = microseconds(stamp) - offset_us_;
     }
-    const bool is_past = time_us > 0 && time_us <= now_us + largest_lead_us;
-    return static_cast<std::uint64_t>(is_past ? time_us : now_us);
+    const bool is_past = time_us > 0 && time_us <= near_us + longest_age_us;
+    return is_past ? static_cast<std::uint64_t>(time_us) : now_us;
 }
 
 }  // namespace millforce::socketcan

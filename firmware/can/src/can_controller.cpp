@@ -101,22 +101,17 @@ void CanController::run_ticks() {
     }
 }
 
+/// A sample that lacks something is left out: the next complete one spans its time.
 void CanController::tick_on_sample() {
-    const bool is_complete = (sample_.present & complete_) == complete_;
-    if (!has_begun_ && !is_complete) {
+    if ((sample_.present & complete_) != complete_) {
         return;
     }
     has_begun_ = true;
-    complete_time_us_ = is_complete ? sync_time_us_ : complete_time_us_;
+    complete_time_us_ = sync_time_us_;
     next_silent_us_ = sync_time_us_ + silent_after_us_;
     program_ = program_at(sync_time_us_);
     reset_fault_where_asked();
-    const std::uint64_t incomplete_us = sync_time_us_ - complete_time_us_;
-    const hal::FeedOverride output =
-        incomplete_us > stale_us_
-            ? tick_.step_without_sample(seconds(incomplete_us), seconds(settings_.drives.sync_period_us), program_)
-            : tick_.step(sample_, program_);
-    finish(output, sync_time_us_);
+    finish(tick_.step(sample_, program_), sync_time_us_);
 }
 
 void CanController::tick_without_sample() {

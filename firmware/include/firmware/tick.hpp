@@ -53,6 +53,7 @@ class ForceControlTick {
         input.cut.force_valid = false;
         input.surface.valid = false;
         has_time_ = false;
+        estimator_.restart();  // no average reaches over the gap
         return output_of(controller_.step(input));
     }
 

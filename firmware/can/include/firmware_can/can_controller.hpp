@@ -23,9 +23,10 @@
 /// time, and not when it was handed out. `poll(now_us)` counts as later than every frame that was received before
 /// `now_us − settle_us`.
 ///
-/// Supervision. The tick begins with the first complete sample. A sample is complete where every configured drive told
-/// everything; when none has been for the CNC's `stale_s`, or SYNC stays away, the tick runs on without one, faults and
-/// holds the feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as they do. A fault
+/// Supervision. A sample is complete where every configured drive told everything. The tick begins with the first
+/// complete one and sees complete ones only; what lacks something is left out. After five SYNC periods without a
+/// complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s` it faults and holds the
+/// feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as they do. A fault
 /// is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
