@@ -37,6 +37,8 @@ void CncOnBus::send(std::uint64_t time_us) {
     }
 }
 
-std::vector<hal::CanFrame> CncOnBus::take_frames() { return std::exchange(outgoing_, {}); }
+std::vector<hal::CanFrame> CncOnBus::take_frames() {
+    return std::exchange(outgoing_, {});
+}
 
 }  // namespace millforce::sim

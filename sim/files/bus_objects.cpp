@@ -82,9 +82,15 @@ cia402::ObjectAddress read_address(TomlFile::Table& table, const std::string& ke
     return *address;
 }
 
-std::uint32_t microseconds_of(float milliseconds) { return static_cast<std::uint32_t>(std::lround(milliseconds * 1e3F)); }
-std::uint32_t whole(float value) { return static_cast<std::uint32_t>(std::lround(value)); }
-bool is_set(float value) { return value > 0.5F; }
+std::uint32_t microseconds_of(float milliseconds) {
+    return static_cast<std::uint32_t>(std::lround(milliseconds * 1e3F));
+}
+std::uint32_t whole(float value) {
+    return static_cast<std::uint32_t>(std::lround(value));
+}
+bool is_set(float value) {
+    return value > 0.5F;
+}
 
 cia402::DriveSettings drive_settings(const firmware::BusDriveParameters<float>& p, float rated_current_A,
                                      const DriveObjects& objects) {
@@ -125,16 +131,22 @@ cia402::DriveSettings drive_settings(const firmware::BusDriveParameters<float>& 
 /// What is wrong, and what was expected.
 const char* explanation(SettingsError error) {
     switch (error) {
-        case SettingsError::none: return "nothing is wrong";
-        case SettingsError::no_drive: return "no drive, expected a node_id";
-        case SettingsError::node_id: return "node_id is used twice, expected another for each drive";
-        case SettingsError::pdo_mapping: return "tpdo1 … tpdo4: expected CAN ids from 0x181 to 0x57F and at most 64 bits";
-        case SettingsError::id_used_twice: return "a CAN id is used twice, expected another for each PDO and SYNC";
+        case SettingsError::none:
+            return "nothing is wrong";
+        case SettingsError::no_drive:
+            return "no drive, expected a node_id";
+        case SettingsError::node_id:
+            return "node_id is used twice, expected another for each drive";
+        case SettingsError::pdo_mapping:
+            return "tpdo1 … tpdo4: expected CAN ids from 0x181 to 0x57F and at most 64 bits";
+        case SettingsError::id_used_twice:
+            return "a CAN id is used twice, expected another for each PDO and SYNC";
         case SettingsError::object_missing:
             return "a needed object is in none of tpdo1 … tpdo4, expected 0x6078 (or 0x6077 with current_source = "
                    "\"torque\"), and count_object and the index objects of the spindle, or 0x606C (or 0x6064 with "
                    "velocity_source = \"position\") of an axis";
-        case SettingsError::object_width: return "an object that is read has more than 32 bits";
+        case SettingsError::object_width:
+            return "an object that is read has more than 32 bits";
         case SettingsError::rated_value:
             return "no rated value, and a listener cannot ask the drive; expected rated_current_A in the drive's own "
                    "table, or rated_torque_Nm here";
@@ -143,9 +155,12 @@ const char* explanation(SettingsError error) {
         case SettingsError::unit:
             return "velocity_mm_s_per_unit = 0, or position_mm_per_unit with velocity_source = \"position\"; expected "
                    "the unit of the object";
-        case SettingsError::limit: return "count_modulus or largest_count_step, expected steps of at most half the modulus";
-        case SettingsError::heartbeat: return "heartbeat_timeout_ms, expected more than heartbeat_period_ms";
-        case SettingsError::sync: return "collect_time_ms, expected at most sync_period_ms";
+        case SettingsError::limit:
+            return "count_modulus or largest_count_step, expected steps of at most half the modulus";
+        case SettingsError::heartbeat:
+            return "heartbeat_timeout_ms, expected more than heartbeat_period_ms";
+        case SettingsError::sync:
+            return "collect_time_ms, expected at most sync_period_ms";
     }
     return "";
 }

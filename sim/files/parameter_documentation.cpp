@@ -65,7 +65,9 @@ void document_file(firmware::ParameterFile file, std::string& text) {
 }
 
 void document_objects(std::string& text) {
-    text += "\n### Objects of [bus.spindle], [bus.x], [bus.y], [bus.z]\n\n| key | form | default | meaning |\n|---|---|---|---|\n";
+    text +=
+        "\n### Objects of [bus.spindle], [bus.x], [bus.y], [bus.z]\n\n| key | form | default | meaning "
+        "|\n|---|---|---|---|\n";
     for (const auto& row : firmware::text_table) {
         text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.key, row.form, row.default_text, row.sentence);
     }
@@ -81,9 +83,8 @@ void document_information(std::string& text) {
     for (const auto& row : firmware::information_table) {
         const std::string_view table = row.table;
         const std::string range = row.choices != nullptr ? fmt::format(" ({})", joined_words(row.choices)) : "";
-        text +=
-            fmt::format("| {} | `{}` | {} | {}{} |\n", heading_of(std::string(table)),
-                        row.key, row.unit, row.sentence, range);
+        text += fmt::format("| {} | `{}` | {} | {}{} |\n", heading_of(std::string(table)), row.key, row.unit,
+                            row.sentence, range);
     }
 }
 

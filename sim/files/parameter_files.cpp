@@ -107,9 +107,10 @@ class TableReader {
     void for_each_table(const Row& row, Act act) {
         const std::string_view name = row.table;
         const std::vector<const char*> tables =
-            name == "axis"        ? std::vector<const char*>(firmware::axis_tables.begin(), firmware::axis_tables.end())
-            : name == "bus.drive" ? std::vector<const char*>(firmware::drive_tables.begin(), firmware::drive_tables.end())
-                                  : std::vector<const char*>{row.table};
+            name == "axis" ? std::vector<const char*>(firmware::axis_tables.begin(), firmware::axis_tables.end())
+            : name == "bus.drive"
+                ? std::vector<const char*>(firmware::drive_tables.begin(), firmware::drive_tables.end())
+                : std::vector<const char*>{row.table};
         for (std::size_t k = 0; k < tables.size(); ++k) {
             act(k, table(tables[k]));
         }

@@ -23,19 +23,23 @@ namespace {
 CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
     const auto bus = read_machine_bus(options.machine);
     if (!bus) {
-        throw InputError(fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … to read "
-                                     "the candump log {}",
-                                     options.machine, options.log));
+        throw InputError(
+            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … to read "
+                        "the candump log {}",
+                        options.machine, options.log));
     }
     return {options.log, options.interface, *bus, read_parameters(options.machine, options.tool)};
 }
 
-double seconds_of(std::uint64_t microseconds) { return static_cast<double>(microseconds) / 1e6; }
+double seconds_of(std::uint64_t microseconds) {
+    return static_cast<double>(microseconds) / 1e6;
+}
 
 std::string summary_of(const CandumpReplay& replay) {
-    return fmt::format("{} frames, {} ticks{}{}\n", replay.frames(), replay.ticks(),
-                       replay.is_listener() ? ", as a listener: the log does not hold the start of a controller" : "",
-                       replay.not_used() > 0 ? fmt::format(", {} frames of CAN FD or errors left out", replay.not_used()) : "");
+    return fmt::format(
+        "{} frames, {} ticks{}{}\n", replay.frames(), replay.ticks(),
+        replay.is_listener() ? ", as a listener: the log does not hold the start of a controller" : "",
+        replay.not_used() > 0 ? fmt::format(", {} frames of CAN FD or errors left out", replay.not_used()) : "");
 }
 
 }  // namespace
@@ -92,9 +96,10 @@ int replay_candump(const ReplayCandumpOptions& options) {
         },
         [&](double share) { progress.update(share); });
     if (rows == 0) {
-        throw InputError(fmt::format("{}: {} frames and no complete sample; expected SYNC and the PDOs of the machine's "
-                                     "[bus] tables",
-                                     options.log, replay.frames()));
+        throw InputError(
+            fmt::format("{}: {} frames and no complete sample; expected SYNC and the PDOs of the machine's "
+                        "[bus] tables",
+                        options.log, replay.frames()));
     }
     if (!file) {
         std::cout << held_back.str();

@@ -162,7 +162,8 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
                                      options.log));
     }
-    return replay_candump({options.log, options.machine, options.tool, options.output, options.interface, options.interval_s});
+    return replay_candump(
+        {options.log, options.machine, options.tool, options.output, options.interface, options.interval_s});
 }
 
 }  // namespace
@@ -180,8 +181,8 @@ void add_replay(CLI::App& app, int& exit_code) {
         "the\n"
         "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
         "[force_sensor], [force_drop] and [depth_shape].\n"
-        "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables. What\n"
-        "was recorded during 'millforce run', from its start on, gives the estimates of that run digit for digit.");
+        "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables.\n"
+        "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for digit.");
     command->add_option("log", options->log, "Recording: CSV, or a candump log")->required()->type_name("LOG");
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");

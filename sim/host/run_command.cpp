@@ -29,10 +29,11 @@ struct RunOptions {
 MachineBus bus_of(const std::string& machine_file) {
     const auto bus = read_machine_bus(machine_file);
     if (!bus) {
-        throw InputError(fmt::format(
-            "{}: no drive is on the bus; expected the tables [bus] and [bus.spindle], [bus.x], … with node_id and tpdo1, "
-            "see 'millforce parameters'",
-            machine_file));
+        throw InputError(
+            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle], [bus.x], … with "
+                        "node_id and tpdo1, "
+                        "see 'millforce parameters'",
+                        machine_file));
     }
     return *bus;
 }
@@ -54,7 +55,8 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
     if (latency.total() > 0) {
         fmt::print("SYNC to override: median {:.2f} ms, 99 % {:.2f} ms, longest {:.2f} ms\n",
                    1e-3 * static_cast<double>(latency.quantile_us(0.5)),
-                   1e-3 * static_cast<double>(latency.quantile_us(0.99)), 1e-3 * static_cast<double>(latency.largest_us()));
+                   1e-3 * static_cast<double>(latency.quantile_us(0.99)),
+                   1e-3 * static_cast<double>(latency.largest_us()));
     }
     if (!options.record.empty()) {
         fmt::print("{}: {} frames\n", options.record, journal.recorded());
@@ -91,12 +93,15 @@ void add_run(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "The live controller on a CAN interface");
     command->footer(
-        "Runs until SIGINT or SIGTERM; then the override says hold and the heartbeat 'stopped'. An interface that is not\n"
+        "Runs until SIGINT or SIGTERM; then the override says hold and the heartbeat 'stopped'. An interface that is "
+        "not\n"
         "there, or goes down, is waited for. Conditions that come and go are told on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");
     command->add_option("interface", options->interface, "CAN interface, e.g. can0")->required()->type_name("IFACE");
-    command->add_option("--machine", options->machine, "Machine parameters, with [bus]")->required()->type_name("M.toml");
+    command->add_option("--machine", options->machine, "Machine parameters, with [bus]")
+        ->required()
+        ->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
     command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
     command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")

@@ -128,12 +128,14 @@ void print_broken_bound(const RunFigures& figures) {
 std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const Scenario& scenario) {
     const auto bus = read_machine_bus(scenario.machine_file);
     if (!bus) {
-        throw InputError(fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … for --bus",
-                                     scenario.machine_file));
+        throw InputError(
+            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … for --bus",
+                        scenario.machine_file));
     }
     PlantOnCanSettings settings;
     if (!settings.interface.set_interface(interface)) {
-        throw InputError(fmt::format("--bus: '{}', expected a CAN interface of at most 15 characters, e.g. vcan0", interface));
+        throw InputError(
+            fmt::format("--bus: '{}', expected a CAN interface of at most 15 characters, e.g. vcan0", interface));
     }
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
@@ -153,11 +155,12 @@ int simulate_scenario(const SimulateOptions& options) {
         results.push_back(run(scenario, "millforce", *controller, recording));
         leave_real_time();
     } else if (!is_baseline) {
-        results.push_back(run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
+        results.push_back(
+            run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
     }
     const double ratio = safe_override_of(scenario, options.hardest);
-    results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
-                          is_baseline ? recording : std::nullopt));
+    results.push_back(
+        run(scenario, baseline, *controller_named(baseline, scenario, ratio), is_baseline ? recording : std::nullopt));
     const ScenarioInfo info = info_of(scenario, ratio);
     fmt::print("{}", summary_table(info, results));
     write_report(out, info, results);

@@ -18,9 +18,10 @@ constexpr const char* name(cia402::NodeState state) {
 }
 
 constexpr const char* name(cia402::PowerState state) {
-    constexpr const char* names[] = {"unknown",           "not_ready_to_switch_on", "switch_on_disabled",
-                                     "ready_to_switch_on", "switched_on",            "operation_enabled",
-                                     "quick_stop_active", "fault_reaction_active",  "fault"};
+    constexpr const char* names[] = {
+        "unknown",     "not_ready_to_switch_on", "switch_on_disabled", "ready_to_switch_on",
+        "switched_on", "operation_enabled",      "quick_stop_active",  "fault_reaction_active",
+        "fault"};
     return names[static_cast<std::size_t>(state) % 9U];
 }
 
@@ -31,10 +32,11 @@ constexpr const char* name(socketcan::LinkState state) {
 
 constexpr const char* name(cia402::Reject reason) {
     constexpr const char* names[] = {
-        "foreign_id",     "not_standard_data",   "frame_length",        "pdo_length",    "pdo_not_operational",
-        "pdo_late",       "pdo_repeated",        "current_range",       "velocity_range", "position_step",
-        "units_disagree", "sync_length",         "sync_foreign",        "sync_early",    "heartbeat_malformed",
-        "emergency_malformed", "sdo_malformed",  "sdo_unexpected",      "sdo_value_range"};
+        "foreign_id",          "not_standard_data", "frame_length",        "pdo_length",
+        "pdo_not_operational", "pdo_late",          "pdo_repeated",        "current_range",
+        "velocity_range",      "position_step",     "units_disagree",      "sync_length",
+        "sync_foreign",        "sync_early",        "heartbeat_malformed", "emergency_malformed",
+        "sdo_malformed",       "sdo_unexpected",    "sdo_value_range"};
     static_assert(sizeof names / sizeof names[0] == cia402::reject_reasons);
     return names[static_cast<std::size_t>(reason) % cia402::reject_reasons];
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -32,8 +31,8 @@ class CandumpLines {
         bytes_ += text_.size() + 1;
         line_ = candump::read_line(text_);
         if (line_.kind == candump::LineKind::malformed) {
-            throw InputError(fmt::format("{}:{}:{}: '{}', expected {}", file_, number_, line_.column,
-                                         shown(text_), candump::expectation(line_.error)));
+            throw InputError(fmt::format("{}:{}:{}: '{}', {}", file_, number_, line_.column, shown(text_),
+                                         candump::expectation(line_.error)));
         }
         return true;
     }
@@ -159,9 +158,9 @@ void CandumpReplay::take_rated_values() {
             continue;
         }
         if (told == 0) {
-            throw InputError(fmt::format(
-                "{}: no drive's answer tells the rated value of {}; expected it in the machine's file ({})", settings_.log,
-                drive_names[role], by_torque ? "rated_torque_Nm" : "rated_current_A"));
+            throw InputError(
+                fmt::format("{}: no drive's answer tells the rated value of {}; expected it in the machine's file ({})",
+                            settings_.log, drive_names[role], by_torque ? "rated_torque_Nm" : "rated_current_A"));
         }
         rated = static_cast<float>(told) * 0.001F;
     }

@@ -32,7 +32,9 @@ Journal::Journal(const JournalSettings& settings)
     writer_ = std::thread([this] { run(); });
 }
 
-Journal::~Journal() { finish(); }
+Journal::~Journal() {
+    finish();
+}
 
 void Journal::record(const hal::CanFrame& frame, std::uint64_t unix_us) {
     if (record_ != nullptr && !frames_.push({unix_us, lost_frames_.load(std::memory_order_relaxed), frame})) {
@@ -79,7 +81,8 @@ void Journal::write_all() {
 void Journal::write_frames() {
     for (FrameEntry entry; frames_.pop(entry);) {
         if (entry.lost_before != told_lost_) {
-            put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n", entry.lost_before - told_lost_));
+            put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n",
+                                     entry.lost_before - told_lost_));
             told_lost_ = entry.lost_before;
         }
         put(record_, candump_line(entry.frame, entry.unix_us, settings_.interface));

@@ -26,11 +26,10 @@ std::string number_or_null(double value) {
 
 std::string estimate_members(const EstimateEntry& entry) {
     const TracePoint& p = entry.point;
-    std::string text = fmt::format(R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
-                                   control::name(static_cast<control::CutState>(p.state)),
-                                   control::name(static_cast<control::Limit>(p.limit)),
-                                   control::name(static_cast<control::Fault>(p.fault)),
-                                   CsvWriter::cell(entry.override_ratio), entry.hold);
+    std::string text = fmt::format(
+        R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
+        control::name(static_cast<control::CutState>(p.state)), control::name(static_cast<control::Limit>(p.limit)),
+        control::name(static_cast<control::Fault>(p.fault)), CsvWriter::cell(entry.override_ratio), entry.hold);
     for (const auto& [key, value] :
          {std::pair{"tangential_force_N", p.tangential_force_N}, std::pair{"feed_force_N", p.feed_force_N},
           std::pair{"radial_immersion", p.radial_immersion}, std::pair{"radial_immersion_sd", p.radial_immersion_sd},
@@ -45,20 +44,26 @@ std::string estimate_members(const EstimateEntry& entry) {
 bool causes(const cia402::NodeHealth& drive, Condition condition) {
     using cia402::NodeState;
     switch (condition) {
-        case Condition::drive_preparing: return drive.state == NodeState::preparing || drive.state == NodeState::starting;
-        case Condition::drive_refused: return drive.state == NodeState::refused;
-        case Condition::drive_lost: return drive.state == NodeState::lost;
+        case Condition::drive_preparing:
+            return drive.state == NodeState::preparing || drive.state == NodeState::starting;
+        case Condition::drive_refused:
+            return drive.state == NodeState::refused;
+        case Condition::drive_lost:
+            return drive.state == NodeState::lost;
         case Condition::drive_not_enabled:
             return cia402::is_faulted(drive.power) || drive.power == cia402::PowerState::quick_stop_active;
-        case Condition::drive_emergency: return drive.emergency_active;
-        case Condition::drive_units_disagree: return drive.units_disagree;
-        default: return false;
+        case Condition::drive_emergency:
+            return drive.emergency_active;
+        case Condition::drive_units_disagree:
+            return drive.units_disagree;
+        default:
+            return false;
     }
 }
 
 std::string drive_json(const cia402::NodeHealth& drive) {
-    std::string text = fmt::format(R"({{"state":"{}","power":"{}","times_lost":{})", name(drive.state), name(drive.power),
-                                   drive.times_lost);
+    std::string text = fmt::format(R"({{"state":"{}","power":"{}","times_lost":{})", name(drive.state),
+                                   name(drive.power), drive.times_lost);
     if (drive.emergency.error_code != 0) {
         text += fmt::format(R"(,"emergency":"0x{:04X}")", drive.emergency.error_code);
     }

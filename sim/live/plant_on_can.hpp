@@ -12,7 +12,7 @@
 namespace millforce::sim {
 
 struct PlantOnCanSettings {
-    socketcan::CanSocketSettings interface{};
+    socketcan::CanSocketSettings interface {};
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
@@ -21,8 +21,8 @@ struct PlantOnCanSettings {
 
 /// The simulated machine's side of a real CAN interface: its drives and its CNC, in real time, nothing shared with the
 /// controller but frames. The plant keeps the time of the bus: its steps are stretched by at most a
-/// third so that they end at the SYNC's stamp; where SYNC stays away for 5 ms the plant goes on by the clock, and its CNC finds out by
-/// itself that the controller is dead.
+/// third so that they end at the SYNC's stamp; where SYNC stays away for 5 ms the plant goes on by the clock, and its
+/// CNC finds out by itself that the controller is dead.
 ///
 /// Throws InputError where no controller is heard within the patience.
 class PlantOnCan : public OverrideSource {

@@ -22,7 +22,9 @@ constexpr int real_time_priority = 60;
 
 std::atomic<bool> stop_asked{false};
 
-void ask_to_stop(int) { stop_asked.store(true); }
+void ask_to_stop(int) {
+    stop_asked.store(true);
+}
 
 }  // namespace
 
@@ -69,7 +71,8 @@ void notify_service_manager(const char* state) {
     }
     const int descriptor = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (descriptor >= 0) {
-        sendto(descriptor, state, std::strlen(state), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), length);
+        sendto(descriptor, state, std::strlen(state), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),
+               length);
         close(descriptor);
     }
 }

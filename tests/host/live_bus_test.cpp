@@ -36,8 +36,8 @@ class LiveInputs : public Inputs {
             };
             std::array<char, 40> spindle{};
             const unsigned count = 546U * static_cast<unsigned>(k);
-            std::snprintf(spindle.data(), spindle.size(), "181#%02X%02X%02X00A700", count & 0xFFU, (count >> 8U) & 0xFFU,
-                          (count >> 16U) & 0xFFU);
+            std::snprintf(spindle.data(), spindle.size(), "181#%02X%02X%02X00A700", count & 0xFFU,
+                          (count >> 8U) & 0xFFU, (count >> 16U) & 0xFFU);
             line(0, "080#");
             line(150, spindle.data());
             line(300, "182#204E0000A700");
@@ -49,7 +49,8 @@ class LiveInputs : public Inputs {
     }
 };
 
-void replay_is_refused(const LiveInputs& in, const std::vector<std::string>& more, const std::vector<std::string>& parts) {
+void replay_is_refused(const LiveInputs& in, const std::vector<std::string>& more,
+                       const std::vector<std::string>& parts) {
     STRCMP_EQUAL("", not_refused(in.replay(more), parts).c_str());
     CHECK_FALSE(std::filesystem::exists(in.path("out.csv")));
 }
@@ -72,7 +73,7 @@ TEST(LiveBus, a_candump_log_is_known_by_its_content_and_replayed) {
 
 TEST(LiveBus, rated_values_that_the_machine_lacks_come_from_the_drives_answers_in_the_log) {
     const LiveInputs in;
-    in.write("machine.toml", with(machine_text + bus_text, "[x]\n", "[x]\nrated_current_A = 12\n") );
+    in.write("machine.toml", with(machine_text + bus_text, "[x]\n", "[x]\nrated_current_A = 12\n"));
     replay_is_refused(in, {}, {"machine.toml", "bus.spindle: no rated value, and a listener cannot ask"});
     in.write("machine.toml", with(with(machine_text + bus_text, "[x]\n", "[x]\nrated_current_A = 12\n"), "[bus]\n",
                                   "[bus]\nrole = \"master\"\n"));
@@ -109,13 +110,14 @@ TEST(LiveBus, without_a_bus_in_the_machine_each_command_says_what_is_missing) {
     const std::vector<std::string> parts{"machine.toml: no drive is on the bus; expected the tables [bus]"};
     STRCMP_EQUAL("", not_refused(in.run(), parts).c_str());
     replay_is_refused(in, {}, parts);
-    STRCMP_EQUAL("", not_refused(run_millforce({"simulate", in.name("scenario.toml"), "--bus", "vcan0"}), parts).c_str());
+    STRCMP_EQUAL("",
+                 not_refused(run_millforce({"simulate", in.name("scenario.toml"), "--bus", "vcan0"}), parts).c_str());
 }
 
 TEST(LiveBus, an_interface_that_none_can_be_and_files_that_cannot_be_written_are_refused) {
     const LiveInputs in;
     STRCMP_EQUAL("", not_refused(in.run("a_name_of_16_chr"), {"'a_name_of_16_chr': expected a CAN interface"}).c_str());
-    const Ended run = run_millforce({"run", "vcan0", "--machine", in.name("machine.toml"), "--tool", in.name("tool.toml"),
-                                     "--log", in.name("no_folder/run.jsonl")});
+    const Ended run = run_millforce({"run", "vcan0", "--machine", in.name("machine.toml"), "--tool",
+                                     in.name("tool.toml"), "--log", in.name("no_folder/run.jsonl")});
     STRCMP_EQUAL("", not_refused(run, {"no_folder/run.jsonl: No such file or directory"}).c_str());
 }

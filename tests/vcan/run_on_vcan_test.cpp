@@ -7,7 +7,9 @@ using namespace millforce::vcan;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 /// Of the first run in the summary.
 double peak_over_limit(const LiveFolder& folder) {
@@ -30,9 +32,10 @@ void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::st
 
 }  // namespace
 
-TEST_GROUP(RunOnVcan) {
-    void teardown() override { shell("ip link set vcan0 up"); }
-};
+TEST_GROUP(RunOnVcan){void teardown() override{shell("ip link set vcan0 up");
+}
+}
+;
 
 TEST(RunOnVcan, a_part_is_milled_by_two_processes_and_what_candump_recorded_replays_bit_for_bit) {
     const LiveFolder folder;
@@ -53,7 +56,8 @@ TEST(RunOnVcan, a_part_is_milled_by_two_processes_and_what_candump_recorded_repl
     CHECK(has(controller.out(), " 0 not sent, 0 lost"));
     CHECK(has(folder.text("run.jsonl"), "\"state\":\"in_cut\""));
     const double over_bus = peak_over_limit(folder);
-    LONGS_EQUAL(0, test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
+    LONGS_EQUAL(0,
+                test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
     const double in_process = peak_over_limit(folder);
     std::printf("\n    peak over limit %.3f, in process %.3f\n    %s", over_bus, in_process, controller.out().c_str());
     CHECK(over_bus > 0.5 * in_process);

@@ -15,11 +15,16 @@ bool ProgramStatusReceiver::reject(ReceiveError error) {
 bool ProgramStatusReceiver::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
     ProgramStatusFrame status;
     switch (settings_.id == 0 ? FrameError::not_this_frame : decode(frame, settings_.id, status)) {
-        case FrameError::none: break;
-        case FrameError::not_this_frame: return false;
-        case FrameError::length: return reject(ReceiveError::length);
-        case FrameError::checksum: return reject(ReceiveError::checksum);
-        case FrameError::reserved_bits: return reject(ReceiveError::reserved_bits);
+        case FrameError::none:
+            break;
+        case FrameError::not_this_frame:
+            return false;
+        case FrameError::length:
+            return reject(ReceiveError::length);
+        case FrameError::checksum:
+            return reject(ReceiveError::checksum);
+        case FrameError::reserved_bits:
+            return reject(ReceiveError::reserved_bits);
     }
     const auto step = static_cast<std::uint16_t>(status.counter - newest_.counter);
     if (source(time_us) == ProgramSource::fresh && step == 0) {

@@ -24,9 +24,13 @@ std::uint8_t complete_sample(const cia402::BusSettings& settings) {
     return present;
 }
 
-std::uint64_t microseconds(float seconds) { return static_cast<std::uint64_t>(seconds * 1e6F); }
+std::uint64_t microseconds(float seconds) {
+    return static_cast<std::uint64_t>(seconds * 1e6F);
+}
 
-float seconds(std::uint64_t microseconds) { return static_cast<float>(microseconds) * 1e-6F; }
+float seconds(std::uint64_t microseconds) {
+    return static_cast<float>(microseconds) * 1e-6F;
+}
 
 /// SYNC periods without a sample after which the tick runs without one.
 constexpr std::uint64_t silent_after_periods = 5;
@@ -50,7 +54,8 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
       tick_(parameters),
       listener_(listener) {}
 
-/// What is due before a frame's time is done before the frame is looked at: so it does not matter how often poll() comes.
+/// What is due before a frame's time is done before the frame is looked at: so it does not matter how often poll()
+/// comes.
 void CanController::advance_to(std::uint64_t time_us) {
     bus_time_us_ = std::max(bus_time_us_, time_us);
     bus_.poll(bus_time_us_);
@@ -164,7 +169,9 @@ void CanController::reset_fault_where_asked() {
 }
 
 bool CanController::is_at_rest() const {
-    const auto rests = [](float velocity_mm_s) { return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s; };
+    const auto rests = [](float velocity_mm_s) {
+        return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
+    };
     return (sample_.present & complete_) == complete_ &&
            std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), rests);
 }
@@ -177,7 +184,8 @@ void CanController::judge(std::uint64_t now_us) {
     for (std::size_t role = 0; role < cia402::drive_capacity; ++role) {
         const cia402::NodeHealth& drive = bus_.health(static_cast<cia402::DriveRole>(role));
         Conditions of_drive;
-        of_drive.set(Condition::drive_preparing, drive.state == NodeState::preparing || drive.state == NodeState::starting);
+        of_drive.set(Condition::drive_preparing,
+                     drive.state == NodeState::preparing || drive.state == NodeState::starting);
         of_drive.set(Condition::drive_refused, drive.state == NodeState::refused);
         of_drive.set(Condition::drive_lost, drive.state == NodeState::lost);
         of_drive.set(Condition::drive_emergency, drive.emergency_active);

@@ -38,7 +38,8 @@ TEST(ProgramStatus, every_field_comes_back_to_half_a_step) {
         sent.program.rapid = true;
         ProgramStatusFrame got;
         CHECK(decode(encode(sent, default_id), default_id, got) == FrameError::none);
-        DOUBLES_EQUAL(static_cast<double>(feed_mm_min) / 60.0, static_cast<double>(got.program.programmed_feed_mm_s), 0.0002 + 1e-6 * static_cast<double>(feed_mm_min));
+        DOUBLES_EQUAL(static_cast<double>(feed_mm_min) / 60.0, static_cast<double>(got.program.programmed_feed_mm_s),
+                      0.0002 + 1e-6 * static_cast<double>(feed_mm_min));
         DOUBLES_EQUAL(0.7, got.program.operator_override, 1e-6);
         CHECK(got.program.rapid);
         CHECK_FALSE(got.program.feed_hold);
@@ -128,9 +129,8 @@ TEST(ProgramStatus, random_frames_are_refused_or_within_their_ranges) {
         CHECK(program.operator_override >= 0.0F && program.operator_override <= 2.55F);
     }
     CHECK(taken < 300);  // of 256 checksums one fits, of 32 flag bytes one
-    UNSIGNED_LONGS_EQUAL(300'000, taken + receiver.errors(ReceiveError::length) +
-                                      receiver.errors(ReceiveError::checksum) +
-                                      receiver.errors(ReceiveError::reserved_bits) +
-                                      receiver.errors(ReceiveError::counter_repeated) +
-                                      receiver.errors(ReceiveError::counter_backwards));
+    UNSIGNED_LONGS_EQUAL(
+        300'000, taken + receiver.errors(ReceiveError::length) + receiver.errors(ReceiveError::checksum) +
+                     receiver.errors(ReceiveError::reserved_bits) + receiver.errors(ReceiveError::counter_repeated) +
+                     receiver.errors(ReceiveError::counter_backwards));
 }

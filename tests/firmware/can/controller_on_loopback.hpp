@@ -32,9 +32,9 @@ class TickLog final : public firmware::TickListener {
         sim::TracePoint point;
         sim::describe_tick(controller.controller(), point);
         std::string line = std::to_string(controller.tick_time_us());
-        for (const double value : {point.tangential_force_N, point.feed_force_N, point.radial_immersion,
-                                   point.axial_depth_mm, point.peak_force_N,
-                                   static_cast<double>(controller.output().ratio)}) {
+        for (const double value :
+             {point.tangential_force_N, point.feed_force_N, point.radial_immersion, point.axial_depth_mm,
+              point.peak_force_N, static_cast<double>(controller.output().ratio)}) {
             line += ',' + sim::CsvWriter::cell(value);
         }
         lines.push_back(line + ',' + std::to_string(controller.output().state));

@@ -1,5 +1,5 @@
-#include "files/parameter_files.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
 #include "sim/files/temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -92,8 +92,9 @@ TEST(MachineBusFile, an_object_that_is_none_is_named_with_its_place) {
 
 TEST(MachineBusFile, more_than_a_frame_holds_is_refused) {
     CHECK(contains(error_of("\"0x6078:16\"]", "\"0x6078:16\", \"0x6041:32\"]"), "80 bits, expected at most 64"));
-    CHECK(contains(error_of("\"0x6064:32\", ", "\"0x1:1\",\"0x2:1\",\"0x3:1\",\"0x4:1\",\"0x5:1\",\"0x6:1\",\"0x7:1\",\"0x8:1\","),
-                   "9 objects, expected at most 8"));
+    CHECK(contains(
+        error_of("\"0x6064:32\", ", "\"0x1:1\",\"0x2:1\",\"0x3:1\",\"0x4:1\",\"0x5:1\",\"0x6:1\",\"0x7:1\",\"0x8:1\","),
+        "9 objects, expected at most 8"));
 }
 
 TEST(MachineBusFile, settings_that_do_not_fit_together_are_told_with_their_table) {

@@ -23,9 +23,9 @@
 ///     }
 ///
 /// No heap; every call but wait() returns at once. One thread per socket. Frames that this socket sent are received by
-/// it where `receive_own` asks for them; those of other programs on this machine are. CAN FD frames are counted and not handed over.
-/// A controller in bus-off stays there unless the interface was configured to restart:
-/// `ip link set can0 type can restart-ms 100`.
+/// it where `receive_own` asks for them; those of other programs on this machine are. CAN FD frames are counted and not
+/// handed over. A controller in bus-off stays there unless the interface was configured to restart: `ip link set can0
+/// type can restart-ms 100`.
 
 namespace millforce::socketcan {
 

@@ -8,10 +8,10 @@
 namespace millforce::firmware {
 
 enum class Condition : std::uint8_t {
-    interface_absent,      ///< no such interface, or a kernel without CAN
+    interface_absent,  ///< no such interface, or a kernel without CAN
     interface_down,
-    error_warning,         ///< of the CAN controller; frames flow
-    error_passive,         ///< the same
+    error_warning,  ///< of the CAN controller; frames flow
+    error_passive,  ///< the same
     bus_off,
     send_queue_full,       ///< ENOBUFS
     frames_lost,           ///< overruns: frames came faster than they were fetched, within the last second
@@ -31,11 +31,11 @@ enum class Condition : std::uint8_t {
 inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::program_silent) + 1;
 
 constexpr const char* name(Condition condition) {
-    constexpr const char* names[] = {
-        "interface_absent", "interface_down",  "error_warning",     "error_passive",   "bus_off",
-        "send_queue_full",  "frames_lost",     "sync_lost",         "sync_foreign",    "drive_preparing",
-        "drive_refused",    "drive_lost",      "drive_not_enabled", "drive_emergency", "drive_units_disagree",
-        "input_incomplete", "input_stale",     "program_unknown",   "program_silent"};
+    constexpr const char* names[] = {"interface_absent",  "interface_down",  "error_warning",        "error_passive",
+                                     "bus_off",           "send_queue_full", "frames_lost",          "sync_lost",
+                                     "sync_foreign",      "drive_preparing", "drive_refused",        "drive_lost",
+                                     "drive_not_enabled", "drive_emergency", "drive_units_disagree", "input_incomplete",
+                                     "input_stale",       "program_unknown", "program_silent"};
     static_assert(sizeof names / sizeof names[0] == condition_count);
     return names[static_cast<std::size_t>(condition) % condition_count];
 }
