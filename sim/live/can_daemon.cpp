@@ -11,8 +11,9 @@ namespace {
 
 using firmware::Condition;
 
-/// Between a frame's stamp and its place in the socket's queue lie microseconds.
-constexpr std::uint32_t settle_us = 200;
+/// Between a frame's stamp and its place in the socket's queue lie microseconds, but milliseconds where this thread runs
+/// before the kernel's deferred work. What is missing by then is left out anyway; only `input_stale` comes so much later.
+constexpr std::uint32_t settle_us = 5'000;
 constexpr std::uint64_t second_us = 1'000'000;
 /// The override's sender finds out that ticks stay away (20 ms) and says so in its heartbeat.
 constexpr std::uint64_t farewell_us = 40'000;

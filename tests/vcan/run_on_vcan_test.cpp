@@ -71,7 +71,7 @@ TEST(RunOnVcan, sigterm_ends_with_hold_a_stopped_heartbeat_and_complete_files) {
     const Candump candump("vcan0");
     test::Program controller(folder.run_words());
     test::Program plant(folder.plant_words());
-    CHECK(folder.logged("\"state\":\"entry\""));
+    CHECK(folder.logged("\"type\":\"estimate\""));
     controller.interrupt(SIGTERM);
     controller.wait();
     LONGS_EQUAL(0, controller.exit_code());
@@ -95,7 +95,7 @@ TEST(RunOnVcan, a_plant_that_vanishes_is_stale_input_and_lost_by_name_and_comes_
     test::Program controller(folder.run_words());
     {
         test::Program plant(folder.plant_words());
-        CHECK(folder.logged("\"state\":\"entry\""));
+        CHECK(folder.logged("\"type\":\"estimate\""));
         plant.interrupt(SIGSTOP);
         CHECK(folder.logged("\"fault\":\"stale_input\""));
         CHECK(folder.logged("\"drive_lost\""));
@@ -104,7 +104,7 @@ TEST(RunOnVcan, a_plant_that_vanishes_is_stale_input_and_lost_by_name_and_comes_
     }
     folder.write("run.jsonl", "");
     test::Program plant(folder.plant_words());
-    CHECK(folder.logged("\"conditions\":[],"));
+    CHECK(folder.logged("\"spindle\":{\"state\":\"operational\""));
     controller.interrupt(SIGINT);
     controller.wait();
     plant.interrupt(SIGTERM);
@@ -117,7 +117,7 @@ TEST(RunOnVcan, an_interface_that_goes_down_is_told_and_waited_for) {
     const LiveFolder folder;
     test::Program controller(folder.run_words());
     test::Program plant(folder.plant_words());
-    CHECK(folder.logged("\"state\":\"entry\""));
+    CHECK(folder.logged("\"type\":\"estimate\""));
     LONGS_EQUAL(0, shell("ip link set vcan0 down"));
     CHECK(folder.logged("\"interface_down\""));
     CHECK(folder.logged("\"fault\":\"stale_input\""));

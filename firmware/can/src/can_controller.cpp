@@ -206,7 +206,8 @@ bool CanController::take_frame(hal::CanFrame& frame) {
 }
 
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
-    std::uint64_t next_us = bus_.next_event_us(now_us) + settings_.settle_us;
+    std::uint64_t next_us = std::min(bus_.next_event_us(now_us) + settings_.settle_us,
+                                     now_us + settings_.feed_override.period_us);
     if (settings_.drives.produces_sync && !stopped_) {
         next_us = std::min(next_us, sync_.next_us());
     }
