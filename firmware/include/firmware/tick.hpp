@@ -61,10 +61,11 @@ class ForceControlTick {
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
+        estimator_.restart();  // no average reaches over the gap
+        set_cut();
         set_motion(Scalar(dt_s), {}, program);
         input_.cut.fresh = false;
         input_.time_since_sample_s = Scalar(silent_s);
-        input_.cut.force_valid = false;
         input_.surface.valid = false;
         has_time_ = false;
         return output_of(controller_.step(input_));
