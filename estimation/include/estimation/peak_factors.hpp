@@ -73,9 +73,11 @@ PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactor
         engagement_angles(settings.side, radial_immersion, settings.centre_offset_in_radii);
     const Scalar sweep = axial_depth_mm * tan(settings.helix_rad) / settings.cutter_radius_mm;
     const Scalar feed = settings.nominal_feed_per_tooth_mm;
-    const Scalar F_at = average_forces(law, CutConditions<Scalar>{feed, axial_depth_mm, engagement, settings.teeth}).tangential_N;
+    // Forces per mm of depth, which is common to both: their squares stay within the range of fixed point.
+    constexpr Scalar depth_mm{1};
+    const Scalar F_at = average_forces(law, CutConditions<Scalar>{feed, depth_mm, engagement, settings.teeth}).tangential_N;
     const auto tooth_at = [&](Scalar tip) {
-        return single_tooth_force(law, feed, axial_depth_mm, sweep, engagement, tip);
+        return single_tooth_force(law, feed, depth_mm, sweep, engagement, tip);
     };
     const Scalar first = engagement.entry_rad;
     const Scalar passage = engagement.exit_rad + sweep - first;

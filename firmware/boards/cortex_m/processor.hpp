@@ -26,7 +26,9 @@ extern "C" [[noreturn]] void on_processor_fault(const FaultRecord& record);
 /// Given by the image: the program. Must not return.
 extern "C" [[noreturn]] void run_image();
 
-/// Stack that was never touched since the start, in bytes, out of stack_size_bytes(). Linear in its result.
+/// Paints the stack below the caller; done at the start, and again by who measures one part of a program.
+void paint_stack();
+/// Stack that was not touched since it was painted, in bytes, out of stack_size_bytes(). Linear in its result.
 [[nodiscard]] std::uint32_t untouched_stack_bytes();
 [[nodiscard]] std::uint32_t stack_size_bytes();
 

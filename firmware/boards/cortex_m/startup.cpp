@@ -60,15 +60,6 @@ void guard_stack() {
     asm volatile("dsb\n isb" ::: "memory");
 }
 
-/// All of the stack below this frame.
-void paint_stack() {
-    std::uint32_t here = 0;
-    asm volatile("mov %0, sp" : "=r"(here));
-    for (std::uint32_t* word = &_stack_limit; reinterpret_cast<std::uint32_t>(word) < here - 64U; ++word) {
-        *word = paint;
-    }
-}
-
 void prepare_memory() {
     const std::uint32_t* from = &_data_load;
     for (std::uint32_t* to = &_data_start; to < &_data_end; ++to) {
@@ -91,6 +82,15 @@ bool is_in_stack(const std::uint32_t* frame) { return frame >= &_stack_limit && 
 
 namespace millforce::board {
 
+void paint_stack() {
+    std::uint32_t here = 0;
+    asm volatile("mov %0, sp" : "=r"(here));
+    constexpr std::uint32_t own_frame = 64;
+    for (std::uint32_t* word = &_stack_limit; reinterpret_cast<std::uint32_t>(word) < here - own_frame; ++word) {
+        *word = paint;
+    }
+}
+
 std::uint32_t stack_size_bytes() {
     return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&_stack_top) -
                                       reinterpret_cast<std::uintptr_t>(&_stack_limit));
@@ -111,7 +111,7 @@ void Reset_Handler() {
     enable_fpu();
     guard_stack();
     prepare_memory();
-    paint_stack();
+    millforce::board::paint_stack();
     call(__preinit_array_start, __preinit_array_end);
     call(__init_array_start, __init_array_end);
     millforce::board::run_image();
