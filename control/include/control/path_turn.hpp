@@ -44,7 +44,8 @@ class PathTurn {
         const Scalar along = m.velocity_x_mm_s * mean_x_ + m.velocity_y_mm_s * mean_y_;
         const Scalar mean2 = mean_x_ * mean_x_ + mean_y_ * mean_y_;
         const bool known = mean2 > Scalar(0);
-        const bool turned = known && (along < Scalar(0) || along * along < cos2_of_turn * v2 * mean2);
+        // along² < cos² v² mean², without a fourth power: that of a rapid is beyond the range of fixed point.
+        const bool turned = known && (along < Scalar(0) || along * (along / mean2) < cos2_of_turn * v2);
         const Scalar taken = turned || !known ? Scalar(1) : share;
         mean_x_ += (m.velocity_x_mm_s - mean_x_) * taken;
         mean_y_ += (m.velocity_y_mm_s - mean_y_) * taken;

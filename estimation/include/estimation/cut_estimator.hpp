@@ -382,8 +382,8 @@ class CutEstimator {
 
     /// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
     [[nodiscard]] Scalar runout_factor() const {
-        using std::exp;
-        using std::log;
+        using elementary::exp;
+        using elementary::log;
         if (!(settings_.runout_mm > Scalar(0)) || !(estimate_.feed_per_tooth_mm > Scalar(0))) {
             return Scalar(1);
         }

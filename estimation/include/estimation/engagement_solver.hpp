@@ -105,7 +105,7 @@ class EngagementSolver {
     };
 
     [[nodiscard]] Scalar largest_angle(CutSide side) const {
-        using std::acos;
+        using elementary::acos;
         Scalar limit = settings_.largest_immersion;
         if (side == CutSide::centred) {
             const Scalar offset = settings_.centre_offset_in_radii;
@@ -117,7 +117,7 @@ class EngagementSolver {
 
     [[nodiscard]] Profile profile_at(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                                      CutSide side, Scalar theta_rad) const {
-        using std::cos;
+        using elementary::cos;
         const auto model = forces_per_mm(side, Scalar(1) - cos(theta_rad), feed_per_tooth_mm);
         const Scalar t_x = forces.feed_direction_x;
         const Scalar t_y = forces.feed_direction_y;
@@ -179,7 +179,7 @@ class EngagementSolver {
 
     [[nodiscard]] EngagementEstimate<Scalar> solve_side(const AverageForceMeasurement<Scalar>& forces,
                                                         Scalar feed_per_tooth_mm, CutSide side) const {
-        using std::acos;
+        using elementary::acos;
         EngagementEstimate<Scalar> estimate;
         estimate.side = side;
         if (!is_solvable(forces, feed_per_tooth_mm)) {
@@ -235,8 +235,8 @@ class EngagementSolver {
     template <std::size_t Count>
     void fill_immersion(EngagementEstimate<Scalar>& estimate, const std::array<Scalar, Count>& J, Scalar first,
                         Scalar step, Scalar centre, Scalar least, Scalar curvature) const {
-        using std::cos;
-        using std::sin;
+        using elementary::cos;
+        using elementary::sin;
         using std::sqrt;
         const Scalar threshold = least + static_cast<Scalar>(3.84L);
         std::size_t low = 0;
@@ -280,7 +280,7 @@ class EngagementSolver {
     /// Depth at the estimate; its deviation adds what the immersion's doubt and K_s leave open.
     void fill_depth(EngagementEstimate<Scalar>& estimate, const AverageForceMeasurement<Scalar>& forces,
                     Scalar feed_per_tooth_mm, CutSide side, const Profile& best) const {
-        using std::acos;
+        using elementary::acos;
         using std::sqrt;
         if (!(best.information > Scalar(0)) || !(best.depth_mm > Scalar(0))) {
             return;

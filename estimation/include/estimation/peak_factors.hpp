@@ -68,7 +68,7 @@ template <typename Scalar, int Steps = 72>
 PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
                                  Scalar radial_immersion, Scalar axial_depth_mm) {
     using std::sqrt;
-    using std::tan;
+    using elementary::tan;
     const EngagementAngles<Scalar> engagement =
         engagement_angles(settings.side, radial_immersion, settings.centre_offset_in_radii);
     const Scalar sweep = axial_depth_mm * tan(settings.helix_rad) / settings.cutter_radius_mm;
@@ -134,7 +134,7 @@ class ToothPeakTable {
     ToothPeakTable() = default;
 
     void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
-        using std::tan;
+        using elementary::tan;
         sweep_rad_per_mm_ = tan(settings.helix_rad) / settings.cutter_radius_mm;
         side_ = settings.side;
         centre_offset_in_radii_ = settings.centre_offset_in_radii;
@@ -153,7 +153,7 @@ class ToothPeakTable {
 
     /// Immersion is clipped to 0.02…2. Any depth ≥ 0.
     [[nodiscard]] Scalar at(Scalar radial_immersion, Scalar axial_depth_mm) const {
-        using std::acos;
+        using elementary::acos;
         const Scalar immersion = clamp(radial_immersion, immersion_of(Scalar(0)), Scalar(2));
         const Scalar sweeps = axial_depth_mm * sweep_rad_per_mm_ / engagement_at(immersion);
         const Place across = place((acos(Scalar(1) - immersion) - first_rad) / step_rad, ImmersionNodes);
@@ -179,7 +179,7 @@ class ToothPeakTable {
     static constexpr Scalar most_sweeps = static_cast<Scalar>(20);
 
     [[nodiscard]] static Scalar immersion_of(Scalar node) {
-        using std::cos;
+        using elementary::cos;
         return Scalar(1) - cos(first_rad + step_rad * node);
     }
     [[nodiscard]] static Scalar sweeps_of(Scalar node) {

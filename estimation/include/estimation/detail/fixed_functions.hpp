@@ -103,6 +103,7 @@ constexpr Raw raw_sqrt(Raw x) {
     while (root < 0xFFFF'FFFFULL && (root + 1U) * (root + 1U) <= m) {
         ++root;
     }
+    root += m - root * root > root ? 1U : 0U;
     const int up = 16 - static_cast<int>(shift / 2U);
     return up >= 0 ? static_cast<Raw>(root << static_cast<unsigned>(up))
                    : static_cast<Raw>((root + (1ULL << static_cast<unsigned>(-up - 1))) >> static_cast<unsigned>(-up));
