@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 
 #include "estimation/cutting_law.hpp"
+#include "estimation/elementary.hpp"
 #include "firmware/parameter_table.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
@@ -59,7 +59,7 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     const float time_s = static_cast<float>(index) * sample_interval_s;
     const float turned_rev = time_s * spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
     const float tooth_phase_rad = 2.0F * std::numbers::pi_v<float> * teeth * turned_rev;
-    const float load = index < air_samples ? 0.0F : 1.0F + ripple_share * std::sin(tooth_phase_rad);
+    const float load = index < air_samples ? 0.0F : 1.0F + ripple_share * estimation::elementary::sin(tooth_phase_rad);
     const float torque_Nm = load * tangential_N * parameters.tool.diameter_mm * 0.0005F;
 
     hal::DriveSample sample;
