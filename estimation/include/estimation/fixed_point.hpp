@@ -69,10 +69,10 @@ class FixedPoint {
 
     constexpr FixedPoint operator-() const { return from_raw(-raw_); }
     constexpr FixedPoint operator+() const { return *this; }
-    friend constexpr FixedPoint operator+(FixedPoint a, FixedPoint b) { return take(detail::add(a.raw_, b.raw_)); }
-    friend constexpr FixedPoint operator-(FixedPoint a, FixedPoint b) { return take(detail::add(a.raw_, -b.raw_)); }
-    friend constexpr FixedPoint operator*(FixedPoint a, FixedPoint b) { return take(detail::multiply(a.raw_, b.raw_)); }
-    friend constexpr FixedPoint operator/(FixedPoint a, FixedPoint b) { return take(detail::divide(a.raw_, b.raw_)); }
+    friend constexpr FixedPoint operator+(FixedPoint a, FixedPoint b) { return seen(detail::add<Policy>(a.raw_, b.raw_)); }
+    friend constexpr FixedPoint operator-(FixedPoint a, FixedPoint b) { return seen(detail::add<Policy>(a.raw_, -b.raw_)); }
+    friend constexpr FixedPoint operator*(FixedPoint a, FixedPoint b) { return seen(detail::multiply<Policy>(a.raw_, b.raw_)); }
+    friend constexpr FixedPoint operator/(FixedPoint a, FixedPoint b) { return seen(detail::divide<Policy>(a.raw_, b.raw_)); }
     constexpr FixedPoint& operator+=(FixedPoint other) { return *this = *this + other; }
     constexpr FixedPoint& operator-=(FixedPoint other) { return *this = *this - other; }
     constexpr FixedPoint& operator*=(FixedPoint other) { return *this = *this * other; }
@@ -89,8 +89,8 @@ class FixedPoint {
         const Raw inside = x.raw_ > detail::raw_one ? detail::raw_one : (x.raw_ < -detail::raw_one ? -detail::raw_one : x.raw_);
         return seen(detail::raw_acos(inside));
     }
-    friend constexpr FixedPoint exp(FixedPoint x) { return take(detail::raw_exp(x.raw_)); }
-    friend constexpr FixedPoint log(FixedPoint x) { return take(detail::raw_log(x.raw_)); }
+    friend constexpr FixedPoint exp(FixedPoint x) { return seen(detail::raw_exp<Policy>(x.raw_)); }
+    friend constexpr FixedPoint log(FixedPoint x) { return seen(detail::raw_log<Policy>(x.raw_)); }
     friend constexpr FixedPoint pow(FixedPoint base, FixedPoint exponent) { return exp(exponent * log(base)); }
 
   private:
@@ -98,13 +98,6 @@ class FixedPoint {
         Policy::saw(raw);
         return from_raw(raw);
     }
-    static constexpr FixedPoint take(detail::Saturating result) {
-        if (result.saturated) [[unlikely]] {
-            Policy::saturated();
-        }
-        return seen(result.value);
-    }
-
     template <typename Integer>
     static constexpr Raw from_integer(Integer value) {
         constexpr Integer zero{0};
@@ -113,8 +106,7 @@ class FixedPoint {
         const std::uint64_t size =
             negative ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
         if (size > most) {
-            Policy::saturated();
-            return negative ? detail::raw_lowest : detail::raw_highest;
+            return detail::end_of_range<Policy>(negative);
         }
         return detail::signed_raw(size << 32U, negative);
     }
@@ -140,8 +132,7 @@ class FixedPoint {
             return 0;
         }
         if (up > 39) {
-            Policy::saturated();
-            return negative ? detail::raw_lowest : detail::raw_highest;
+            return detail::end_of_range<Policy>(negative);
         }
         if (up >= 0) {
             return detail::signed_raw(mantissa << static_cast<unsigned>(up), negative);

@@ -16,11 +16,12 @@ inline constexpr Raw raw_one = Raw{1} << fraction_bits;
 inline constexpr Raw raw_highest = INT64_MAX;
 inline constexpr Raw raw_lowest = -INT64_MAX;  // symmetric: −x and |x| never overflow
 
-/// A result, and whether it is the nearest end of the range in place of the true one.
-struct Saturating {
-    Raw value;
-    bool saturated;
-};
+// Where a product is four instructions it is worth a call: an inlined one makes the image twice as large.
+#ifdef __SIZEOF_INT128__
+#define MILLFORCE_CALLED inline
+#else
+#define MILLFORCE_CALLED [[gnu::noinline]]
+#endif
 
 constexpr std::uint64_t magnitude(Raw value) {
     return value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
@@ -32,18 +33,25 @@ constexpr std::uint64_t product(std::uint32_t a, std::uint32_t b) { return std::
 constexpr Raw signed_raw(std::uint64_t magnitude_of, bool negative) {
     return negative ? -static_cast<Raw>(magnitude_of) : static_cast<Raw>(magnitude_of);
 }
-constexpr Saturating end_of_range(bool negative) { return {negative ? raw_lowest : raw_highest, true}; }
+/// What stands in place of a result that does not fit; `Policy` hears of it.
+template <typename Policy>
+constexpr Raw end_of_range(bool negative) {
+    Policy::saturated();
+    return negative ? raw_lowest : raw_highest;
+}
 
-constexpr Saturating add(Raw a, Raw b) {
+template <typename Policy>
+constexpr Raw add(Raw a, Raw b) {
     Raw sum = 0;
-    if (__builtin_add_overflow(a, b, &sum) || sum == INT64_MIN) {
-        return end_of_range(a < 0);
+    if (__builtin_add_overflow(a, b, &sum) || sum == INT64_MIN) [[unlikely]] {
+        return end_of_range<Policy>(a < 0);
     }
-    return {sum, false};
+    return sum;
 }
 
 /// a b, rounded to nearest, halves away from zero. Four products of 32 bits.
-constexpr Saturating multiply_by_words(Raw a, Raw b) {
+template <typename Policy>
+MILLFORCE_CALLED constexpr Raw multiply_by_words(Raw a, Raw b) {
     const std::uint64_t x = magnitude(a);
     const std::uint64_t y = magnitude(b);
     constexpr std::uint64_t half = 1ULL << 31U;
@@ -53,24 +61,25 @@ constexpr Saturating multiply_by_words(Raw a, Raw b) {
     const std::uint64_t high = product(high_word(x), high_word(y)) + high_word(middle);
     const bool negative = (a ^ b) < 0;
     if (high >= half) {
-        return end_of_range(negative);
+        return end_of_range<Policy>(negative);
     }
-    return {signed_raw(high << 32U | low_word(middle), negative), false};
+    return signed_raw(high << 32U | low_word(middle), negative);
 }
 
 /// The same; in one product where the processor has it.
-constexpr Saturating multiply(Raw a, Raw b) {
+template <typename Policy>
+constexpr Raw multiply(Raw a, Raw b) {
 #ifdef __SIZEOF_INT128__
     __extension__ using Wide = unsigned __int128;
     constexpr std::uint64_t half = 1ULL << 31U;
     const Wide whole = Wide{magnitude(a)} * magnitude(b) + half;
     const bool negative = (a ^ b) < 0;
     if (static_cast<std::uint64_t>(whole >> 64U) >= half) {
-        return end_of_range(negative);
+        return end_of_range<Policy>(negative);
     }
-    return {signed_raw(static_cast<std::uint64_t>(whole >> 32U), negative), false};
+    return signed_raw(static_cast<std::uint64_t>(whole >> 32U), negative);
 #else
-    return multiply_by_words(a, b);
+    return multiply_by_words<Policy>(a, b);
 #endif
 }
 
@@ -154,19 +163,21 @@ constexpr std::uint64_t quotient_by_two_words(std::uint64_t x, std::uint64_t y) 
 }
 
 /// a / b, rounded to nearest, halves away from zero. By zero: the end of the range with the sign of a; 0 / 0 is 0.
-constexpr Saturating divide(Raw a, Raw b) {
+template <typename Policy>
+MILLFORCE_CALLED constexpr Raw divide(Raw a, Raw b) {
     const std::uint64_t x = magnitude(a);
     const std::uint64_t y = magnitude(b);
     const bool negative = (a ^ b) < 0;
     if (x >> 31U >= y) {
-        return a == 0 ? Saturating{0, true} : end_of_range(negative);
+        const Raw end = end_of_range<Policy>(negative);
+        return a == 0 ? 0 : end;
     }
     const std::uint64_t quotient =
         high_word(y) == 0 ? quotient_by_word(x, low_word(y)) : quotient_by_two_words(x, y);
     if (quotient > static_cast<std::uint64_t>(raw_highest)) {
-        return end_of_range(negative);
+        return end_of_range<Policy>(negative);
     }
-    return {signed_raw(quotient, negative), false};
+    return signed_raw(quotient, negative);
 }
 
 }  // namespace millforce::estimation::detail

@@ -12,6 +12,11 @@
 
 namespace millforce::estimation::detail {
 
+/// For what cannot leave the range.
+struct NeverSaturates {
+    static constexpr void saturated() {}
+};
+
 /// A fraction in Q31, −1…1.
 using Fraction = std::int32_t;
 
@@ -71,15 +76,15 @@ constexpr Raw sine_of(Octant angle) {
     return raw_of_q31((angle.quarter & 2U) == 0U ? value : -value);
 }
 
-constexpr Raw raw_sin(Raw angle_rad) { return sine_of(octant_of(angle_rad)); }
-constexpr Raw raw_cos(Raw angle_rad) {
+MILLFORCE_CALLED constexpr Raw raw_sin(Raw angle_rad) { return sine_of(octant_of(angle_rad)); }
+MILLFORCE_CALLED constexpr Raw raw_cos(Raw angle_rad) {
     Octant angle = octant_of(angle_rad);
     angle.quarter = (angle.quarter + 1U) & 3U;
     return sine_of(angle);
 }
 
 /// √x to 32 significant bits, x ≥ 0. Newton's iteration for 1/√m on the leading 32 bits, and one correction of √m itself.
-constexpr Raw raw_sqrt(Raw x) {
+MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
     if (x <= 0) {
         return 0;
     }
@@ -139,7 +144,7 @@ constexpr Raw arc_tangent(std::uint64_t small, std::uint64_t large) {
 }
 
 /// −π…π; 0 for (0, 0).
-constexpr Raw raw_atan2(Raw y, Raw x) {
+MILLFORCE_CALLED constexpr Raw raw_atan2(Raw y, Raw x) {
     const std::uint64_t across = magnitude(y);
     const std::uint64_t along = magnitude(x);
     if (across == 0 && along == 0) {
@@ -151,8 +156,8 @@ constexpr Raw raw_atan2(Raw y, Raw x) {
 }
 
 /// 0…π, for −1 ≤ x ≤ 1. By the half-angle, exact where x is next to ±1.
-constexpr Raw raw_acos(Raw x) {
-    const Raw sine = raw_sqrt(multiply(raw_one - x, raw_one + x).value);
+MILLFORCE_CALLED constexpr Raw raw_acos(Raw x) {
+    const Raw sine = raw_sqrt(multiply<NeverSaturates>(raw_one - x, raw_one + x));
     return raw_atan2(sine, x);
 }
 
@@ -163,19 +168,19 @@ inline constexpr std::array<Fraction, 8> power_of_two{
     q31(0.00007151277769011638L),  q31(1.0821350466834672e-05L)};
 
 /// 2^e for e in Q31.32.
-constexpr Saturating power_of_two_of(Raw e) {
+template <typename Policy>
+constexpr Raw power_of_two_of(Raw e) {
     const auto whole = static_cast<std::int32_t>(e >> fraction_bits);
     const auto fraction = static_cast<Fraction>(low_word(static_cast<std::uint64_t>(e)) >> 1U);
     if (whole >= 31) {
-        return end_of_range(false);
+        return end_of_range<Policy>(false);
     }
     const std::int64_t half_power = polynomial(power_of_two, fraction);  // Q31: ½ … 1
     const int up = whole + 2;
     if (up >= 0) {
-        return {half_power << static_cast<unsigned>(up), false};
+        return half_power << static_cast<unsigned>(up);
     }
-    return up < -31 ? Saturating{0, false}
-                    : Saturating{(half_power + (1LL << static_cast<unsigned>(-up - 1))) >> static_cast<unsigned>(-up), false};
+    return up < -31 ? 0 : (half_power + (1LL << static_cast<unsigned>(-up - 1))) >> static_cast<unsigned>(-up);
 }
 
 constexpr Raw log2e_times(Raw x) {
@@ -185,13 +190,14 @@ constexpr Raw log2e_times(Raw x) {
 }
 
 /// eˣ; below −22.5 it is 0.
-constexpr Saturating raw_exp(Raw x) {
+template <typename Policy>
+MILLFORCE_CALLED constexpr Raw raw_exp(Raw x) {
     constexpr Raw highest = 22 * raw_one;
     constexpr Raw lowest = -23 * raw_one;
     if (x >= highest) {
-        return end_of_range(false);
+        return end_of_range<Policy>(false);
     }
-    return x <= lowest ? Saturating{0, false} : power_of_two_of(log2e_times(x));
+    return x <= lowest ? 0 : power_of_two_of<Policy>(log2e_times(x));
 }
 
 /// atanh(s)/s over s², halved, for |s| ≤ 0.1716: 2e-12.
@@ -200,10 +206,12 @@ inline constexpr std::array<Fraction, 5> arc_tanh_over_s{q31(0.50000000000208989
                                                          q31(0.059040889377370835L)};
 
 /// ln x, x > 0; for x ≤ 0 the logarithm of half the resolution, saturated.
-constexpr Saturating raw_log(Raw x) {
+template <typename Policy>
+MILLFORCE_CALLED constexpr Raw raw_log(Raw x) {
     constexpr Raw lowest = -98242467570;  // ln 2⁻³³
     if (x <= 0) {
-        return {lowest, true};
+        Policy::saturated();
+        return lowest;
     }
     const auto zeros = std::countl_zero(static_cast<std::uint64_t>(x));
     const std::uint32_t m = high_word(static_cast<std::uint64_t>(x) << static_cast<unsigned>(zeros));  // Q31: 1…2
@@ -220,7 +228,7 @@ constexpr Saturating raw_log(Raw x) {
     const Fraction s = difference < 0 ? -s_magnitude : s_magnitude;
     const std::int64_t half_log = times(polynomial(arc_tanh_over_s, static_cast<Fraction>(times(s, s))), s);
     constexpr Raw ln_2 = 2977044472;  // ln 2 · 2³²
-    return {exponent * ln_2 + 8 * half_log, false};
+    return exponent * ln_2 + 8 * half_log;
 }
 
 }  // namespace millforce::estimation::detail
