@@ -108,6 +108,7 @@ inline constexpr std::uint32_t table_fingerprint = [] {
     return crc;
 }();
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a row's field is a reference into parameters that may change
 inline ParameterBlock encoded(Parameters<float> parameters, std::uint32_t sequence) {
     ParameterBlock block{};
     std::size_t offset = block_header_bytes;
