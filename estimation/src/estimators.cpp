@@ -1,6 +1,5 @@
 // Instantiates every estimator for float, so that the core's compiler flags and warnings see all of it.
 #include "estimation/cut_estimator.hpp"
-#include "estimation/drift_tracker.hpp"
 #include "estimation/encoder_angle.hpp"
 #include "estimation/engagement_solver.hpp"
 #include "estimation/feed_drive.hpp"
@@ -12,7 +11,6 @@
 
 namespace millforce::estimation {
 
-template class DriftTracker<float>;
 template class WarmUpTracker<float>;
 template class EncoderAngle<float>;
 template class SynchronousAverage<float, 7>;

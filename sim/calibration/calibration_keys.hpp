@@ -100,6 +100,10 @@ inline constexpr std::array<CalibrationKey, 9> cutting_doubt_keys{{
     key_of("cutting", "maximum_feed_per_tooth_mm"),
 }};
 
+/// Table [depth_shape].
+inline constexpr CalibrationKey tip_angle_key = key_of("depth_shape", "tip_angle_deg");
+inline constexpr CalibrationKey tip_angle_doubt_key = key_of("depth_shape", "tip_angle_sd_deg");
+
 /// Table [cutting]: "down" or "up".
 inline constexpr CalibrationKey cut_side_key = key_of("cutting", "cut_side");
 

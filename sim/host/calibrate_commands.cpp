@@ -10,6 +10,7 @@
 
 #include "calibration/cutting_calibration.hpp"
 #include "calibration/estimate.hpp"
+#include "calibration/force_drop_calibration.hpp"
 #include "calibration/friction_calibration.hpp"
 #include "calibration/roughness_calibration.hpp"
 #include "calibration/spindle_calibration.hpp"
@@ -155,6 +156,40 @@ void add_roughness(CLI::App* calibrate, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = calibrate_roughness(*options, std::cout); });
 }
 
+using ForceShapeCalibration = int (*)(const ForceShapeCalibrationOptions&, std::ostream&);
+
+void add_force_shape(CLI::App* command, int& exit_code, ForceShapeCalibration calibration) {
+    auto options = std::make_shared<ForceShapeCalibrationOptions>();
+    add_data_and_output(command, *options);
+    command->add_option("--cuts", options->cuts, "Which stretch is which cut")->required()->type_name("CUTS.csv");
+    command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
+    command->add_option("--tool", options->tool, "Tool parameters, with the force sensor's low-pass")
+        ->required()
+        ->type_name("T.toml");
+    command->callback([options, &exit_code, calibration] { exit_code = calibration(*options, std::cout); });
+}
+
+void add_force_drop(CLI::App* calibrate, int& exit_code) {
+    CLI::App* command = calibrate->add_subcommand("force-drop", "Tool and material: immersion from force drops");
+    command->footer(
+        "Data: recordings of steady cuts of known width with a force sensor (fx_N, fy_N), or with feed drives where both\n"
+        "axes travel and tooth passing is slow. CUTS.csv tells which stretch is which cut: start_s, end_s,\n"
+        "tool_diameter_mm, flutes, axial_depth_mm and radial_width_mm. Feeds must differ by a factor of 1.5, widths\n"
+        "should span those of the work. The table goes into tool.toml as it is.\n"
+        "Exit code 1: the immersion of a cut, by the law of the others, is off by more than 10 %.");
+    add_force_shape(command, exit_code, calibrate_force_drop);
+}
+
+void add_tip_angle(CLI::App* calibrate, int& exit_code) {
+    CLI::App* command = calibrate->add_subcommand("tip-angle", "Tool in its holder: where the teeth stand, for depths "
+                                                               "from the force's shape");
+    command->footer(
+        "Data: recordings of steady cuts of known depth and width with a force sensor (fx_N, fy_N); one is enough.\n"
+        "CUTS.csv as for force-drop. The key goes into tool.toml's [depth_shape] as it is.\n"
+        "Exit code 1: the cuts disagree by more than four standard deviations.");
+    add_force_shape(command, exit_code, calibrate_tip_angle);
+}
+
 }  // namespace
 
 void add_calibrate(CLI::App& app, int& exit_code) {
@@ -166,6 +201,8 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     add_standard_cut(calibrate, exit_code);
     add_warm_up(calibrate, exit_code);
     add_roughness(calibrate, exit_code);
+    add_force_drop(calibrate, exit_code);
+    add_tip_angle(calibrate, exit_code);
 }
 
 void add_estimate(CLI::App& app, int& exit_code) {

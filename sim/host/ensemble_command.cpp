@@ -61,8 +61,8 @@ void add_ensemble(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("ensemble", "The same scenario with many plants: how sure the figures are");
     command->footer(
         "K_s, friction, torque and force constants of each plant are drawn from the deviations that the machine and\n"
-        "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit, or a program did\n"
-        "not finish.");
+        "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit or above the limit\n"
+        "later than the reaction time after the engagement grew, or a program did not finish.");
     command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
     command->add_option("--runs", options->runs, "Number of plants")
         ->check(CLI::Range(1, 10000))

@@ -17,8 +17,8 @@
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
+#include "firmware/wide_band_settings.hpp"
 #include "host/commands.hpp"
-#include "loop/force_sensor_estimates.hpp"
 #include "loop/override_source.hpp"
 #include "loop/recording.hpp"
 
@@ -85,48 +85,75 @@ class RoughnessCells {
     std::size_t outside_ = 0;
 };
 
-/// The columns of the wide-band methods, where the recording has a force sensor. What their parameters lack is told
-/// once, on standard error; their cells are empty then.
-class ForceSensorCells {
+/// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
+/// drops from the drives. What the parameters lack is told once, on standard error; its cells are empty then.
+class WideBandCells {
   public:
-    ForceSensorCells(bool is_there, const firmware::Parameters<float>& parameters)
-        : shape_(parameters.tool.depth_shape) {
-        if (is_there) {
-            estimates_.emplace(parameters);
-        }
-    }
+    using Estimates = firmware::WideBandEstimate<float>;
+
+    WideBandCells(bool has_sensor, const firmware::Parameters<float>& parameters)
+        : tool_(parameters.tool), has_sensor_(has_sensor),
+          is_there_(has_sensor || firmware::has_force_drop_law(tool_)) {}
 
     void tell_what_is_missing() const {
-        for (const std::string& line : estimates_ ? estimates_->missing() : std::vector<std::string>()) {
-            fmt::print(stderr, "millforce: note: {}\n", line);
-        }
-    }
-    void add(const RecordingReader& recording) {
-        if (estimates_) {
-            estimates_->add(recording.force_sensor());
+        for (const std::string_view line : {lacking_for_force_drops(), lacking_for_depths()}) {
+            if (has_sensor_ && !line.empty()) {
+                fmt::print(stderr, "millforce: note: {}\n", line);
+            }
         }
     }
     void write_header(std::ostream& out) const {
-        out << (estimates_ ? ",force_drop_immersion,force_drop_immersion_sd,depth_shape_axial_depth_mm,"
-                             "depth_shape_axial_depth_sd_mm,depth_shape_radial_width_mm,depth_shape_radial_width_sd_mm,"
-                             "depth_shape_axial_variation_percent,depth_shape_radial_variation_percent"
-                           : "");
+        out << (is_there_ ? ",force_drop_immersion,force_drop_immersion_sd,depth_shape_axial_depth_mm,"
+                            "depth_shape_axial_depth_sd_mm,depth_shape_radial_width_mm,depth_shape_radial_width_sd_mm,"
+                            "depth_shape_axial_variation_percent,depth_shape_radial_variation_percent"
+                          : "");
     }
-    void write(std::ostream& out) const {
-        if (!estimates_) {
+    void write(std::ostream& out, const Estimates& made) const {
+        if (!is_there_) {
             return;
         }
-        const WideBandEstimate& made = estimates_->estimate();
         write_with_sd(out, made.force_drop_immersion);
         write_with_sd(out, made.axial_depth_mm);
         write_with_sd(out, made.radial_width_mm);
-        write_variation(out, made.axial_depth_mm, shape_.nominal_axial_depth_mm);
-        write_variation(out, made.radial_width_mm, shape_.nominal_radial_width_mm);
+        write_variation(out, made.axial_depth_mm, tool_.depth_shape.nominal_axial_depth_mm);
+        write_variation(out, made.radial_width_mm, tool_.depth_shape.nominal_radial_width_mm);
     }
-    [[nodiscard]] std::string summary() const { return estimates_ ? estimates_->summary() : std::string(); }
+    [[nodiscard]] std::string summary(const Estimates& made) const {
+        std::string text;
+        if (is_there_ && lacking_for_force_drops().empty()) {
+            text += fmt::format("immersion from force drops: {} estimates of {} that were due\n", made.force_drops_valid,
+                                made.force_drops);
+        }
+        if (has_sensor_ && lacking_for_depths().empty()) {
+            text += fmt::format("depths from the force's shape: {} estimates of {} that were due\n", made.depths_valid,
+                                made.depths);
+        }
+        return text;
+    }
 
   private:
     using Estimate = estimation::Measurement<float>;
+
+    [[nodiscard]] std::string_view lacking_for_force_drops() const {
+        if (!firmware::has_force_drop_law(tool_)) {
+            return "no immersion from force drops: the tool has no calibrated [force_drop] table";
+        }
+        return has_sensor_ && !firmware::has_force_sensor(tool_)
+                   ? "no immersion from force drops of the sensor: the tool's [force_sensor] table has no low_pass_hz"
+                   : "";
+    }
+    [[nodiscard]] std::string_view lacking_for_depths() const {
+        if (!firmware::has_nominal_depths(tool_)) {
+            return "no depths from the force's shape: the tool's [depth_shape] table has no nominal_axial_depth_mm or "
+                   "no nominal_radial_width_mm";
+        }
+        if (!firmware::force_has_shape(tool_)) {
+            return "no depths from the force's shape: it takes a helix of at least 5° and a wall to one side";
+        }
+        return firmware::has_force_sensor(tool_)
+                   ? ""
+                   : "no depths from the force's shape: the tool's [force_sensor] table has no low_pass_hz";
+    }
 
     static void write_with_sd(std::ostream& out, const Estimate& m) {
         out << ',' << (m.valid ? CsvWriter::cell(m.value) + ',' + CsvWriter::cell(std::sqrt(m.variance)) : ",");
@@ -135,8 +162,9 @@ class ForceSensorCells {
         out << ',' << (m.valid ? CsvWriter::cell(100.0F * (m.value / nominal - 1.0F)) : "");
     }
 
-    firmware::DepthShapeParameters<float> shape_;
-    std::optional<ForceSensorEstimates> estimates_;
+    firmware::ToolParameters<float> tool_;
+    bool has_sensor_;
+    bool is_there_;
 };
 
 /// The program's status of each row: the recording's own, with F from the command line where it was given.
@@ -162,24 +190,23 @@ int replay(const ReplayOptions& options) {
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
     RoughnessCells roughness(parameters.tool.roughness);
-    ForceSensorCells force_sensor(recording.has_force_sensor(), parameters);
+    WideBandCells wide_band(recording.has_force_sensor(), parameters);
     out << header;
     roughness.write_header(out);
-    force_sensor.write_header(out);
+    wide_band.write_header(out);
     out << '\n';
     Progress progress("replaying");
     std::size_t rows = 0;
     double next_row_s = -std::numeric_limits<double>::infinity();
     while (recording.next()) {
         progress.update(recording.fraction_read());
-        force_sensor.add(recording);
         const hal::FeedOverride output = controller.step(recording.sample(), program_of(recording, options));
         if (recording.time_s() >= next_row_s) {
             TracePoint point;
             controller.describe(point);
             write_row(out, recording.time_s(), point, output.ratio);
             roughness.write(out, controller.roughness());
-            force_sensor.write(out);
+            wide_band.write(out, controller.wide_band());
             out << '\n';
             next_row_s = recording.time_s() + options.interval_s;
             ++rows;
@@ -188,14 +215,14 @@ int replay(const ReplayOptions& options) {
     if (rows == 0) {
         throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
     }
-    force_sensor.tell_what_is_missing();
+    wide_band.tell_what_is_missing();
     if (recording.has_one_force_only()) {
         fmt::print(stderr, "millforce: note: {}: fx_N and fy_N are used together, and one of them is missing\n",
                    options.log);
     }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), force_sensor.summary());
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), wide_band.summary(controller.wide_band()));
     } else {
         std::cout << held_back.str();
     }

@@ -99,7 +99,8 @@ RunResult run(const Scenario& scenario, const std::string& name, double constant
     if (!recording) {
         return simulate(scenario, *controller, name, settings_with(progress)).result;
     }
-    RecordingWriter writer(*recording, scenario.machine.encoder_counts_per_rev);
+    RecordingWriter writer(*recording, scenario.machine.encoder_counts_per_rev,
+                           scenario.machine.force_sensor.is_there());
     Recorder recorder(*controller, [&](const RecordedStep& step) { writer.add(step); });
     Simulated simulated = simulate(scenario, recorder, name, settings_with(progress));
     writer.commit();

@@ -19,7 +19,11 @@ double value_or_none(const estimation::Measurement<float>& measurement) {
 }  // namespace
 
 hal::FeedOverride MillforceController::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    return tick_.step(sample, program);
+    const hal::FeedOverride output = tick_.step(sample, program);
+    if (tick_.work_due()) {
+        tick_.work();
+    }
+    return output;
 }
 
 void MillforceController::describe(TracePoint& point) const {

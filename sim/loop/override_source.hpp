@@ -29,6 +29,7 @@ class MillforceController : public OverrideSource {
     void describe(TracePoint& point) const override;
     [[nodiscard]] const estimation::CutEstimate<float>& estimate() const { return tick_.estimate(); }
     [[nodiscard]] const estimation::RoughnessPrediction<float>& roughness() const { return tick_.roughness(); }
+    [[nodiscard]] const firmware::WideBandEstimate<float>& wide_band() const { return tick_.wide_band(); }
 
   private:
     firmware::ForceControlTick<float> tick_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -17,7 +18,7 @@ constexpr std::array<std::string_view, hal::axis_count> axis_names{"x", "y", "z"
 
 constexpr std::string_view header =
     "time_s,spindle_angle_rad,spindle_current_A,x_current_A,y_current_A,z_current_A,x_velocity_mm_s,y_velocity_mm_s,"
-    "z_velocity_mm_s,override,spindle_index_angle_rad,programmed_feed_mm_s,rapid\n";
+    "z_velocity_mm_s,override,spindle_index_angle_rad,programmed_feed_mm_s,rapid";
 
 bool has(const hal::DriveSample& sample, std::uint8_t mask) {
     return (sample.present & mask) != 0;
@@ -31,9 +32,10 @@ hal::FeedOverride Recorder::step(const hal::DriveSample& sample, const hal::Prog
     return output;
 }
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev)
-    : file_(file), counts_per_rev_(static_cast<double>(encoder_counts_per_rev)) {
-    file_.stream() << header;
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev,
+                                 bool has_force_sensor)
+    : file_(file), counts_per_rev_(static_cast<double>(encoder_counts_per_rev)), has_force_sensor_(has_force_sensor) {
+    file_.stream() << header << (has_force_sensor_ ? ",fx_N,fy_N\n" : "\n");
 }
 
 double RecordingWriter::angle_rad(std::int64_t count) const {
@@ -75,7 +77,11 @@ void RecordingWriter::add(const RecordedStep& step) {
     cell(angle_rad(count_ + static_cast<std::int32_t>(s.spindle_index_count - s.spindle_count)),
          has_count && s.spindle_index_number != 0);
     cell(step.program.programmed_feed_mm_s);
-    line_ += step.program.rapid ? ",1\n" : ",0\n";
+    line_ += step.program.rapid ? ",1" : ",0";
+    for (std::size_t k = 0; has_force_sensor_ && k < s.force_N.size(); ++k) {
+        cell(s.force_N[k], has(s, hal::mask(hal::Present::force_sensor)));
+    }
+    line_ += '\n';
     file_.stream() << line_;
 }
 
@@ -116,11 +122,6 @@ void RecordingReader::require_drives() const {
     throw InputError(fmt::format("{}:1: {}", csv_.file_name(), expected));
 }
 
-ForceSensorSample RecordingReader::force_sensor() const {
-    const auto velocity_mm_s = [&](std::size_t k) { return axes_[k].velocity ? csv_.number(axes_[k].velocity) : 0.0; };
-    return {time_s_, csv_.number(angle_), csv_.number(fx_), csv_.number(fy_), velocity_mm_s(0), velocity_mm_s(1)};
-}
-
 bool RecordingReader::next() {
     if (!csv_.next_row()) {
         return false;
@@ -134,6 +135,7 @@ bool RecordingReader::next() {
     sample_.time_us = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::llround((time_s + 1e9) * 1e6)));
     read_spindle();
     read_axes();
+    read_force_sensor();
     read_program();
     return true;
 }
@@ -151,12 +153,34 @@ std::optional<std::uint32_t> RecordingReader::count_at(std::optional<CsvColumn> 
         static_cast<std::int64_t>(std::floor(angle / revolution * static_cast<double>(counts_per_rev_) + 1e-6)));
 }
 
+/// An angle that begins again after each turn goes on.
+void RecordingReader::follow_turns(double angle_rad) {
+    const bool within_a_turn = std::max(std::abs(angle_rad), std::abs(last_angle_rad_)) < 1.05 * revolution;
+    if (within_a_turn && angle_rad < last_angle_rad_ - 0.5 * revolution) {
+        ++whole_turns_;
+    }
+    last_angle_rad_ = angle_rad;
+}
+
+/// Without a column for the index pulses the angle's zero is where they come: at the last whole turn.
+std::optional<std::uint32_t> RecordingReader::index_of_zero() const {
+    if ((sample_.present & hal::mask(hal::Present::spindle_count)) == 0) {
+        return std::nullopt;
+    }
+    const double turns = std::floor(csv_.number(angle_) / revolution + 1e-9) + whole_turns_;
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(turns) * static_cast<std::int64_t>(counts_per_rev_));
+}
+
 void RecordingReader::read_spindle() {
     if (const auto count = count_at(angle_)) {
-        sample_.spindle_count = *count;
+        if (!index_angle_) {
+            follow_turns(csv_.number(angle_));
+        }
+        sample_.spindle_count = *count + static_cast<std::uint32_t>(whole_turns_) * counts_per_rev_;
         sample_.present |= hal::mask(hal::Present::spindle_count);
     }
-    if (const auto index = count_at(index_angle_); index && (index_number_ == 0 || *index != index_count_)) {
+    if (const auto index = index_angle_ ? count_at(index_angle_) : index_of_zero();
+        index && (index_number_ == 0 || *index != index_count_)) {
         index_count_ = *index;
         index_number_ = static_cast<std::uint8_t>(index_number_ == 255 ? 1 : index_number_ + 1);
     }
@@ -179,6 +203,21 @@ void RecordingReader::read_axes() {
             sample_.present |= hal::axis_mask(k);
         }
     }
+}
+
+void RecordingReader::read_force_sensor() {
+    if (!has_force_sensor()) {
+        return;
+    }
+    const std::array<double, 2> force_N{csv_.number(fx_), csv_.number(fy_)};
+    bool is_there = true;
+    for (std::size_t k = 0; k < force_N.size(); ++k) {
+        const double velocity_mm_s = axes_[k].velocity ? csv_.number(axes_[k].velocity) : 0.0;
+        is_there = is_there && std::isfinite(force_N[k]) && std::isfinite(velocity_mm_s);
+        sample_.force_N[k] = static_cast<float>(force_N[k]);
+        sample_.axis_velocity_mm_s[k] = static_cast<float>(velocity_mm_s);
+    }
+    sample_.present |= is_there ? hal::mask(hal::Present::force_sensor) : std::uint8_t{0};
 }
 
 void RecordingReader::read_program() {

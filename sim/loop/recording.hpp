@@ -34,11 +34,12 @@ class Recorder : public OverrideSource {
 /// Writes a recording step by step: time_s, spindle_angle_rad, spindle_current_A, x_current_A … z_velocity_mm_s,
 /// override, and three columns that make a replay exact: spindle_index_angle_rad (where the encoder's last index pulse
 /// came; empty before the first), programmed_feed_mm_s and rapid (0 or 1). The angles are the encoder's whole counts.
+/// With a force sensor, fx_N and fy_N stand at the end.
 /// What is not present is an empty cell. Appears as a whole with commit(). Steps must be less than 2³¹ µs and 2³¹
 /// counts apart.
 class RecordingWriter {
   public:
-    RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
+    RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev, bool has_force_sensor);
     void add(const RecordedStep& step);
     void commit() { file_.commit(); }
 
@@ -50,6 +51,7 @@ class RecordingWriter {
 
     AtomicFile file_;
     double counts_per_rev_;
+    bool has_force_sensor_;
     std::string line_;
     std::int64_t time_us_ = 0;
     std::int64_t count_ = 0;
@@ -57,22 +59,14 @@ class RecordingWriter {
     std::uint32_t last_count_ = 0;
 };
 
-/// What a force sensor and the axes tell beside the drive sample; NaN: an empty cell.
-struct ForceSensorSample {
-    double time_s = no_estimate;
-    double spindle_angle_rad = no_estimate;
-    double fx_N = no_estimate;  ///< on the workpiece, in the machine's axes
-    double fy_N = no_estimate;
-    double x_velocity_mm_s = 0.0;  ///< of the tool relative to the workpiece; an axis that is not recorded stands
-    double y_velocity_mm_s = 0.0;
-};
-
 /// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as
 /// a column or in a row, is "not present" in the sample. Required: time_s, spindle_angle_rad, spindle_current_A, and
 /// one axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError:
 /// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
 ///
-/// A recording with a force sensor (fx_N and fy_N) needs no currents, and of the axes one velocity.
+/// A recording with a force sensor (fx_N and fy_N, on the workpiece in the machine's axes) needs no currents, and of the
+/// axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that begins again after
+/// each turn goes on. An axis whose velocity is not recorded stands.
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
@@ -83,7 +77,6 @@ class RecordingReader {
     [[nodiscard]] double time_s() const { return time_s_; }
     [[nodiscard]] bool has_force_sensor() const { return fx_ && fy_; }
     [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
-    [[nodiscard]] ForceSensorSample force_sensor() const;
     [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
 
   private:
@@ -94,7 +87,10 @@ class RecordingReader {
     void require_drives() const;
     void read_spindle();
     void read_axes();
+    void read_force_sensor();
     void read_program();
+    void follow_turns(double angle_rad);
+    [[nodiscard]] std::optional<std::uint32_t> index_of_zero() const;
     [[nodiscard]] std::optional<std::uint32_t> count_at(std::optional<CsvColumn> angle) const;
 
     CsvReader csv_;
@@ -111,6 +107,8 @@ class RecordingReader {
     hal::DriveSample sample_{};
     hal::ProgramStatus program_{};
     double time_s_ = no_estimate;
+    double last_angle_rad_ = 0.0;
+    std::uint32_t whole_turns_ = 0;
     std::uint32_t index_count_ = 0;
     std::uint8_t index_number_ = 0;
 };

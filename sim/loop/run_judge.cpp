@@ -47,8 +47,6 @@ void RunJudge::observe(double dt_s, const Motion& motion, const CuttingLoad& loa
         immersion_sum_ += truth.radial_immersion * dt_s;
         depth_sum_ += truth.axial_depth_mm * dt_s;
         override_sum_ += motion.override_ratio * dt_s;
-        least_immersion_ = std::min(least_immersion_, truth.radial_immersion);
-        most_immersion_ = std::max(most_immersion_, truth.radial_immersion);
     }
     revolution_rad_ += motion.spindle_speed_rad_s * dt_s;
     revolution_s_ += dt_s;
@@ -136,8 +134,6 @@ void RunJudge::close_interval(double time_s, const hal::FeedOverride& output, co
     feed_force_sum_ = 0.0;
     immersion_sum_ = 0.0;
     depth_sum_ = 0.0;
-    least_immersion_ = 10.0;
-    most_immersion_ = 0.0;
     peak_tooth_N_ = 0.0;
     peak_total_N_ = 0.0;
 }

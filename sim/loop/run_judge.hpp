@@ -49,7 +49,6 @@ class RunJudge {
     std::size_t teeth_;
     RunResult result_;
 
-    double interval_start_s_ = 0.0;
     double interval_angle_rad_ = 0.0;
     double interval_s_ = 0.0;
     double interval_cutting_s_ = 0.0;
@@ -57,8 +56,6 @@ class RunJudge {
     double feed_force_sum_ = 0.0;
     double immersion_sum_ = 0.0;
     double depth_sum_ = 0.0;
-    double least_immersion_ = 10.0;
-    double most_immersion_ = 0.0;
     double peak_tooth_N_ = 0.0;
     double peak_total_N_ = 0.0;
     double radius_mm_;

@@ -136,6 +136,23 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
     table.reject_unknown_keys();
 }
 
+/// A force sensor under the workpiece, beside the drives. The low-pass is the one that the tool's parameters tell.
+void read_force_sensor(Table& root, Scenario& scenario) {
+    if (!root.has("force_sensor")) {
+        return;
+    }
+    Table table = root.table("force_sensor");
+    ForceSensorSettings& sensor = scenario.machine.force_sensor;
+    sensor.noise_N = table.number("noise_N", 0.0, 1e4, sensor.noise_N);
+    sensor.zero_drift_N = table.number("zero_drift_N", 0.0, 1e4, sensor.zero_drift_N);
+    sensor.resolution_N = table.number("resolution_N", 0.0, 1e3, sensor.resolution_N);
+    sensor.low_pass_hz = static_cast<double>(scenario.parameters.tool.force_sensor.low_pass_hz);
+    if (!(sensor.low_pass_hz > 0.0)) {
+        table.fail("noise_N", "a force sensor without its low-pass, expected low_pass_hz in the tool's [force_sensor]");
+    }
+    table.reject_unknown_keys();
+}
+
 void read_deviation(Table& root, PlantDeviation& deviation) {
     Table table = root.table("plant");
     deviation.cutting_force_scale = table.number("cutting_force_scale", 0.1, 10.0, 1.0);
@@ -178,6 +195,7 @@ Scenario read_scenario(const std::string& path) {
     read_material(root, scenario);
     read_deviation(root, scenario.deviation);
     read_operation(root, scenario.parameters.tool);
+    read_force_sensor(root, scenario);
     const std::string program = root.text("program", "");
     if (program.empty()) {
         read_profile(root, scenario);

@@ -66,30 +66,50 @@ std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
         static_cast<double>(tool.centre_offset_mm));
 }
 
-/// The way that the tool has gone, looked back upon by one tooth period: the chip is what the last tooth left.
+/// The way that the tool has gone since the tooth before passed: the chip is what that tooth left. Looked up by the
+/// spindle's angle, one pitch back, for the spindle slows down under a tooth.
 class FeedHistory {
   public:
-    explicit FeedHistory(double step_s) : step_s_(step_s) {}
-
-    void add(double path_mm) {
-        place_ = (place_ + 1) % path_mm_.size();
-        path_mm_[place_] = path_mm;
-        filled_ = std::min(filled_ + 1, path_mm_.size());
+    void add(double angle_rad, double path_mm) {
+        newest_ = (newest_ + 1) % places_.size();
+        places_[newest_] = {angle_rad, path_mm};
+        filled_ = std::min(filled_ + 1, places_.size());
+        if (behind_ == newest_) {
+            behind_ = after(behind_);
+        }
     }
-    [[nodiscard]] double feed_per_tooth_mm(double tooth_period_s) const {
-        const double steps = std::max(1.0, std::round(tooth_period_s / step_s_));
-        const auto back = static_cast<std::size_t>(std::min(steps, static_cast<double>(filled_ - 1)));
-        if (back == 0) {
+    [[nodiscard]] double feed_per_tooth_mm(double pitch_rad) {
+        const double then_rad = places_[newest_].angle_rad - pitch_rad;
+        if (filled_ < places_.size()) {
+            behind_ = (newest_ + places_.size() + 1 - filled_) % places_.size();
+        }
+        while (after(behind_) != newest_ && places_[after(behind_)].angle_rad <= then_rad) {
+            behind_ = after(behind_);
+        }
+        const Place& from = places_[behind_];
+        const Place& to = places_[after(behind_)];
+        const double turned_rad = places_[newest_].angle_rad - from.angle_rad;
+        if (filled_ < 3 || !(turned_rad > 0.0)) {
             return 0.0;
         }
-        const double way = path_mm_[place_] - path_mm_[(place_ + path_mm_.size() - back) % path_mm_.size()];
-        return way * tooth_period_s / (static_cast<double>(back) * step_s_);
+        if (turned_rad < pitch_rad) {
+            return (places_[newest_].path_mm - from.path_mm) * pitch_rad / turned_rad;
+        }
+        const double step_rad = to.angle_rad - from.angle_rad;
+        const double share = step_rad > 0.0 ? std::min((then_rad - from.angle_rad) / step_rad, 1.0) : 0.0;
+        return places_[newest_].path_mm - (from.path_mm + share * (to.path_mm - from.path_mm));
     }
 
   private:
-    double step_s_;
-    std::array<double, 1024> path_mm_{};
-    std::size_t place_ = 0;
+    struct Place {
+        double angle_rad = 0.0;
+        double path_mm = 0.0;
+    };
+    [[nodiscard]] std::size_t after(std::size_t place) const { return (place + 1) % places_.size(); }
+
+    std::array<Place, 1024> places_{};
+    std::size_t newest_ = 0;
+    std::size_t behind_ = 1;
     std::size_t filled_ = 0;
 };
 
@@ -103,7 +123,6 @@ class Loop {
           machine_(scenario_.machine),
           cutting_(scenario_.cutter, scenario_.coefficients, scenario_.cutting_options),
           workpiece_(workpiece_of(scenario)),
-          history_(settings.plant_step_s),
           judge_(scenario_) {
         machine_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
@@ -141,7 +160,7 @@ class Loop {
         machine_.advance(dt_s, {cnc_.position_mm(), direction * cnc_.feed_mm_s(), cnc_.spindle_speed_rad_s()}, load_);
         const Eigen::Vector3d velocity = machine_.velocity_mm_s();
         path_mm_ += velocity.norm() * dt_s;
-        history_.add(path_mm_);
+        history_.add(machine_.spindle_angle_rad(), path_mm_);
         // The tool goes where the axes go; the command's direction serves while they hardly move.
         const Eigen::Vector3d travel = velocity.norm() > 0.5 ? velocity.normalized() : direction;
         if (!cnc_.is_rapid() || !scenario_.has_program()) {
@@ -165,8 +184,8 @@ class Loop {
         if (!workpiece_->truth().cutting || !(speed > 1.0)) {
             return;
         }
-        const double tooth_period_s = 2.0 * std::numbers::pi / (speed * static_cast<double>(scenario_.cutter.teeth));
-        const double feed_per_tooth = history_.feed_per_tooth_mm(tooth_period_s);
+        const double feed_per_tooth =
+            history_.feed_per_tooth_mm(2.0 * std::numbers::pi / static_cast<double>(scenario_.cutter.teeth));
         const double turned_rad = speed * settings_.plant_step_s;
         const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
         for (int k = 0; k < points; ++k) {

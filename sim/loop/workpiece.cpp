@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace millforce::sim {
 
 void Workpiece::set(const EngagementMap& map) {

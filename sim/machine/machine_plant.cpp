@@ -48,7 +48,21 @@ void MachinePlant::advance(double dt_s, const Command& command, const Load& load
     }
     spindle_.advance(dt_s, command.spindle_speed_rad_s, load.spindle_torque_Nm);
     encoder_.update(spindle_.angle_rad());
+    if (settings_.force_sensor.is_there()) {
+        advance_force_sensor(dt_s, load.force_on_workpiece_N);
+    }
     time_s_ += dt_s;
+}
+
+void MachinePlant::advance_force_sensor(double dt_s, const Eigen::Vector3d& force_N) {
+    if (force_channels_.empty()) {
+        for (std::uint64_t k = 0; k < 2; ++k) {
+            force_channels_.emplace_back(settings_.force_sensor, 1.0 / dt_s, settings_.seed * 2U + k);
+        }
+    }
+    for (std::size_t k = 0; k < force_channels_.size(); ++k) {
+        force_channels_[k].step(force_N[static_cast<Eigen::Index>(k)]);
+    }
 }
 
 hal::DriveSample MachinePlant::sample() {
@@ -63,6 +77,10 @@ hal::DriveSample MachinePlant::sample() {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         sample.axis_current_A[k] = static_cast<float>(axis_sensors_[k].read(axes_[k].current_A()));
         sample.axis_velocity_mm_s[k] = static_cast<float>(std::round(axes_[k].velocity_mm_s() / step) * step);
+    }
+    for (std::size_t k = 0; k < force_channels_.size(); ++k) {
+        sample.force_N[k] = static_cast<float>(force_channels_[k].reading_N());
+        sample.present |= hal::mask(hal::Present::force_sensor);
     }
     return sample;
 }

@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "hal/drive_sample.hpp"
 #include "machine/drive_plant.hpp"
+#include "machine/force_sensor.hpp"
 
 namespace millforce::sim {
 
@@ -18,6 +20,7 @@ struct MachinePlantSettings {
     double velocity_resolution_mm_s = 0.001;  ///< of the drive's velocity object
     std::uint32_t encoder_counts_per_rev = 8192;
     double index_offset_rad = 1.0;  ///< the index stands anywhere beside tooth 0
+    ForceSensorSettings force_sensor{};  ///< under the workpiece
     std::uint64_t seed = 1;
 
     /// A table that weighs 250 kg in x, 320 kg in y, and a head of 180 kg in z that a weight pulls down.
@@ -51,12 +54,15 @@ class MachinePlant {
     [[nodiscard]] double time_s() const { return time_s_; }
 
   private:
+    void advance_force_sensor(double dt_s, const Eigen::Vector3d& force_N);
+
     MachinePlantSettings settings_;
     SpindlePlant spindle_;
     std::array<FeedPlant, 3> axes_;
     CurrentSensor spindle_sensor_;
     std::array<CurrentSensor, 3> axis_sensors_;
     EncoderSensor encoder_;
+    std::vector<ForceChannel> force_channels_;  ///< x and y; made with the first step, which tells their rate
     double time_s_ = 0.0;
 };
 

@@ -256,5 +256,24 @@ const charts = (() => {
     }
   }
 
-  return { LinkedCharts, drawBand, drawStates, element, colour, forgetColours, interactionModel };
+  /** Colours, width and paper are read while drawing; so a change of them draws again. */
+  function followWindow(redraw) {
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+    let width = innerWidth;
+    let waiting = 0;
+    addEventListener("resize", () => {
+      if (innerWidth === width) return;
+      width = innerWidth;
+      clearTimeout(waiting);
+      waiting = setTimeout(redraw, 120);
+    });
+    const forPaper = (printing) => {
+      document.documentElement.classList.toggle("printing", printing);
+      redraw();
+    };
+    addEventListener("beforeprint", () => forPaper(true));
+    addEventListener("afterprint", () => forPaper(false));
+  }
+
+  return { LinkedCharts, drawBand, drawStates, element, colour, forgetColours, followWindow, interactionModel };
 })();

@@ -105,7 +105,7 @@
       underlay: (context, area, graph, axis) =>
         drawStates(context, area, graph, axis, axis.runs[0].states, data.state_names),
       note: (row, axis) => {
-        const digit = (text) => Number(text[row >> 1]);
+        const digit = (text) => parseInt(text[row >> 1], 16);
         const { states, limits } = axis.runs[0];
         if (states[row >> 1] === ".") return "";
         const limit = digit(limits) > 0 ? `, held by ${data.limit_names[digit(limits)]}` : "";
@@ -187,7 +187,7 @@
     makeBaselineChoice(redraw);
     byId("reset-zoom").addEventListener("click", () => linked.reset());
     redraw();
-    followWindow(redraw);
+    charts.followWindow(redraw);
   }
 
   function makeBaselineChoice(redraw) {
@@ -204,25 +204,6 @@
       redraw();
     });
     label.hidden = false;
-  }
-
-  /** Colours, width and paper are read while drawing; so a change of them draws again. */
-  function followWindow(redraw) {
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-    let width = innerWidth;
-    let waiting = 0;
-    addEventListener("resize", () => {
-      if (innerWidth === width) return;
-      width = innerWidth;
-      clearTimeout(waiting);
-      waiting = setTimeout(redraw, 120);
-    });
-    const forPaper = (printing) => {
-      document.documentElement.classList.toggle("printing", printing);
-      redraw();
-    };
-    addEventListener("beforeprint", () => forPaper(true));
-    addEventListener("afterprint", () => forPaper(false));
   }
 
   main();

@@ -13,8 +13,8 @@ namespace millforce::sim {
 namespace {
 
 constexpr double band_sd = 1.959964;  ///< two-sided 95 % of the normal distribution
-constexpr unsigned state_count = 6;
-constexpr unsigned limit_count = 10;
+constexpr char digits[] = "0123456789abcdef";
+static_assert(control::state_count <= 16 && control::limit_count <= 16);
 
 using Position = double (*)(const TracePoint&);
 
@@ -82,11 +82,12 @@ void write_bands(JsonWriter& json, const BucketedRun& run) {
 
 /// How telling a state is: of the states in one bucket the most telling is shown, so that a short hold is not lost.
 constexpr int weight_of_state(std::uint8_t state) {
-    constexpr int weights[state_count] = {0, 3, 1, 2, 4, 5};  // air, entry, in_cut, exit, hold, fault
-    return state < state_count ? weights[state] : 0;
+    constexpr int weights[control::state_count] = {0, 3, 1, 2, 4, 5};  // air, entry, in_cut, exit, hold, fault
+    return state < control::state_count ? weights[state] : 0;
 }
 
-/// One digit per bucket for the state and one for the limit that held the override in it; '.' where the run has ended.
+/// One hexadecimal digit per bucket for the state and one for the limit that held the override in it; '.' where the run
+/// has ended.
 void write_states(JsonWriter& json, const BucketedRun& run) {
     std::string states;
     std::string limits;
@@ -100,8 +101,8 @@ void write_states(JsonWriter& json, const BucketedRun& run) {
         const TracePoint& shown = *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
             return weight_of_state(a.state) < weight_of_state(b.state);
         });
-        states += static_cast<char>('0' + shown.state % state_count);
-        limits += static_cast<char>('0' + shown.limit % limit_count);
+        states += digits[shown.state % control::state_count];
+        limits += digits[shown.limit % control::limit_count];
     }
     json.key("states").text(states).key("limits").text(limits);
 }
@@ -232,8 +233,8 @@ std::string report_data_json(const ScenarioInfo& info, std::span<const RunResult
     JsonWriter json;
     json.begin_object().key("scenario");
     write_report_scenario(json, info);
-    write_names<control::CutState>(json, "state_names", state_count);
-    write_names<control::Limit>(json, "limit_names", limit_count);
+    write_names<control::CutState>(json, "state_names", control::state_count);
+    write_names<control::Limit>(json, "limit_names", control::limit_count);
     json.key("runs").begin_array();
     for (const RunResult& run : runs) {
         json.begin_object().key("name").text(run.controller);

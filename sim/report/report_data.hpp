@@ -18,12 +18,10 @@ inline constexpr std::size_t top_view_point_count = 8000;
 ///
 /// - `scenario`: title, limit, cutter diameter, stock rectangle or null
 /// - `runs`: name, and the path of the top view as differences of integers: t (ms), s, x, y, z (10 µm), share of the
-/// tooth
-///   limit (‰; −1 rapid)
+///   tooth limit (‰; −1 rapid)
 /// - `charts.time` and `charts.path`: length of the axis, bucket count, and per run the columns; in the first run's
-/// also
-///   the moving limit, the estimates, their 95 % bands (estimate ± 1.96 sd), the states and limits (one digit per
-///   bucket, see cut_state.hpp)
+///   also the moving limit, the estimates, their 95 % bands (estimate ± 1.96 sd), the states and limits (one
+///   hexadecimal digit per bucket, see cut_state.hpp)
 std::string report_data_json(const ScenarioInfo& info, std::span<const RunResult> runs);
 
 }  // namespace millforce::sim

@@ -8,38 +8,10 @@
 
 #include "cutting/angle_units.hpp"
 #include "cutting/cutting_force.hpp"
+#include "machine/butterworth.hpp"
 
 namespace millforce::sim {
 namespace {
-
-/// Two-pole Butterworth low-pass, by the bilinear transform with its cutoff held.
-class SensorLowPass {
-  public:
-    SensorLowPass(double cutoff_Hz, double sampling_Hz) {
-        const double k = std::tan(std::numbers::pi * cutoff_Hz / sampling_Hz);
-        const double scale = 1.0 / (1.0 + std::numbers::sqrt2 * k + k * k);
-        gain_ = k * k * scale;
-        a1_ = 2.0 * (k * k - 1.0) * scale;
-        a2_ = (1.0 - std::numbers::sqrt2 * k + k * k) * scale;
-    }
-    double filter(double x) {
-        const double y = gain_ * (x + 2.0 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
-        x2_ = x1_;
-        x1_ = x;
-        y2_ = y1_;
-        y1_ = y;
-        return y;
-    }
-
-  private:
-    double gain_ = 1.0;
-    double a1_ = 0.0;
-    double a2_ = 0.0;
-    double x1_ = 0.0;
-    double x2_ = 0.0;
-    double y1_ = 0.0;
-    double y2_ = 0.0;
-};
 
 double largest_plane_force_N(const std::vector<ForceSample>& samples) {
     double largest_N = 0.0;
@@ -84,9 +56,9 @@ std::vector<ForceSample> record_force(const std::vector<ForceSample>& revolution
                                                                &ForceSample::fz_N, &ForceSample::scalar_sum_N};
     const std::size_t used_channels = sensor.plane_only ? 2 : channels.size();
     const bool filtered = sensor.low_pass_Hz > 0.0;
-    std::array<SensorLowPass, 4> low_pass{
-        SensorLowPass(sensor.low_pass_Hz, sampling_Hz), SensorLowPass(sensor.low_pass_Hz, sampling_Hz),
-        SensorLowPass(sensor.low_pass_Hz, sampling_Hz), SensorLowPass(sensor.low_pass_Hz, sampling_Hz)};
+    std::array<ButterworthFilter, 4> low_pass{
+        ButterworthFilter(sensor.low_pass_Hz, sampling_Hz), ButterworthFilter(sensor.low_pass_Hz, sampling_Hz),
+        ButterworthFilter(sensor.low_pass_Hz, sampling_Hz), ButterworthFilter(sensor.low_pass_Hz, sampling_Hz)};
     std::vector<ForceSample> record;
     record.reserve(revolution.size() * static_cast<std::size_t>(revolutions) + more_samples);
     const std::size_t settling = revolution.size() * settling_revolutions;

@@ -14,54 +14,6 @@ namespace {
 
 constexpr int force_steps_per_sample = 8;
 
-/// Butterworth low-pass of second order, by the bilinear transform with the corner kept.
-class ButterworthFilter {
-  public:
-    ButterworthFilter(double corner_hz, double rate_hz) {
-        const double k = std::tan(std::numbers::pi * corner_hz / rate_hz);
-        const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * k + k * k);
-        forward_ = k * k * norm;
-        back_1_ = 2.0 * (k * k - 1.0) * norm;
-        back_2_ = (1.0 - std::numbers::sqrt2 * k + k * k) * norm;
-    }
-    double filter(double in) {
-        const double out = forward_ * in + state_1_;
-        state_1_ = 2.0 * forward_ * in - back_1_ * out + state_2_;
-        state_2_ = forward_ * in - back_2_ * out;
-        return out;
-    }
-
-  private:
-    double forward_;
-    double back_1_;
-    double back_2_;
-    double state_1_ = 0.0;
-    double state_2_ = 0.0;
-};
-
-/// Sensor, filter and converter of one force.
-class ForceChannel {
-  public:
-    ForceChannel(const BenchChain& chain, double rate_hz, std::uint64_t seed)
-        : resolution_N_(chain.resolution_N), filter_(chain.low_pass_hz, rate_hz), random_(seed) {
-        // Noise bandwidth of the Butterworth filter: 1.11 of its corner.
-        white_N_ = chain.noise_N * std::sqrt(0.5 * rate_hz / (1.1107 * chain.low_pass_hz));
-        zero_N_ = chain.zero_drift_N * normal_(random_);
-    }
-    double step(double force_N) { return filter_.filter(force_N + white_N_ * normal_(random_)); }
-    [[nodiscard]] double convert(double filtered_N) const {
-        return std::round((filtered_N + zero_N_) / resolution_N_) * resolution_N_;
-    }
-
-  private:
-    double resolution_N_;
-    ButterworthFilter filter_;
-    std::mt19937_64 random_;
-    std::normal_distribution<double> normal_{0.0, 1.0};
-    double white_N_ = 0.0;
-    double zero_N_ = 0.0;
-};
-
 /// First-order wandering about 1.
 class PressureVariation {
   public:
@@ -93,8 +45,8 @@ std::vector<BenchSample> sampled(const BenchCut& cut, const BenchChain& chain, d
                                  const ForceAt& force_at, const std::function<double(double)>& immersion_at) {
     constexpr long steps_per_rev = static_cast<long>(bench_samples_per_rev) * force_steps_per_sample;
     const double revs_per_s = cut.spindle_speed_rpm / 60.0;
-    ForceChannel x(chain, static_cast<double>(steps_per_rev) * revs_per_s, chain.seed * 2U);
-    ForceChannel y(chain, static_cast<double>(steps_per_rev) * revs_per_s, chain.seed * 2U + 1U);
+    ForceChannel x(chain.sensor, static_cast<double>(steps_per_rev) * revs_per_s, chain.seed * 2U);
+    ForceChannel y(chain.sensor, static_cast<double>(steps_per_rev) * revs_per_s, chain.seed * 2U + 1U);
     PressureVariation pressure(chain, cut.teeth);
     std::vector<BenchSample> samples;
     samples.reserve(static_cast<std::size_t>(revolutions * bench_samples_per_rev) + 1);
@@ -102,12 +54,12 @@ std::vector<BenchSample> sampled(const BenchCut& cut, const BenchChain& chain, d
     for (long step = -steps_per_rev; step < end; ++step) {  // one revolution to settle
         const PlanarForce force = force_at(step);
         const double factor = pressure.step();
-        const double x_N = x.step(force.x_N * factor);
-        const double y_N = y.step(force.y_N * factor);
+        x.step(force.x_N * factor);
+        y.step(force.y_N * factor);
         if (step >= 0 && step % force_steps_per_sample == 0) {
             const double revs = static_cast<double>(step) / static_cast<double>(steps_per_rev);
-            samples.push_back({revs - std::floor(revs), 1.0 / (revs_per_s * bench_samples_per_rev), x.convert(x_N),
-                               y.convert(y_N), immersion_at(revs)});
+            samples.push_back({revs - std::floor(revs), 1.0 / (revs_per_s * bench_samples_per_rev), x.reading_N(),
+                               y.reading_N(), immersion_at(revs)});
         }
     }
     return samples;

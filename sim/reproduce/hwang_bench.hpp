@@ -6,6 +6,7 @@
 
 #include "cutting/cutting_force.hpp"
 #include "cutting/engagement_map.hpp"
+#include "machine/force_sensor.hpp"
 
 /// The bench of Hwang et al., section 3.1: a face mill with carbide inserts, a dynamometer behind a 300 Hz low-pass,
 /// and an encoder that triggers 512 samples per revolution. The force is the plant's (sim/cutting); nothing here knows
@@ -34,15 +35,11 @@ struct BenchCut {
     double runout_angle_rad = 0.7;
 };
 
-/// What stands between the force and the sample. The noise is white before the filter, so that it comes out in the
-/// filter's band with this deviation: vibration and the amplifier. Pressure varies along the cut like an
-/// inhomogeneous workpiece, with the correlation length of a tooth pitch.
+/// What stands between the force and the sample. Pressure varies along the cut like an inhomogeneous workpiece, with the
+/// correlation length of a tooth pitch.
 struct BenchChain {
-    double low_pass_hz = 300.0;  ///< Butterworth, second order, as in a charge amplifier
-    double noise_N = 10.0;
+    ForceSensorSettings sensor{.low_pass_hz = 300.0};
     double pressure_variation = 0.02;
-    double resolution_N = 1.0;  ///< of the 12-bit converter over ± 2 kN
-    double zero_drift_N = 2.0;  ///< deviation of what the amplifier drifted since its zeroing in air
     std::uint64_t seed = 1;
 };
 

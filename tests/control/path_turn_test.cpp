@@ -74,6 +74,23 @@ TEST(PathTurn, notices_that_the_machine_brakes_unasked_once) {
     LONGS_EQUAL(1, noticed);
 }
 
+TEST(PathTurn, does_not_take_the_shaking_of_slow_teeth_for_braking) {
+    // 600 rpm, three teeth: each slows the axis to a third and lets it spring back.
+    const auto noticed = [](float tooth_period_s) {
+        Turn turn;
+        int count = 0;
+        for (int k = 0; k < 2000; ++k) {
+            const double phase = 2.0 * std::numbers::pi * 30.0 * k * dt_s;
+            Turn::Motion motion = motion_at(0.1 * std::sin(phase), feed_mm_s * (1.0 + 0.6 * std::sin(phase)));
+            motion.tooth_period_s = tooth_period_s;
+            count += turn.update(motion) ? 1 : 0;
+        }
+        return count;
+    };
+    LONGS_EQUAL(0, noticed(1.0F / 30.0F));
+    CHECK(noticed(0.0F) > 0);
+}
+
 TEST(PathTurn, does_not_take_a_falling_or_rising_override_for_braking) {
     Turn turn;
     double speed = 20.0;

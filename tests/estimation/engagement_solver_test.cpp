@@ -162,6 +162,32 @@ TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_it_say
     CHECK(depth_coverage > 0.93 && depth_coverage < 0.97);
 }
 
+TEST(EngagementSolver, takes_an_immersion_that_another_method_tells_for_one_more_measurement) {
+    const Cut cut{.side = CutSide::up, .immersion = 0.25};  // where F_ax/F_at is flat and tells nothing
+    auto forces = measured(cut, 6.0);
+    CHECK(solver(0.02).solve(forces, 0.05, CutSide::up).radial_immersion_sd > 0.1);
+    forces.radial_immersion = {true, 0.26, 0.02 * 0.02};
+    const auto told = solver(0.02).solve(forces, 0.05, CutSide::up);
+    CHECK(told.immersion_valid && told.depth_valid);
+    DOUBLES_EQUAL(0.26, told.radial_immersion, 0.01);
+    DOUBLES_EQUAL(0.02, told.radial_immersion_sd, 0.004);
+    DOUBLES_EQUAL(6.0, told.axial_depth_mm, 0.5);
+    // One that is poor beside the forces changes little.
+    auto clear = measured({.immersion = 0.8}, 2.0);
+    const double alone = solver().solve(clear, 0.05, CutSide::down).radial_immersion;
+    clear.radial_immersion = {true, 0.3, 0.5 * 0.5};
+    DOUBLES_EQUAL(alone, solver().solve(clear, 0.05, CutSide::down).radial_immersion, 0.002);
+}
+
+TEST(EngagementSolver, needs_no_feed_force_where_the_immersion_is_told) {
+    auto standing = measured({}, 2.0);
+    standing.x_N.valid = false;
+    standing.radial_immersion = {true, 0.5, 0.03 * 0.03};
+    const auto e = solver().solve(standing, 0.05, CutSide::down);
+    DOUBLES_EQUAL(0.5, e.radial_immersion, 0.002);
+    DOUBLES_EQUAL(6.0, e.axial_depth_mm, 0.1);
+}
+
 TEST(EngagementSolver, doubts_the_depth_by_the_doubt_in_K_s) {
     auto law = carbide_in_SM45C<double>();
     law.K_s_relative_sd = 0.1;

@@ -37,8 +37,9 @@ inline std::string force_recording(const std::vector<FeedFrameSample>& samples, 
 }
 
 /// The face mill of Hwang et al. at the immersion, up milling SM45C.
-inline std::string face_mill_recording(double immersion, double direction_rad) {
-    const sim::BenchCut cut{.material = sim::steel_SM45C(), .immersion = immersion};
+inline std::string face_mill_recording(double immersion, double direction_rad, double feed_per_tooth_mm = 0.15) {
+    const sim::BenchCut cut{
+        .feed_per_tooth_mm = feed_per_tooth_mm, .material = sim::steel_SM45C(), .immersion = immersion};
     const double rev_s = cut.spindle_speed_rpm / 60.0;
     std::vector<FeedFrameSample> samples;
     for (const sim::BenchSample& s : sim::bench_samples(cut, {.seed = 3}, 20.0)) {

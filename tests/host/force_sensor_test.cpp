@@ -15,6 +15,23 @@ double number(const std::string& cell) {
     return cell.empty() ? std::numeric_limits<double>::quiet_NaN() : std::atof(cell.c_str());
 }
 
+/// The recording with its angle, the second column, in 0…2π.
+std::string wrapped_angles(const std::string& recording) {
+    std::istringstream in(recording);
+    std::ostringstream out;
+    out.precision(9);
+    std::string line;
+    std::getline(in, line);
+    out << line << '\n';
+    while (std::getline(in, line)) {
+        const std::size_t first = line.find(',') + 1;
+        const std::size_t end = line.find(',', first);
+        const double angle = std::atof(line.substr(first, end - first).c_str());
+        out << line.substr(0, first) << std::fmod(angle, 2.0 * std::numbers::pi) << line.substr(end) << '\n';
+    }
+    return out.str();
+}
+
 }  // namespace
 
 TEST_GROUP(ForceSensor) {
@@ -79,6 +96,14 @@ TEST(ForceSensor, with_the_tips_angle_known_the_width_is_told_as_well_in_any_dir
             DOUBLES_EQUAL(-20.0, number(row.at("depth_shape_axial_variation_percent")), 4.0);
         }
     }
+}
+
+TEST(ForceSensor, an_angle_that_begins_again_after_each_turn_goes_on) {
+    const std::string log = wrapped_angles(face_mill_recording(0.4, along_x));
+    for (const CsvRow& row : filled_rows(log, face_mill_tool_text, "force_drop_immersion")) {
+        DOUBLES_EQUAL(0.4, number(row.at("force_drop_immersion")), 0.04);
+    }
+    CHECK(filled_rows(log, face_mill_tool_text, "force_drop_immersion").size() > 100);
 }
 
 TEST(ForceSensor, what_the_tools_file_lacks_is_told_once_and_its_cells_are_empty) {

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <numbers>
 
-#include "estimation/cutting_law.hpp"
 #include "estimation/elementary.hpp"
 #include "firmware/parameter_table.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
+#include "machine_and_tool.hpp"
 
 /// The cut whose ticks are counted on every processor: down milling in steel along +x after 0.1 s of air, its width
 /// growing, with the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same
@@ -15,11 +15,12 @@
 
 namespace millforce::instructions {
 
+using bench::encoder_counts_per_rev;
+using bench::teeth;
+
 inline constexpr float sample_interval_s = 0.001F;
 inline constexpr std::uint32_t sample_interval_us = 1000;
 inline constexpr float spindle_speed_rad_s = 418.879F;  // 4000 rpm
-inline constexpr float encoder_counts_per_rev = 8192.0F;
-inline constexpr float teeth = 4.0F;
 inline constexpr float feed_mm_s = 20.0F;
 
 inline constexpr int air_samples = 100;
@@ -27,28 +28,7 @@ inline constexpr int settling_samples = 100;  // from contact until each window 
 inline constexpr int counted_samples = 300;
 inline constexpr int samples = air_samples + settling_samples + counted_samples;
 
-inline firmware::Parameters<float> machine_and_tool() {
-    firmware::Parameters<float> parameters;
-    parameters.machine.spindle.K_t1_Nm_per_A = 0.7F;
-    parameters.machine.spindle.K_t2_Nm = -0.953F;
-    parameters.machine.spindle.inertia_kg_m2 = 0.004F;
-    parameters.machine.encoder_counts_per_rev = encoder_counts_per_rev;
-    for (auto& axis : parameters.machine.axes) {
-        axis.positive.K_x2_A_min_per_m = 0.65F;
-        axis.negative.K_x2_A_min_per_m = 0.65F;
-        axis.K_x3_A = 1.6F;
-        axis.K_x4_N_per_A = 120.0F;
-        axis.mass_kg = 250.0F;
-        axis.velocity_floor_mm_s = 2.0F;
-    }
-    parameters.tool.teeth = teeth;
-    parameters.tool.side = static_cast<float>(estimation::CutSide::down);
-    parameters.tool.tooth_force_limit_N = 700.0F;
-    parameters.tool.law = estimation::linear_edge_law(1650.0F, 22.0F, 620.0F, 28.0F);
-    parameters.tool.law.K_s_relative_sd = 0.15F;
-    parameters.tool.law.r_1_relative_sd = 0.05F;
-    return parameters;
-}
+using bench::machine_and_tool;
 
 /// Sample `index` of a straight cut along +x that begins after `air_samples`.
 inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters) {

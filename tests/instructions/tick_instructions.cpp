@@ -22,7 +22,7 @@ extern "C" [[gnu::noinline]] void counted_step(ForceControlTick<float>& tick, co
 }
 
 int main() {
-    const Parameters<float> parameters = machine_and_tool();
+    const Parameters<float> parameters = millforce::bench::machine_and_tool();
     ForceControlTick<float> tick(parameters);
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = feed_mm_s;

@@ -22,7 +22,27 @@
 
 namespace millforce::vcan {
 
-inline void sleep_ms(int duration_ms) { std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms)); }
+/// Where the driver under test is, and where its peers are: both on vcan0, or on two controllers of one bus.
+inline std::string interface_named_by(const char* variable) {
+    const char* name = std::getenv(variable);
+    return name != nullptr ? name : "vcan0";
+}
+inline std::string controller_interface() {
+    return interface_named_by("MILLFORCE_CAN_CONTROLLER");
+}
+inline std::string peer_interface() {
+    return interface_named_by("MILLFORCE_CAN_PEER");
+}
+
+/// SYNC periods are longer by this factor where the machine under the bus is emulated.
+inline std::uint32_t slower() {
+    const char* factor = std::getenv("MILLFORCE_CAN_SLOWER");
+    return factor != nullptr ? static_cast<std::uint32_t>(std::atoi(factor)) : 1;
+}
+
+inline void sleep_ms(int duration_ms) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms));
+}
 
 /// The exit code of a shell command; what it prints goes nowhere.
 inline int shell(const std::string& command) {

@@ -1,36 +1,13 @@
 #include "drives_on_vcan.hpp"
+#include "sample_checks.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce;
 using namespace millforce::vcan;
-using cia402::NodeState;
 using cia402::Reject;
 
 namespace {
-
-bool has_count(const hal::DriveSample& sample) {
-    return (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
-}
-
-int samples_with_everything(const std::vector<hal::DriveSample>& samples) {
-    return static_cast<int>(std::count_if(samples.begin(), samples.end(), [](const hal::DriveSample& sample) {
-        return sample.present == hal::all_present;
-    }));
-}
-
-/// Every count is one that the drive had, and none is older than the one before.
-void check_counts(const std::vector<hal::DriveSample>& samples) {
-    std::uint32_t last = 0;
-    for (const hal::DriveSample& sample : samples) {
-        if (has_count(sample)) {
-            UNSIGNED_LONGS_EQUAL(0, sample.spindle_count % counts_per_sync);
-            CHECK(sample.spindle_count >= last);
-            last = sample.spindle_count;
-            DOUBLES_EQUAL(6.0, sample.spindle_current_A, 1e-5);
-        }
-    }
-}
 
 /// `(seconds) vcan0 id#data`
 std::string log_line(double time_s, const std::string& frame) {
@@ -96,52 +73,6 @@ TEST_GROUP(DriveBusOnVcan) {
         shell("ip link set vcan0 up");
     }
 };
-
-TEST(DriveBusOnVcan, four_drives_are_started_and_sampled_without_a_lost_count) {
-    for (const std::uint32_t period_us : {5000U, 1000U}) {
-        const Child drives([] { run_drives("vcan0", 4); });
-        BusOnVcan machine(bus_settings(4, period_us));
-        CHECK(machine.run_until([&] { return machine.all_operational(4); }));
-        machine.run_ms(50);
-        machine.samples.clear();
-        machine.run_ms(1000);
-        const int all = static_cast<int>(machine.samples.size());
-        const int complete = samples_with_everything(machine.samples);
-        std::printf("\n    four drives, SYNC every %u us: %d of %d samples complete, %u SYNCs skipped", period_us,
-                    complete, all, machine.bus.health().syncs_skipped);
-        // How many come in time is this machine's affair: a virtual kernel on a busy host pauses for milliseconds.
-        CHECK(complete > all / 4);
-        check_counts(machine.samples);
-        UNSIGNED_LONGS_EQUAL(0, machine.socket.health().overruns);
-        UNSIGNED_LONGS_EQUAL(0, machine.socket.health().send_failures);
-    }
-}
-
-TEST(DriveBusOnVcan, drives_that_vanish_are_lost_and_come_back_by_themselves) {
-    const Child drives([] { run_drives("vcan0", 2); });
-    BusOnVcan machine(bus_settings(2, 2000));
-    CHECK(machine.run_until([&] { return machine.all_operational(2); }));
-    drives.send_signal(SIGSTOP);
-    CHECK(machine.run_until([&] { return machine.all_are(2, NodeState::lost); }));
-    machine.samples.clear();
-    machine.run_ms(50);
-    CHECK(!machine.samples.empty());
-    UNSIGNED_LONGS_EQUAL(0, machine.samples.back().present);
-    drives.send_signal(SIGCONT);
-    CHECK(machine.run_until([&] { return machine.all_operational(2); }));
-    CHECK(machine.run_until([&] { return has_count(machine.samples.back()); }));
-}
-
-TEST(DriveBusOnVcan, an_interface_that_goes_down_stops_the_samples_contents_and_not_the_program) {
-    const Child drives([] { run_drives("vcan0", 2); });
-    BusOnVcan machine(bus_settings(2, 2000));
-    CHECK(machine.run_until([&] { return machine.all_operational(2); }));
-    LONGS_EQUAL(0, shell("ip link set vcan0 down"));
-    CHECK(machine.run_until([&] { return machine.all_are(2, NodeState::lost); }));
-    CHECK(machine.socket.health().state == socketcan::LinkState::down);
-    LONGS_EQUAL(0, shell("ip link set vcan0 up"));
-    CHECK(machine.run_until([&] { return machine.all_operational(2); }));
-}
 
 TEST(DriveBusOnVcan, a_bus_too_slow_for_its_frames_is_told_and_recovers) {
     const Child drives([] { run_drives("vcan0", 2); });

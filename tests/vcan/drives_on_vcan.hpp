@@ -2,11 +2,14 @@
 
 #include <linux/can.h>
 #include <linux/can/raw.h>
+#include <linux/sockios.h>
 #include <net/if.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 #include "bus/canopen_drive.hpp"
@@ -47,22 +50,46 @@ class PlainSocket {
         std::copy_n(std::begin(raw.data), 8, frame.data.begin());
         return true;
     }
-    void send(const hal::CanFrame& frame) const {
+    /// When the kernel got the last frame received, on its own clock.
+    [[nodiscard]] std::int64_t time_of_last_us() const {
+        timeval time{};
+        return ioctl(descriptor_, SIOCGSTAMP, &time) == 0 ? time.tv_sec * 1'000'000 + time.tv_usec : 0;
+    }
+    bool send(const hal::CanFrame& frame) const {
         can_frame raw{};
         raw.can_id = frame.id;
         raw.len = frame.length;
         std::copy_n(frame.data.begin(), 8, std::begin(raw.data));
-        if (write(descriptor_, &raw, sizeof raw) != sizeof raw && errno != ENOBUFS && errno != ENETDOWN) {
+        if (write(descriptor_, &raw, sizeof raw) == sizeof raw) {
+            return true;
+        }
+        if (errno != ENOBUFS && errno != ENETDOWN) {
             std::perror("write");
         }
+        return false;
     }
 
   private:
     int descriptor_;
 };
 
+/// What passed a process of the bus; in memory that processes share.
+struct FrameCounts {
+    std::atomic<std::uint64_t> syncs{0};
+    std::atomic<std::uint64_t> pdos{0};
+    std::atomic<std::uint64_t> overrides{0};
+};
+
+inline bool is_sync(const hal::CanFrame& frame) {
+    return frame.id == cia402::cob_id::sync;
+}
+inline bool is_pdo(const hal::CanFrame& frame) {
+    return frame.id > 0x180 && frame.id <= 0x180 + cia402::drive_capacity;
+}
+
 /// Drives at nodes 1…count, heartbeat 20 ms. At each SYNC every one moves by `counts_per_sync`; node 1 draws 6 A.
-inline void run_drives(const std::string& interface, int count) {
+/// `counts`: SYNCs that came, PDOs that went out.
+inline void run_drives(const std::string& interface, int count, FrameCounts* counts = nullptr) {
     const PlainSocket socket(interface);
     std::vector<std::unique_ptr<sim::CanopenDrive>> drives;
     for (int node = 1; node <= count; ++node) {
@@ -77,7 +104,12 @@ inline void run_drives(const std::string& interface, int count) {
         hal::CanFrame frame;
         const bool received = socket.receive(frame);
         const std::uint64_t now_us = socketcan::monotonic_us();
-        position += received && frame.id == 0x080 ? counts_per_sync : 0;
+        if (received && is_sync(frame)) {
+            position += counts_per_sync;
+            if (counts != nullptr) {
+                ++counts->syncs;
+            }
+        }
         for (const auto& drive : drives) {
             drive->set_position(position);
             if (received) {
@@ -85,7 +117,9 @@ inline void run_drives(const std::string& interface, int count) {
             }
             drive->poll(now_us);
             for (const hal::CanFrame& sent : drive->take_frames()) {
-                socket.send(sent);
+                if (socket.send(sent) && counts != nullptr && is_pdo(sent)) {
+                    ++counts->pdos;
+                }
             }
         }
     }
@@ -153,10 +187,23 @@ class BusOnVcan {
     cia402::DriveBus bus;
     socketcan::CanSocket socket;
     std::vector<hal::DriveSample> samples{};
+    std::function<void(const hal::DriveSample&)> on_sample = [this](const auto& sample) { samples.push_back(sample); };
+    FrameCounts counts{};  ///< SYNCs that went out, PDOs that came
+
+    /// Fetches what is there, and sends nothing.
+    void drain() {
+        hal::CanFrame frame;
+        std::uint64_t time_us = 0;
+        while (socket.receive(frame, time_us)) {
+            counts.pdos += is_pdo(frame) ? 1U : 0U;
+            bus.on_frame(frame, time_us);
+            take_sample();
+        }
+    }
 
   private:
     static socketcan::CanSocketSettings socket_settings(const cia402::DriveBus& bus) {
-        auto settings = on("vcan0");
+        auto settings = on(controller_interface());
         std::array<hal::CanFilter, cia402::DriveBus::filter_capacity> filters{};
         settings.filter_count = bus.filters(filters);
         std::copy_n(filters.begin(), settings.filter_count, settings.filters.begin());
@@ -167,22 +214,18 @@ class BusOnVcan {
         socket.wait(bus.next_event_us(now_us) - now_us);
         now_us = socketcan::monotonic_us();
         socket.poll(now_us);
-        hal::CanFrame frame;
-        std::uint64_t time_us = 0;
-        while (socket.receive(frame, time_us)) {
-            bus.on_frame(frame, time_us);
-            take_sample();
-        }
+        drain();
         bus.poll(socketcan::monotonic_us());
         take_sample();
+        hal::CanFrame frame;
         while (bus.take_frame(frame)) {
-            socket.send(frame);
+            counts.syncs += socket.send(frame) && is_sync(frame) ? 1U : 0U;
         }
     }
     void take_sample() {
         hal::DriveSample sample;
         if (bus.take_sample(sample)) {
-            samples.push_back(sample);
+            on_sample(sample);
         }
     }
 };

@@ -39,21 +39,25 @@ enum class Limit : std::uint8_t {
     roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
 };
 
+inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
+inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::bad_configuration) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::roughness) + 1U;
+
 constexpr const char* name(CutState state) {
-    constexpr const char* names[] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
-    return names[static_cast<unsigned>(state) % 6U];
+    constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
+    return names[static_cast<unsigned>(state) % state_count];
 }
 
 constexpr const char* name(Fault fault) {
-    constexpr const char* names[] = {"none", "overload", "stale_input", "spindle_stopped", "bad_configuration"};
-    return names[static_cast<unsigned>(fault) % 5U];
+    constexpr const char* names[fault_count] = {"none", "overload", "stale_input", "spindle_stopped", "bad_configuration"};
+    return names[static_cast<unsigned>(fault) % fault_count];
 }
 
 constexpr const char* name(Limit limit) {
-    constexpr const char* names[] = {"none",       "force", "override_max",   "override_min", "air_feed",
+    constexpr const char* names[limit_count] = {"none",       "force", "override_max",   "override_min", "air_feed",
                                      "entry_feed", "surge", "operator_limit", "no_estimate",  "feed_per_tooth",
                                      "roughness"};
-    return names[static_cast<unsigned>(limit) % 11U];
+    return names[static_cast<unsigned>(limit) % limit_count];
 }
 
 }  // namespace millforce::control

@@ -8,7 +8,9 @@
 ///    more turns by less;
 ///  - the axes slow down to less than 60 % of what override and program ask for: a CNC brakes before a corner, and so
 ///    tells of it before it comes. (A twentieth of F is left for its lag behind a rising override.)
-/// Speeds in mm/s, of any sign; below 0.5 mm/s there is no direction. Some twenty operations. Not thread-safe.
+/// Teeth that pass more slowly than a drive's velocity loop settles (15 ms) shake the axes, each of them: the velocities are
+/// averaged over what their period has beyond that.
+/// Speeds in mm/s, of any sign; below 0.5 mm/s there is no direction. Some thirty operations. Not thread-safe.
 
 namespace millforce::control {
 
@@ -22,15 +24,37 @@ class PathTurn {
         Scalar path_speed_mm_s{0};
         Scalar commanded_mm_s{0};        ///< override × F; 0: not known
         Scalar programmed_feed_mm_s{0};  ///< F; 0: not known
+        Scalar tooth_period_s{0};        ///< 0: not known
     };
 
     /// Whether a sharp turn is noticed in this step.
-    bool update(const Motion& motion) {
+    bool update(const Motion& measured) {
+        const Motion motion = smoothed(measured);
         const bool slowed = has_slowed(motion);
         return has_turned(motion) || slowed;
     }
 
   private:
+    /// What is no number passes through and does not stay.
+    static void follow(Scalar& smooth, Scalar now, Scalar share) {
+        const Scalar next = smooth + (now - smooth) * share;
+        smooth = share < Scalar(1) && next - next == Scalar(0) ? next : now;
+    }
+
+    Motion smoothed(const Motion& m) {
+        constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
+        const Scalar over_s = m.tooth_period_s - settling_s;
+        const Scalar share = over_s > m.dt_s ? m.dt_s / over_s : Scalar(1);
+        follow(smooth_.velocity_x_mm_s, m.velocity_x_mm_s, share);
+        follow(smooth_.velocity_y_mm_s, m.velocity_y_mm_s, share);
+        follow(smooth_.path_speed_mm_s, m.path_speed_mm_s, share);
+        Motion motion = m;
+        motion.velocity_x_mm_s = smooth_.velocity_x_mm_s;
+        motion.velocity_y_mm_s = smooth_.velocity_y_mm_s;
+        motion.path_speed_mm_s = smooth_.path_speed_mm_s;
+        return motion;
+    }
+
     bool has_turned(const Motion& m) {
         constexpr Scalar memory_mm = static_cast<Scalar>(0.5L);
         constexpr Scalar cos2_of_turn = static_cast<Scalar>(0.75L);
@@ -64,6 +88,7 @@ class PathTurn {
         return slowed;
     }
 
+    Motion smooth_{};
     Scalar mean_x_{0};
     Scalar mean_y_{0};
     bool was_at_speed_ = false;

@@ -9,7 +9,7 @@ void OverrideSender::update(const hal::FeedOverride& feed_override, std::uint64_
     const bool is_new_tick = !has_override_ || feed_override.heartbeat != newest_.heartbeat;
     newest_ = feed_override;
     has_override_ = true;
-    override_due_ = override_due_ || is_urgent;
+    override_due_ = override_due_ || is_urgent || (is_new_tick && settings_.period_us == 0);
     if (is_new_tick) {
         tick_us_ = time_us;
         ticks_ = true;
@@ -23,7 +23,7 @@ void OverrideSender::poll(std::uint64_t time_us) {
     if (time_us >= next_heartbeat_us_) {
         next_heartbeat_us_ = time_us + settings_.heartbeat_period_us;
     }
-    if (has_override_ && time_us >= next_override_us_) {
+    if (has_override_ && settings_.period_us != 0 && time_us >= next_override_us_) {
         override_due_ = true;
         // In step with the clock where poll() comes in time, else from now on: no burst.
         const std::uint64_t in_step_us = next_override_us_ + settings_.period_us;

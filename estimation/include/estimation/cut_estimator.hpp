@@ -122,6 +122,9 @@ class CutEstimator {
         return true;
     }
 
+    /// An immersion that another method tells of the present cut, for the estimates to come; not valid: none.
+    void tell_immersion(const Measurement<Scalar>& radial_immersion) { told_immersion_ = radial_immersion; }
+
     /// The encoder failed or the samples stopped: start anew, keep what was learnt in air.
     void restart() {
         encoder_.reset();
@@ -295,8 +298,9 @@ class CutEstimator {
         periods_since_memory_ = periods_since_memory_ + 1;
         const bool is_new_revolution = periods_since_memory_ >= window_.revolutions * static_cast<int>(settings_.teeth);
         periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
-        const AverageForceMeasurement<Scalar> blended =
+        AverageForceMeasurement<Scalar> blended =
             memory_.blend(forces, estimate_.feed_mm_s, last_exponent_, is_new_revolution);
+        blended.radial_immersion = told_immersion_;
         estimate_.engagement = solver_.solve(blended, estimate_.feed_per_tooth_mm, settings_.side);
         if (estimate_.engagement.immersion_valid) {
             last_immersion_ = estimate_.engagement.radial_immersion;
@@ -376,6 +380,13 @@ class CutEstimator {
             estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
             estimate_.tooth_force_is_bound = true;
         }
+        if (!e.solved && !estimate_.x_N.valid && !estimate_.y_N.valid) {
+            // Axes too slow to show a force would stay so for ever without a bound: the narrowest and shallowest cut.
+            const Scalar bound = tooth_factor(last_side_, Scalar(0), Scalar(0));
+            const Scalar worst = newest * runout * (bound > factor ? bound : factor);
+            estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
+            estimate_.tooth_force_is_bound = true;
+        }
         estimate_.surge = change_to(settings_.surge_immersion, immersion, depth, factor, model.mean.tangential_N);
         estimate_.turn = change_to(settings_.turn_immersion, immersion, depth, factor, model.mean.tangential_N);
     }
@@ -419,6 +430,7 @@ class CutEstimator {
     typename Averager::Window air_window_{};
     int air_periods_ = 0;
     ForceMemory<Scalar> memory_{};
+    Measurement<Scalar> told_immersion_{};
     int periods_since_memory_ = 0;
     Scalar last_exponent_{Scalar(0.75F)};
     CutEstimate<Scalar> estimate_{};

@@ -38,6 +38,8 @@ class DepthMonitor {
         return profile_.complete();
     }
 
+    [[nodiscard]] bool complete() const { return profile_.complete(); }
+
     /// Fits the complete profile and starts the next one. Without a complete profile: no estimate.
     Estimate evaluate() {
         if (!profile_.complete()) {

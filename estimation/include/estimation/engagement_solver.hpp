@@ -19,6 +19,7 @@
 ///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²,
 /// and J is the profile likelihood of the immersion alone. It is scanned over the whole range (Nodes values, evenly
 /// spaced in θ with R_r = 1 − cos θ), so that no local minimum can catch the solver, and the best node is refined.
+/// An immersion that another method tells enters J as one more measurement, (R_r − R_told)²/σ².
 /// The immersion's deviation is the larger of the curvature's and of the interval in which J exceeds its minimum by
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 
@@ -30,6 +31,7 @@ struct AverageForceMeasurement {
     Measurement<Scalar> tangential_N{};  ///< F_at, from the spindle
     Measurement<Scalar> x_N{};           ///< along machine x; not valid where the x drive stands
     Measurement<Scalar> y_N{};           ///< along machine y
+    Measurement<Scalar> radial_immersion{};  ///< from elsewhere (force drops), where there is one
     Scalar feed_direction_x{1};          ///< unit vector of the tool's travel relative to the workpiece
     Scalar feed_direction_y{0};
 };
@@ -118,7 +120,8 @@ class EngagementSolver {
     [[nodiscard]] Profile profile_at(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                                      CutSide side, Scalar theta_rad) const {
         using elementary::cos;
-        const auto model = forces_per_mm(side, Scalar(1) - cos(theta_rad), feed_per_tooth_mm);
+        const Scalar immersion = Scalar(1) - cos(theta_rad);
+        const auto model = forces_per_mm(side, immersion, feed_per_tooth_mm);
         const Scalar t_x = forces.feed_direction_x;
         const Scalar t_y = forces.feed_direction_y;
         const Scalar law_variance = square(settings_.law_relative_sd * forces.tangential_N.value);
@@ -163,9 +166,11 @@ class EngagementSolver {
         const auto misfit = [&](const Measurement<Scalar>& m, Scalar g, Scalar extra_variance) {
             return m.valid ? square(m.value - profile.depth_mm * g) / (m.variance + extra_variance) : Scalar(0);
         };
+        const Measurement<Scalar>& told = forces.radial_immersion;
         profile.misfit = misfit(forces.tangential_N, model.mean.tangential_N, Scalar(0)) +
                          misfit(forces.x_N, g_x, var_x) + misfit(forces.y_N, g_y, var_y) +
-                         declared_weight * square(profile.depth_mm - declared);
+                         declared_weight * square(profile.depth_mm - declared) +
+                         (told.valid ? square(immersion - told.value) / told.variance : Scalar(0));
         return profile;
     }
 
@@ -174,7 +179,7 @@ class EngagementSolver {
         const Measurement<Scalar>& F_at = forces.tangential_N;
         return F_at.valid && feed_per_tooth_mm > Scalar(0) && F_at.value > Scalar(0) &&
                F_at.value > settings_.least_significance * sqrt(F_at.variance) &&
-               (forces.x_N.valid || forces.y_N.valid);
+               (forces.x_N.valid || forces.y_N.valid || forces.radial_immersion.valid);
     }
 
     [[nodiscard]] EngagementEstimate<Scalar> solve_side(const AverageForceMeasurement<Scalar>& forces,

@@ -21,7 +21,8 @@
 /// (`saturations()`); nothing wraps, there is no infinity and no NaN. x/0 is the end of the range, 0/0 is 0, both counted.
 /// From float: NaN and infinity become 0, counted; "no number" is no measurement, and who must know asks before.
 ///
-/// Functions, found by ADL: sqrt (0 for x < 0), sin, cos, tan, atan2, acos (argument clipped to ±1), exp, log, pow.
+/// Functions, found by ADL: sqrt (0 for x < 0), sin, cos, tan, atan, atan2, acos, asin (argument clipped to ±1), exp, log,
+/// pow, floor, ceil, abs.
 /// Errors: sqrt 2⁻³² relative; sin, cos, atan2 2e-9; acos 3e-9, within 1e-4 of ±1 1e-6; exp 3e-9 relative or half a
 /// resolution; log 2e-9.
 ///
@@ -89,6 +90,11 @@ class FixedPoint {
         const Raw inside = x.raw_ > detail::raw_one ? detail::raw_one : (x.raw_ < -detail::raw_one ? -detail::raw_one : x.raw_);
         return seen(detail::raw_acos(inside));
     }
+    friend constexpr FixedPoint atan(FixedPoint x) { return atan2(x, FixedPoint(1)); }
+    friend constexpr FixedPoint asin(FixedPoint x) { return seen(detail::raw_half_pi) - acos(x); }
+    friend constexpr FixedPoint floor(FixedPoint x) { return seen(x.raw_ & ~(detail::raw_one - 1)); }
+    friend constexpr FixedPoint ceil(FixedPoint x) { return -floor(-x); }
+    friend constexpr bool isfinite(FixedPoint /*x*/) { return true; }
     friend constexpr FixedPoint exp(FixedPoint x) { return seen(detail::raw_exp<Policy>(x.raw_)); }
     friend constexpr FixedPoint log(FixedPoint x) { return seen(detail::raw_log<Policy>(x.raw_)); }
     friend constexpr FixedPoint pow(FixedPoint base, FixedPoint exponent) { return exp(exponent * log(base)); }

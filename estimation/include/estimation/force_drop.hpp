@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/elementary.hpp"
 #include "estimation/air_gap.hpp"
 #include "estimation/force_drop_detector.hpp"
 #include "estimation/force_drop_immersion.hpp"
@@ -66,16 +67,35 @@ class ForceDrop {
           detector_(settings.detector),
           immersion_(law, settings.immersion) {}
 
-    void restart() { profile_.restart(); }
+    void restart() {
+        profile_.restart();
+        complete_ = false;
+    }
 
     /// Returns true when an estimate was made: read estimate(). `feed_per_tooth_mm` as commanded or measured.
     bool add(const ForceDropSample<Scalar>& sample, Scalar feed_per_tooth_mm) {
-        if (!profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N)) {
+        if (!collect(sample)) {
             return false;
         }
         evaluate(feed_per_tooth_mm);
-        profile_.clear();
         return true;
+    }
+
+    /// add() in two steps: collect() for the sampling loop, evaluate() for whatever runs beside it. Where collect() says
+    /// that the revolutions are whole, samples are dropped until evaluate() has taken them.
+    bool collect(const ForceDropSample<Scalar>& sample) {
+        complete_ =
+            complete_ || profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N);
+        return complete_;
+    }
+    [[nodiscard]] bool complete() const { return complete_; }
+    const Estimate& evaluate(Scalar feed_per_tooth_mm) {
+        if (complete_) {
+            estimate_profile(feed_per_tooth_mm);
+            profile_.clear();
+            complete_ = false;
+        }
+        return estimate_;
     }
 
     [[nodiscard]] const Estimate& estimate() const { return estimate_; }
@@ -84,7 +104,7 @@ class ForceDrop {
     [[nodiscard]] const ForceJump<Scalar>& jump() const { return jump_; }
 
   private:
-    void evaluate(Scalar feed_per_tooth_mm) {
+    void estimate_profile(Scalar feed_per_tooth_mm) {
         if (settings_.known_immersion > Scalar(0)) {
             measure_known(feed_per_tooth_mm);
             return;
@@ -109,7 +129,7 @@ class ForceDrop {
 
     /// While θ is not known: what is air at the largest θ is air in any case.
     [[nodiscard]] Scalar largest_theta_rad() const {
-        using std::acos;
+        using elementary::acos;
         return acos(Scalar(1) - immersion_.law().largest_immersion);
     }
 
@@ -144,7 +164,7 @@ class ForceDrop {
 
     /// Puts the other edge where it would be at θ, takes it off, and solves.
     Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first) {
-        using std::sin;
+        using elementary::sin;
         constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.5L);
         jump_ = detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
         jump_.x_N.variance += square(doubt_in_taken_off * (jump_.x_N.value - first.x_N.value));
@@ -224,8 +244,8 @@ class ForceDrop {
 
     /// θ by the edge's place and θ by the drop, weighted.
     void join_place(const Closure& best, bool ambiguous) {
-        using std::cos;
-        using std::sin;
+        using elementary::cos;
+        using elementary::sin;
         using std::sqrt;
         const Scalar of_place = square(place_sd_rad);
         const Scalar total = of_place + best.variance;
@@ -240,7 +260,7 @@ class ForceDrop {
     }
 
     void measure_known(Scalar feed_per_tooth_mm) {
-        using std::acos;
+        using elementary::acos;
         jump_ = detector_.detect(profile_);
         measurement_ = measurement_of(jump_, feed_per_tooth_mm);
         estimate_ = {};
@@ -332,6 +352,7 @@ class ForceDrop {
     ForceDropMeasurement<Scalar> measurement_{};
     ForceJump<Scalar> jump_{};
     Estimate estimate_{};
+    bool complete_ = false;
 };
 
 }  // namespace millforce::estimation

@@ -44,7 +44,7 @@ struct ForceSensorParameters {
 /// Radial immersion from force drops. The law's `valid` is left to who uses it: no largest immersion, no law.
 template <typename Scalar>
 struct ForceDropParameters {
-    estimation::ForceDropLaw<Scalar> law{};
+    estimation::ForceDropLaw<Scalar> law{.largest_immersion = Scalar(0)};
     Scalar revolutions{4};
 };
 

@@ -4,6 +4,7 @@
 #include "estimation/cut_estimator.hpp"
 #include "estimation/roughness.hpp"
 #include "firmware/parameters.hpp"
+#include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
 
@@ -13,16 +14,21 @@
 /// Rezeroing in air is its own: while the controller's state is `air`, the spindle turns evenly and its torque is near
 /// its idle value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows
 /// can so not be taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain.
+///
+/// Beside it runs a WideBand monitor (NoWideBand where the memory is short): an immersion from force drops enters the
+/// solver as one more measurement of the engagement. What the cut has changed since the drops were seen adds to its
+/// variance. Its work() is not part of step(): call it where there is time, as soon as work_due() says so.
 
 namespace millforce::firmware {
 
-template <typename Scalar>
+template <typename Scalar, typename WideBand = WideBandMonitor<Scalar>>
 class ForceControlTick {
   public:
     explicit ForceControlTick(const Parameters<Scalar>& parameters)
         : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
                      parameters.tool.law),
           controller_(controller_parameters(parameters)),
+          wide_band_(parameters),
           control_parameters_(controller_parameters(parameters)),
           roughness_model_(parameters.tool.roughness),
           tool_diameter_mm_(parameters.tool.diameter_mm),
@@ -36,27 +42,46 @@ class ForceControlTick {
         const bool has_angle = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
         if (!has_angle) {
             estimator_.restart();
+            set_cut();
         }
+        wide_band_.add(dt_s, sample, may_be_in_cut());
+        estimator_.tell_immersion(immersion_by_force_drops());
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
                                                        sample.spindle_index_number, signals);
         if (fresh) {
             rezero_in_air(program.rapid);
+            follow_section();
             predict_roughness(signals);
+            set_cut();
         }
-        return output_of(controller_.step(control_input(dt_s, signals, program, fresh)));
+        set_motion(dt_s, signals, program);
+        input_.cut.fresh = fresh;
+        return output_of(controller_.step(input_));
     }
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
-        control::ControlInput<Scalar> input = control_input(Scalar(dt_s), {}, program, false);
-        input.time_since_sample_s = Scalar(silent_s);
-        input.cut.force_valid = false;
-        input.surface.valid = false;
+        set_motion(Scalar(dt_s), {}, program);
+        input_.cut.fresh = false;
+        input_.time_since_sample_s = Scalar(silent_s);
+        input_.cut.force_valid = false;
+        input_.surface.valid = false;
         has_time_ = false;
-        return output_of(controller_.step(input));
+        return output_of(controller_.step(input_));
     }
 
     void reset_fault() { controller_.reset(); }
+
+    /// Work beside the tick, in the same thread or between two steps; some milliseconds on a desktop processor.
+    [[nodiscard]] bool work_due() const { return wide_band_.work_due(); }
+    void work() {
+        const WideBandEstimate<Scalar> before = wide_band_.estimate();
+        wide_band_.work();
+        if (wide_band_.estimate().force_drops != before.force_drops) {
+            take_section_of_drops(before.force_drop_immersion);
+        }
+    }
+    [[nodiscard]] const WideBandEstimate<Scalar>& wide_band() const { return wide_band_.estimate(); }
 
     [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return estimator_.estimate(); }
     [[nodiscard]] const estimation::CutEstimator<Scalar>& estimator() const { return estimator_; }
@@ -67,8 +92,7 @@ class ForceControlTick {
     /// controller goes on with the forces themselves, and may not raise the feed in that state.)
     [[nodiscard]] estimation::EngagementEstimate<Scalar> engagement() const {
         estimation::EngagementEstimate<Scalar> shown = estimator_.estimate().engagement;
-        const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
-        const bool arc_is_known = is_cutting && !control_.fading;
+        const bool arc_is_known = is_in_cut();
         shown.immersion_valid = shown.immersion_valid && arc_is_known;
         shown.depth_valid = shown.depth_valid && arc_is_known;
         return shown;
@@ -78,6 +102,55 @@ class ForceControlTick {
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return roughness_; }
 
   private:
+    [[nodiscard]] bool is_in_cut() const {
+        const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
+        return is_cutting && !control_.fading;
+    }
+
+    /// Without a tangential force (no spindle current: a force sensor alone) nothing tells air from cut.
+    [[nodiscard]] bool may_be_in_cut() const { return !estimator_.estimate().tangential_N.valid || is_in_cut(); }
+
+    /// The mean section of the drops' revolutions; and how much of its growth since the last drops the width had.
+    void take_section_of_drops(const estimation::Measurement<Scalar>& last) {
+        constexpr Scalar least_growth2 = static_cast<Scalar>(0.0016L);  // 4 %
+        const estimation::Measurement<Scalar>& now = wide_band_.estimate().force_drop_immersion;
+        const Scalar section_mm2 = sections_ > 0 ? section_sum_mm2_ / Scalar(sections_) : Scalar(0);
+        if (last.valid && now.valid && section_of_drops_mm2_ > Scalar(0) && last.value > Scalar(0)) {
+            const Scalar growth = section_mm2 / section_of_drops_mm2_ - Scalar(1);
+            if (estimation::square(growth) > least_growth2) {
+                const Scalar seen = estimation::clamp((now.value / last.value - Scalar(1)) / growth, Scalar(0), Scalar(1));
+                width_share_ += Scalar(0.5F) * (seen - width_share_);
+            }
+        } else {
+            width_share_ = Scalar(0.5F);
+        }
+        section_of_drops_mm2_ = section_mm2;
+        section_sum_mm2_ = Scalar(0);
+        sections_ = 0;
+    }
+
+    /// Sections since the force drops were taken last.
+    void follow_section() {
+        section_sum_mm2_ += estimator_.estimate().section_mm2;
+        ++sections_;
+    }
+
+    /// The immersion of the drops' revolutions. Where the section has grown since, the width may have grown as much or the
+    /// depth instead: as before the drops, and as doubtful as if all between the two were evenly likely.
+    [[nodiscard]] estimation::Measurement<Scalar> immersion_by_force_drops() const {
+        estimation::Measurement<Scalar> told = wide_band_.estimate().force_drop_immersion;
+        const Scalar now_mm2 = estimator_.estimate().section_mm2;
+        told.valid = told.valid && section_of_drops_mm2_ > Scalar(0) && now_mm2 > Scalar(0);
+        if (told.valid) {
+            const Scalar growth = now_mm2 / section_of_drops_mm2_ - Scalar(1);
+            constexpr Scalar of_even_distribution = static_cast<Scalar>(0.0833333333L);  // 1/12
+            told.variance += of_even_distribution * estimation::square(growth * told.value);
+            told.value *= Scalar(1) + width_share_ * growth;
+            told.valid = estimation::square(growth) < Scalar(0.25F);
+        }
+        return told;
+    }
+
     /// Since the last sample; 0 for the first one and where the clock went backwards.
     Scalar elapsed_s(std::uint32_t time_us) {
         const auto elapsed_us = static_cast<std::int32_t>(time_us - last_time_us_);
@@ -154,27 +227,33 @@ class ForceControlTick {
         }
     }
 
-    control::ControlInput<Scalar> control_input(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals,
-                                                const hal::ProgramStatus& program, bool fresh) const {
+    /// What changes from sample to sample.
+    void set_motion(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals, const hal::ProgramStatus& program) {
+        using std::sqrt;
+        input_.dt_s = dt_s;
+        input_.time_since_sample_s = dt_s;
+        input_.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
+        input_.operator_override = Scalar(program.operator_override);
+        input_.rapid = program.rapid;
+        input_.feed_hold = program.feed_hold;
+        const auto& v = signals.axis_velocity_mm_s;
+        const Scalar plane2 = v[0] * v[0] + v[1] * v[1];
+        const Scalar axial2 = v[2] * v[2];
+        input_.path_speed_mm_s = sqrt(plane2 + axial2);
+        input_.velocity_x_mm_s = v[0];
+        input_.velocity_y_mm_s = v[1];
+        input_.plunging = axial2 > plane2 && axial2 > Scalar(0.25F);
+        const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+        const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
+        input_.cut.spindle_turning = e.window_s > Scalar(0) && estimator_.since_period_s() < period_timeout_s;
+        input_.cut.force_valid = e.tangential_N.valid && input_.cut.spindle_turning;
+    }
+
+    /// What a new estimate tells. Not inlined: once per tooth period, and every tick is shorter for it.
+    [[gnu::noinline]] void set_cut() {
         using std::sqrt;
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
-        control::ControlInput<Scalar> input;
-        input.dt_s = dt_s;
-        input.time_since_sample_s = dt_s;
-        input.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
-        input.operator_override = Scalar(program.operator_override);
-        input.rapid = program.rapid;
-        input.feed_hold = program.feed_hold;
-        const auto& v = signals.axis_velocity_mm_s;
-        input.path_speed_mm_s = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        input.velocity_x_mm_s = v[0];
-        input.velocity_y_mm_s = v[1];
-        input.plunging = v[2] * v[2] > v[0] * v[0] + v[1] * v[1] && v[2] * v[2] > Scalar(0.25F);
-        control::CutEstimateForControl<Scalar>& cut = input.cut;
-        cut.fresh = fresh;
-        const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
-        cut.spindle_turning = e.window_s > Scalar(0) && estimator_.since_period_s() < period_timeout_s;
-        cut.force_valid = e.tangential_N.valid && cut.spindle_turning;
+        control::CutEstimateForControl<Scalar>& cut = input_.cut;
         const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
         const auto& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
         cut.tangential_N = F_at.value;
@@ -182,8 +261,9 @@ class ForceControlTick {
         cut.tooth_force_valid = e.tooth_force_N.valid;
         cut.tooth_force_is_bound = e.tooth_force_is_bound;
         cut.least_tooth_force_N = e.least_tooth_force_N;
-        cut.tooth_force_N = e.tooth_force_N.valid ? e.tooth_force_N.value + control_parameters_.caution_sd * sqrt(e.tooth_force_N.variance)
-                                                  : e.worst_tooth_force_N;
+        cut.tooth_force_N = e.tooth_force_N.valid
+                                ? e.tooth_force_N.value + control_parameters_.caution_sd * sqrt(e.tooth_force_N.variance)
+                                : e.worst_tooth_force_N;
         // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
         if (e.newest_tangential_N > Scalar(0)) {
             const Scalar lead_s = reaction_s_ + Scalar(0.5F) * e.window_s;
@@ -199,8 +279,7 @@ class ForceControlTick {
         cut.feed_exponent = e.feed_exponent;
         cut.feed_mm_s = e.feed_mm_s;
         cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
-        input.surface = surface_;
-        return input;
+        input_.surface = surface_;
     }
 
     hal::FeedOverride output_of(const control::ControlOutput<Scalar>& control) {
@@ -216,11 +295,13 @@ class ForceControlTick {
 
     estimation::CutEstimator<Scalar> estimator_;
     control::FeedController<Scalar> controller_;
+    WideBand wide_band_;
     control::FeedControllerParameters<Scalar> control_parameters_;
     estimation::RoughnessPredictor<Scalar> roughness_model_;
     Scalar tool_diameter_mm_;
     Scalar declared_depth_mm_;
     Scalar reaction_s_;
+    control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};
     estimation::RoughnessPrediction<Scalar> roughness_{};
     control::SurfaceForControl<Scalar> surface_{};
@@ -229,6 +310,10 @@ class ForceControlTick {
     bool has_time_ = false;
     bool was_rezeroed_ = false;
     int air_periods_ = 0;
+    Scalar section_sum_mm2_{0};
+    Scalar section_of_drops_mm2_{0};
+    Scalar width_share_{Scalar(0.5F)};  ///< of the section's growth
+    int sections_ = 0;
 };
 
 }  // namespace millforce::firmware

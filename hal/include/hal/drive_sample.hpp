@@ -17,13 +17,14 @@ enum class Present : std::uint8_t {
     x_axis = 1U << 2U,
     y_axis = 1U << 3U,
     z_axis = 1U << 4U,
+    force_sensor = 1U << 5U,  ///< force_N, and the velocities of x and y whether their currents are there or not
 };
 
 constexpr std::uint8_t mask(Present quantity) { return static_cast<std::uint8_t>(quantity); }
 constexpr std::uint8_t axis_mask(std::size_t axis) {
     return static_cast<std::uint8_t>(mask(Present::x_axis) << axis);
 }
-inline constexpr std::uint8_t all_present = 0x1F;
+inline constexpr std::uint8_t all_present = 0x1F;  ///< all that drives give
 
 struct DriveSample {
     std::uint32_t time_us = 0;  ///< wraps after 71.6 minutes; only differences are used
@@ -37,6 +38,7 @@ struct DriveSample {
     float spindle_current_A = 0.0F;
     std::array<float, axis_count> axis_current_A{};
     std::array<float, axis_count> axis_velocity_mm_s{};  ///< of the tool relative to the workpiece
+    std::array<float, 2> force_N{};  ///< of a force sensor: on the workpiece, along machine x and y
 };
 
 /// What the CNC and the operator tell, whenever it changes.

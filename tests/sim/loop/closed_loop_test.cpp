@@ -71,6 +71,20 @@ TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_a_varying_width) { holds_
 
 TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_the_middle) { holds_the_limit("face_mill_centred"); }
 
+TEST(ClosedLoop, holds_the_limit_where_force_drops_tell_the_immersion) { holds_the_limit("face_mill_dynamometer"); }
+
+TEST(ClosedLoop, knows_the_engagement_better_and_is_faster_with_force_drops) {
+    const Scenario with = scenario_named("face_mill_dynamometer");
+    Scenario without = with;
+    without.parameters.tool.force_drop.law.largest_immersion = 0.0F;
+    const RunFigures told = controlled(with);
+    const RunFigures alone = controlled(without);
+    CHECK(told.immersion_rms < 0.05);
+    CHECK(told.depth_rms_mm < 0.2);
+    CHECK(told.estimate_share > 0.9);
+    CHECK(told.time_s < 0.5 * alone.time_s);
+}
+
 TEST(ClosedLoop, holds_the_limit_in_a_pocket_of_harder_steel) {
     CHECK(bounds_hold(controlled(scenario_named("pocket", {1.3, 0.8, 2}))));
 }
@@ -91,11 +105,13 @@ TEST(ClosedLoop, states_bands_that_hold) {
     bands_hold("depth_ramp");
     bands_hold("face_mill");
     bands_hold("width_step");
+    bands_hold("face_mill_dynamometer");
 }
 
 TEST(ClosedLoop, saves_time_against_a_safe_constant_feed) {
     CHECK(time_saved("depth_ramp") > 0.40);
     CHECK(time_saved("slot_entry") > 0.0);
+    CHECK(time_saved("face_mill_dynamometer") > 0.15);
 }
 
 TEST(ClosedLoop, is_saved_by_the_entry_feed_where_no_reaction_is_fast_enough) {

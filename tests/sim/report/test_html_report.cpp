@@ -1,8 +1,10 @@
 #include <CppUTest/TestHarness.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "control/cut_state.hpp"
 #include "json_check.hpp"
 #include "report/html_report.hpp"
 #include "report/report_data.hpp"
@@ -45,6 +47,16 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
         LONGS_EQUAL(0, count_of(html, placeholder));
     }
     CHECK(html.find("Dygraph") != std::string::npos);
+}
+
+TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
+    RunResult run = synthetic::pocket_run("millforce");
+    for (TracePoint& point : run.trace) {
+        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::roughness);
+    }
+    const std::string data = report_data_json(info, std::span(&run, 1));
+    CHECK(data.find("\"limits\":\"aaaa") != std::string::npos);
+    CHECK(data.find("\"feed_per_tooth\",\"roughness\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {

@@ -4,6 +4,7 @@
 
 #include "hal/can_frame.hpp"
 #include "hal/feed_override.hpp"
+#include "hal/override_output.hpp"
 #include "override_frame/override_frame.hpp"
 
 namespace millforce::override_frame {
@@ -11,20 +12,23 @@ namespace millforce::override_frame {
 struct OverrideSenderSettings {
     std::uint8_t node_id = default_node_id;
     std::uint32_t id = default_id;
-    std::uint32_t period_us = 2'000;              ///< between two frames; a change of hold or fault goes out at once
+    /// Between two frames; 0: one with every tick. A change of hold or fault goes out at once.
+    std::uint32_t period_us = 2'000;
     std::uint32_t heartbeat_period_us = 100'000;  ///< between two heartbeats
     std::uint32_t tick_timeout_us = 20'000;       ///< without a tick for so long the heartbeat says `stopped`
 };
 
 /// The controller's side. update() with each tick's output, poll() at least every period, then fetch what is to be
-/// sent. Where ticks stay away it goes on sending with the counter standing still: only the receiver can tell whether
-/// that is too long. A frame that could not be sent is dropped; the next one is newer. One thread.
-class OverrideSender {
+/// sent, after both. Where ticks stay away it goes on sending with the counter standing still: only the receiver can
+/// tell whether that is too long. A frame that could not be sent is dropped; the next one is newer. One thread.
+class OverrideSender final : public hal::OverrideOutput {
   public:
     explicit OverrideSender(const OverrideSenderSettings& settings) : settings_(settings) {}
 
-    void update(const hal::FeedOverride& feed_override, std::uint64_t time_us);
-    void poll(std::uint64_t time_us);
+    void update(const hal::FeedOverride& feed_override, std::uint64_t time_us) override;
+    void poll(std::uint64_t time_us) override;
+    /// Ready always: whether frames leave is the bus driver's to say.
+    [[nodiscard]] hal::OutputHealth health() const override { return {true, ticks_, 0, 0}; }
     /// True once for each frame that is to be sent.
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hal/feed_override.hpp"
+
+namespace millforce::hal {
+
+/// Of an output, for the supervisor.
+struct OutputHealth {
+    bool is_ready = false;       ///< the way out is open and its last write was taken
+    bool ticks = false;          ///< false: none yet, or none within the output's time-out; the safe value is out
+    int last_error = 0;          ///< errno of the last call that failed; 0: none did
+    std::uint32_t failures = 0;  ///< writes that were not taken; saturates
+};
+
+/// A way for the override to reach the CNC: CAN frame, analogue voltage, hold line. update() with each tick's output,
+/// poll() at least every 5 ms whether ticks come or not. Neither blocks, allocates or throws. One thread. What a CNC
+/// sees of each when the controller dies: drivers/README.md.
+class OverrideOutput {
+  public:
+    virtual void update(const FeedOverride& feed_override, std::uint64_t time_us) = 0;
+    virtual void poll(std::uint64_t time_us) = 0;
+    [[nodiscard]] virtual OutputHealth health() const = 0;
+
+  protected:
+    OverrideOutput() = default;
+    ~OverrideOutput() = default;  // never deleted through this face: that would need a heap
+    OverrideOutput(const OverrideOutput&) = default;
+    OverrideOutput& operator=(const OverrideOutput&) = default;
+};
+
+}  // namespace millforce::hal

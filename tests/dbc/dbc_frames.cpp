@@ -1,0 +1,152 @@
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/machine_on_bus.hpp"
+#include "cia402/drive_bus.hpp"
+#include "override_frame/override_sender.hpp"
+
+/// Frames of every kind that millforce.dbc names, by the code that sends them, each with the values that went in:
+/// `id data name=value...`. check_dbc decodes them by the DBC and compares.
+
+namespace {
+
+using namespace millforce;
+using Values = std::vector<std::pair<std::string, double>>;
+
+void print(const hal::CanFrame& frame, const Values& values) {
+    std::printf("%u ", frame.id);
+    for (std::size_t k = 0; k < frame.length; ++k) {
+        std::printf("%02X", frame.data[k]);
+    }
+    std::printf("%s", frame.length == 0 ? "-" : "");
+    for (const auto& [name, value] : values) {
+        std::printf(" %s=%.9g", name.c_str(), value);
+    }
+    std::printf("\n");
+}
+
+void print_override(const hal::FeedOverride& feed_override, double ratio, bool hold) {
+    const hal::CanFrame frame = override_frame::encode(feed_override, override_frame::default_id);
+    print(frame, {{"Ratio", ratio},
+                  {"Hold", hold ? 1.0 : 0.0},
+                  {"Reserved", 0.0},
+                  {"State", feed_override.state},
+                  {"Fault", feed_override.fault},
+                  {"Counter", feed_override.heartbeat & 0xFFFFU},
+                  {"Checksum", frame.data[7]}});
+}
+
+void print_overrides() {
+    for (std::uint32_t k = 0; k <= 65'535; k += 97) {
+        const float ratio = static_cast<float>(k) * override_frame::ratio_per_bit;
+        print_override({ratio, k % 2 == 1, static_cast<std::uint8_t>(k % 7), static_cast<std::uint8_t>(k % 256), 3 * k},
+                       k * 0.0001, k % 2 == 1);
+    }
+    print_override({1e9F, false, 255, 255, 0xFFFFFFFFU}, 6.5535, false);
+}
+
+/// Boot-up, pre-operational, operational, stopped.
+void print_heartbeats() {
+    override_frame::OverrideSender sender{override_frame::OverrideSenderSettings{}};
+    hal::CanFrame frame;
+    std::array<double, 4> states{0, 127, 5, 4};
+    std::size_t place = 0;
+    for (const std::uint64_t now_us : {0U, 200'000U, 400'000U}) {
+        if (now_us == 200'000) {
+            sender.update({}, now_us);
+        }
+        sender.poll(now_us);
+        while (sender.take_frame(frame)) {
+            if (frame.id != override_frame::default_id && place < states.size()) {
+                print(frame, {{"MillforceNmtState", states[place++]}});
+            }
+        }
+    }
+}
+
+/// SYNC and NMT start, by the master.
+void print_master() {
+    cia402::BusSettings settings;
+    settings.is_master = settings.produces_sync = true;
+    settings.drives[0].node_id = 1;
+    settings.drives[0].rated_current_A = 12.0F;
+    settings.drives[0].pdos[0].id = 0x181;
+    settings.drives[0].pdos[0].object_count = 2;
+    settings.drives[0].pdos[0].objects = {cia402::MappedObject{cia402::object::position_actual, 0, 32},
+                                          cia402::MappedObject{cia402::object::current_actual, 0, 16}};
+    cia402::DriveBus bus(settings);
+    hal::CanFrame frame;
+    for (std::uint64_t now_us = 0; now_us < 3000; now_us += 1000) {
+        bus.poll(now_us);
+        while (bus.take_frame(frame)) {
+            print(frame, frame.id == 0 ? Values{{"NmtCommand", 1}, {"NmtNode", 1}} : Values{});
+        }
+    }
+}
+
+struct DriveNames {
+    const char* prefix;
+    const char* count;
+};
+constexpr std::array<DriveNames, 4> drive_names{
+    {{"Spindle", "SpindleCount"}, {"X", "XPosition"}, {"Y", "YPosition"}, {"Z", "ZPosition"}}};
+
+void print_of_drive(const hal::CanFrame& frame, const DriveNames& names, std::int32_t position, double per_mille) {
+    const std::string prefix = names.prefix;
+    switch (frame.id & 0x780U) {
+        case 0x180:
+            print(frame,
+                  {{names.count, position}, {prefix + "Current", per_mille / 1000.0}, {prefix + "Statusword", 0x0237}});
+            break;
+        case 0x080:
+            print(frame, {{prefix + "ErrorCode", 0x3210}, {prefix + "ErrorRegister", 0x05}});
+            break;
+        case 0x700:
+            print(frame, {{prefix + "NmtState", frame.data[0]}});
+            break;
+        default:
+            break;
+    }
+}
+
+/// The drives' side, which shares no code with the drivers.
+void print_drives() {
+    for (std::size_t place = 0; place < drive_names.size(); ++place) {
+        sim::CanopenDriveSettings settings;
+        settings.node_id = static_cast<std::uint8_t>(place + 1);
+        settings.heartbeat_ms = 10;
+        sim::CanopenDrive drive(settings);
+        hal::CanFrame start;
+        start.length = 2;
+        start.data[0] = 1;
+        hal::CanFrame sync;
+        sync.id = 0x080;
+        drive.on_frame(start, 0);
+        for (int k = -20; k <= 20; ++k) {
+            const std::int32_t position = 98'765'432 / 20 * k;
+            drive.set_position(position);
+            drive.set_current_A(12.0 * k);
+            drive.on_frame(sync, static_cast<std::uint64_t>(k + 21) * 1000);
+            if (k == 0) {
+                drive.raise_emergency(0x3210, 0x05);
+            }
+            drive.poll(static_cast<std::uint64_t>(k + 21) * 1000);
+            for (const hal::CanFrame& frame : drive.take_frames()) {
+                print_of_drive(frame, drive_names[place], position, 1000.0 * k);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int main() {
+    print_overrides();
+    print_heartbeats();
+    print_master();
+    print_drives();
+    return 0;
+}
