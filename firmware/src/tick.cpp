@@ -1,9 +1,11 @@
 #include "firmware/tick.hpp"
 
+#include "estimation/fixed_point.hpp"
 #include "firmware/parameter_table.hpp"
 
 namespace millforce::firmware {
 
 template class ForceControlTick<float>;
+template class ForceControlTick<estimation::Fixed>;
 
 }  // namespace millforce::firmware

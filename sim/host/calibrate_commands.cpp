@@ -221,12 +221,4 @@ void add_estimate(CLI::App& app, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = estimate(*options, std::cout); });
 }
 
-void add_parameters(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("parameters", "Every key of machine.toml and tool.toml, as Markdown");
-    command->callback([&exit_code] {
-        fmt::print("{}", parameter_documentation());
-        exit_code = 0;
-    });
-}
-
 }  // namespace millforce::sim

@@ -91,7 +91,7 @@ TEST(Ceilings, a_rapid_gives_1) {
 }
 
 TEST(Ceilings, an_unknown_programmed_feed_raises_nothing) {
-    for (const float feed_mm_s : {0.0F, -20.0F, not_a_number, infinity}) {
+    for (const float feed_mm_s : {0.0F, -20.0F, not_a_number, beyond_all}) {
         Controller controller;
         const float before = repeat(controller, in_air(), 50).ratio;
         Input input = in_air();

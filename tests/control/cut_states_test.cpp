@@ -185,7 +185,7 @@ TEST(Faults, a_guessed_tooth_force_is_no_overload_and_asks_for_no_less_than_the_
 }
 
 TEST(Faults, stale_input_latches_in_every_state) {
-    for (const float silent_s : {0.0501F, 1e9F, infinity, not_a_number}) {
+    for (const float silent_s : {0.0501F, 1e9F, beyond_all, not_a_number}) {
         for (const int steps_before : {0, 1, 400}) {
             Controller controller;
             repeat(controller, in_contact(), steps_before);
@@ -263,9 +263,9 @@ void check_bad(const char* what, void (*spoil)(Parameters&, float), std::initial
 TEST(Faults, bad_configuration_gives_ratio_0_and_hold_for_good) {
     check_bad("limit", [](Parameters& p, float v) { p.tooth_force_limit_N = v; }, {0.0F, -1.0F, not_a_number});
     check_bad("minimum", [](Parameters& p, float v) { p.override_min = v; },
-              {-0.1F, 1.5F, 2.0F, not_a_number, infinity});
+              {-0.1F, 1.5F, 2.0F, not_a_number, beyond_all});
     check_bad("maximum", [](Parameters& p, float v) { p.override_max = v; },
-              {0.1F, 0.0F, 10.0F, not_a_number, infinity});
+              {0.1F, 0.0F, 10.0F, not_a_number, beyond_all});
     check_bad("set point", [](Parameters& p, float v) { p.setpoint_share = v; }, {0.0F, -1.0F, not_a_number});
     check_bad("slew up", [](Parameters& p, float v) { p.slew_up_per_s = v; }, {0.0F, -1.0F, not_a_number});
     check_bad("slew down", [](Parameters& p, float v) { p.slew_down_per_s = v; }, {0.0F, -1.0F, not_a_number});
@@ -276,5 +276,5 @@ TEST(Faults, bad_configuration_gives_ratio_0_and_hold_for_good) {
 }
 
 TEST(Faults, a_negative_largest_override_gives_ratio_0_as_any_bad_configuration) {
-    check_bad("maximum", [](Parameters& p, float v) { p.override_max = v; }, {-1.0F, -infinity});
+    check_bad("maximum", [](Parameters& p, float v) { p.override_max = v; }, {-1.0F, -beyond_all});
 }

@@ -17,7 +17,7 @@ using Input = ControlInput<float>;
 using Output = ControlOutput<float>;
 
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr float beyond_all = std::numeric_limits<float>::infinity();
 inline constexpr float two_pi = 6.28318530718F;
 
 /// 400 rad/s with 4 teeth: 254.6 teeth per second, so that 20 mm/s is 0.0785 mm per tooth.
@@ -98,7 +98,7 @@ class Dice {
     float anything() {
         using limits = std::numeric_limits<float>;
         const float extremes[] = {
-            not_a_number, infinity,      -infinity,        0.0F,          -0.0F, -1.0F,
+            not_a_number, beyond_all,      -beyond_all,        0.0F,          -0.0F, -1.0F,
             1e-3F,        limits::max(), limits::lowest(), limits::min(), 1.0F,  limits::denorm_min()};
         if (one_in(3)) {
             return extremes[below(12)];

@@ -102,7 +102,7 @@ TEST(Safety, each_single_spoilt_field_leaves_the_ratio_finite_and_within_its_lim
             CHECK(ratio >= 0.1F && ratio <= 1.5F);
         }
     };
-    for (const float value : {not_a_number, infinity, -infinity, -1.0F, 0.0F}) {
+    for (const float value : {not_a_number, beyond_all, -beyond_all, -1.0F, 0.0F}) {
         for (const auto field : own) {
             Input input = in_contact();
             input.*field = value;
@@ -182,7 +182,7 @@ bool rises_after(Spoil spoil) {
 
 TEST(Safety, an_unknown_tooth_force_raises_nothing) {
     CHECK_FALSE(rises_after([](auto& cut) { cut.tooth_force_N = not_a_number; }));
-    CHECK_FALSE(rises_after([](auto& cut) { cut.tooth_force_N = infinity; }));
+    CHECK_FALSE(rises_after([](auto& cut) { cut.tooth_force_N = beyond_all; }));
     CHECK_FALSE(rises_after([](auto& cut) { cut.tooth_force_N = -960.0F; }));
 }
 
@@ -196,7 +196,7 @@ TEST(Safety, an_unknown_exponent_raises_nothing) {
 
 TEST(Safety, an_unknown_or_infinite_feed_raises_nothing) {
     CHECK_FALSE(rises_after([](auto& cut) { cut.feed_mm_s = not_a_number; }));
-    CHECK_FALSE(rises_after([](auto& cut) { cut.feed_mm_s = infinity; }));
+    CHECK_FALSE(rises_after([](auto& cut) { cut.feed_mm_s = beyond_all; }));
 }
 
 TEST(Safety, an_unknown_spindle_speed_raises_nothing_in_cut) {
@@ -297,7 +297,7 @@ TEST(Safety, the_override_falls_to_the_operators_at_its_full_slew) {
 }
 
 TEST(Safety, an_operators_override_that_is_no_number_counts_as_the_lowest) {
-    for (const float value : {not_a_number, infinity, -infinity, -3.0F}) {
+    for (const float value : {not_a_number, beyond_all, -beyond_all, -3.0F}) {
         Controller controller;
         bring_into_cut(controller);
         Input input = in_contact();

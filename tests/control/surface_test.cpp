@@ -49,7 +49,7 @@ TEST(Surface, ceiling_does_not_act_where_no_limit_is_set) {
 TEST(Surface, without_a_prediction_the_ceiling_holds_and_nothing_speeds_up) {
     Controller controller(with_limit());
     DOUBLES_EQUAL(0.7, settled(controller, light_cut(14.0F)), 1e-5);
-    for (const float nothing : {40.0F, 0.0F, -1.0F, not_a_number, infinity}) {
+    for (const float nothing : {40.0F, 0.0F, -1.0F, not_a_number, beyond_all}) {
         DOUBLES_EQUAL(0.7, settled(controller, light_cut(nothing, false)), 1e-5);
     }
     DOUBLES_EQUAL(0.7, settled(controller, light_cut(not_a_number)), 1e-5);
@@ -86,7 +86,7 @@ TEST(Surface, ceiling_of_one_cut_does_not_bind_the_way_to_the_next) {
 }
 
 TEST(Surface, limit_that_is_no_number_is_a_bad_configuration) {
-    for (const float limit : {-1.0F, not_a_number, infinity}) {
+    for (const float limit : {-1.0F, not_a_number, beyond_all}) {
         Parameters p = with_limit();
         p.Ra_limit_um = limit;
         Controller controller(p);

@@ -3,8 +3,7 @@
 #include "control/cut_state.hpp"
 #include "control/cut_trend.hpp"
 #include "control/path_turn.hpp"
-
-#include <cmath>
+#include "estimation/elementary.hpp"
 
 /// The feed override that holds the largest force on a tooth at its limit.
 ///
@@ -400,8 +399,8 @@ class FeedController {
     /// The override at which a force that is `force_N` now would be `share` of the tooth's limit.
     [[nodiscard]] Scalar feed_for(Scalar share, Scalar force_N, Scalar cutting_share,
                                   const ControlInput<Scalar>& input) const {
-        using std::exp;
-        using std::log;
+        using estimation::elementary::exp;
+        using estimation::elementary::log;
         constexpr Scalar least_share = static_cast<Scalar>(0.05L);
         const Scalar c = cutting_share > least_share ? cutting_share : least_share;
         const Scalar growth = (share * parameters_.tooth_force_limit_N / force_N - (Scalar(1) - c)) / c;

@@ -222,7 +222,7 @@ class CutEstimator {
         Scalar radial_immersion{0};
     };
     [[nodiscard]] static Place place_of(Scalar radial_immersion) {
-        using std::acos;
+        using elementary::acos;
         return {acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion};
     }
 
@@ -454,8 +454,8 @@ class CutEstimator {
 
     /// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
     [[nodiscard]] Scalar runout_factor() const {
-        using std::exp;
-        using std::log;
+        using elementary::exp;
+        using elementary::log;
         if (!(settings_.runout_mm > Scalar(0)) || !(estimate_.feed_per_tooth_mm > Scalar(0))) {
             return Scalar(1);
         }

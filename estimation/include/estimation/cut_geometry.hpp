@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include "estimation/elementary.hpp"
 
 /// Engagement of a milling cutter as two angles, and the one-parameter families that a radial width selects.
 ///
@@ -34,7 +34,7 @@ struct EngagementAngles {
 /// `unknown` is treated as down. Immersion outside 0…2 is clipped.
 template <typename Scalar>
 EngagementAngles<Scalar> engagement_angles(CutSide side, Scalar radial_immersion, Scalar centre_offset_in_radii = 0) {
-    using std::acos;
+    using elementary::acos;
     const auto clip = [](Scalar value, Scalar low, Scalar high) {
         return value < low ? low : (value > high ? high : value);
     };

@@ -82,8 +82,8 @@ struct EngagementIntegrals {
 
 template <typename Scalar>
 EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles) {
-    using std::cos;
-    using std::sin;
+    using elementary::cos;
+    using elementary::sin;
     const Scalar delta = angles.exit_rad - angles.entry_rad;
     if (!(delta > Scalar(0))) {
         return {};
@@ -118,8 +118,8 @@ struct CuttingCoefficients {
 
 template <typename Scalar>
 CuttingCoefficients<Scalar> cutting_coefficients(const CuttingLaw<Scalar>& law, Scalar chip_thickness_mm) {
-    using std::exp;
-    using std::log;
+    using elementary::exp;
+    using elementary::log;
     if (!(chip_thickness_mm > Scalar(0))) {
         return {};
     }

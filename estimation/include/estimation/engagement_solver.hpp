@@ -24,7 +24,7 @@
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
 /// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions. A solution
-/// takes Nodes + 11 of them for a side that is told and twice as many for one that is not; solve() works them off at
+/// takes Nodes + 7 of them for a side that is told and twice as many for one that is not; solve() works them off at
 /// once, begin() and advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
@@ -175,8 +175,7 @@ class EngagementSolver {
 
   private:
     static constexpr Scalar threshold_of_95_percent = static_cast<Scalar>(3.84L);
-    static constexpr int rounds = 3;
-    static constexpr int rounds_for_curvature = 2;
+    static constexpr int rounds = 2;  // narrower parabolas see the rounding of float and the table's grain
 
     /// One value of the profile: the depth that fits best at an immersion, and how badly it fits.
     struct Profile {
@@ -188,7 +187,7 @@ class EngagementSolver {
     [[nodiscard]] Table& table_of(CutSide side) { return tables_[side == CutSide::up ? 1 : 0]; }
 
     [[nodiscard]] Scalar largest_angle(CutSide side) const {
-        using std::acos;
+        using elementary::acos;
         Scalar limit = settings_.largest_immersion;
         if (side == CutSide::centred) {
             const Scalar offset = settings_.centre_offset_in_radii;
@@ -241,7 +240,7 @@ class EngagementSolver {
     }
 
     [[nodiscard]] Profile profile_of(const Search& s, const typename Table::Forces& model, Scalar theta_rad) const {
-        using std::cos;
+        using elementary::cos;
         const AverageForceMeasurement<Scalar>& forces = s.forces_;
         const Scalar ln_r_1_variance = table(s.side_).ln_r_1_variance(model);
         const Scalar t_x = forces.feed_direction_x;
@@ -350,8 +349,7 @@ class EngagementSolver {
     void try_candidate(Search& s) const {
         const Scalar bend = s.J_low_ - Scalar(2) * s.J_middle_ + s.J_high_;
         if (bend > Scalar(0)) {
-            // The narrow ones find the place; their bend is the table's own grain.
-            s.curvature_ = s.round_ < rounds_for_curvature ? bend / square(s.width_rad_) : s.curvature_;
+            s.curvature_ = bend / square(s.width_rad_);
             const Scalar shift = clamp(Scalar(0.5F) * (s.J_low_ - s.J_high_) / bend, Scalar(-1), Scalar(1));
             const Scalar theta_rad = s.middle_rad_ + shift * s.width_rad_;
             const Profile candidate = profile_at(s, theta_rad);
@@ -369,7 +367,7 @@ class EngagementSolver {
     }
 
     void fill_immersion(Search& s) const {
-        using std::cos;
+        using elementary::cos;
         using std::sqrt;
         const Table& nodes = table(s.side_);
         const auto& J = s.J_;

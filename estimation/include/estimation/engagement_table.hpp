@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/cutting_law.hpp"
+#include "estimation/elementary.hpp"
 #include "estimation/measurement.hpp"
 
 #include <array>
@@ -58,8 +59,8 @@ class EngagementTable {
     [[nodiscard]] Scalar angle_rad(Scalar node) const { return first_rad + step_rad_ * node; }
 
     [[nodiscard]] Feed feed(Scalar feed_per_tooth_mm) const {
-        using std::exp;
-        using std::log;
+        using elementary::exp;
+        using elementary::log;
         const Scalar ln_f = log(feed_per_tooth_mm);
         const bool has_reference = law_.reference_chip_thickness_mm > Scalar(0);
         const Scalar per_pitch = teeth_ / (Scalar(2) * pi<Scalar>);
@@ -99,9 +100,9 @@ class EngagementTable {
     using Node = std::array<Scalar, entries>;
 
     [[nodiscard]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
-        using std::cos;
-        using std::exp;
-        using std::log;
+        using elementary::cos;
+        using elementary::exp;
+        using elementary::log;
         const EngagementIntegrals<Scalar> i =
             engagement_integrals(engagement_angles(side, Scalar(1) - cos(theta_rad), centre_offset_in_radii));
         const Scalar ln_m = log(i.mean_sine);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/elementary.hpp"
 #include "estimation/air_gap.hpp"
 #include "estimation/force_drop_detector.hpp"
 #include "estimation/force_drop_immersion.hpp"
@@ -128,7 +129,7 @@ class ForceDrop {
 
     /// While θ is not known: what is air at the largest θ is air in any case.
     [[nodiscard]] Scalar largest_theta_rad() const {
-        using std::acos;
+        using elementary::acos;
         return acos(Scalar(1) - immersion_.law().largest_immersion);
     }
 
@@ -163,7 +164,7 @@ class ForceDrop {
 
     /// Puts the other edge where it would be at θ, takes it off, and solves.
     Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first) {
-        using std::sin;
+        using elementary::sin;
         constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.5L);
         jump_ = detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
         jump_.x_N.variance += square(doubt_in_taken_off * (jump_.x_N.value - first.x_N.value));
@@ -243,8 +244,8 @@ class ForceDrop {
 
     /// θ by the edge's place and θ by the drop, weighted.
     void join_place(const Closure& best, bool ambiguous) {
-        using std::cos;
-        using std::sin;
+        using elementary::cos;
+        using elementary::sin;
         using std::sqrt;
         const Scalar of_place = square(place_sd_rad);
         const Scalar total = of_place + best.variance;
@@ -259,7 +260,7 @@ class ForceDrop {
     }
 
     void measure_known(Scalar feed_per_tooth_mm) {
-        using std::acos;
+        using elementary::acos;
         jump_ = detector_.detect(profile_);
         measurement_ = measurement_of(jump_, feed_per_tooth_mm);
         estimate_ = {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/elementary.hpp"
 #include "estimation/force_drop_law.hpp"
 
 #include <array>
@@ -44,7 +45,7 @@ struct ForceDropRoot {
     Scalar theta_rad{0};
     Scalar variance{0};
     [[nodiscard]] Scalar immersion() const {
-        using std::cos;
+        using elementary::cos;
         return Scalar(1) - cos(theta_rad);
     }
 };
@@ -106,8 +107,8 @@ class ForceDropImmersion {
 
     /// What the averages alone say of the cut, if θ were this: K a at the jump by c_0 and c_1.
     [[nodiscard]] Scalar pressure_by_averages_N_per_mm(const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
-        using std::cos;
-        using std::exp;
+        using elementary::cos;
+        using elementary::exp;
         const ForceDropRatios<Scalar> ratios = ratios_at(inputs_of(m), m, theta_rad);
         return ratios.mean_pressure_N_per_mm *
                exp(law_.c.dot(pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm)));
@@ -167,8 +168,8 @@ class ForceDropImmersion {
     [[nodiscard]] Value residual(Equation equation, const ForceDropInputs<Scalar>& in,
                                  const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
         using std::atan;
-        using std::cos;
-        using std::log;
+        using elementary::cos;
+        using elementary::log;
         const ForceDropRatios<Scalar> ratios = ratios_at(in, m, theta_rad);
         if (!ratios.possible) {
             return {};
@@ -181,7 +182,7 @@ class ForceDropImmersion {
     }
 
     [[nodiscard]] Roots roots_of(Equation equation, const ForceDropMeasurement<Scalar>& m) const {
-        using std::acos;
+        using elementary::acos;
         const ForceDropInputs<Scalar> in = inputs_of(m);
         const Scalar first = acos(Scalar(1) - law_.smallest_immersion);
         const Scalar step = (acos(Scalar(1) - law_.largest_immersion) - first) / Scalar(Nodes - 1);
@@ -307,7 +308,7 @@ class ForceDropImmersion {
     /// Of the residual, by the doubt in the calibrated line and the scatter about it.
     [[nodiscard]] Scalar law_variance(Equation equation, const ForceDropMeasurement<Scalar>& m,
                                       Scalar theta_rad) const {
-        using std::cos;
+        using elementary::cos;
         if (equation == Equation::magnitude) {
             const auto z = pressure_regressors(cos(theta_rad), m.feed_per_tooth_mm);
             return z.dot(law_.c_covariance * z) + square(law_.ln_K_scatter);
@@ -324,7 +325,7 @@ class ForceDropImmersion {
     [[nodiscard]] typename ForceDropEstimate<Scalar>::Reason join(const Propagation& doubt,
                                                                   ForceDropEstimate<Scalar>& estimate) const {
         using Reason = typename ForceDropEstimate<Scalar>::Reason;
-        using std::sin;
+        using elementary::sin;
         using std::sqrt;
         const ForceDropRoot<Scalar>& A = estimate.by_direction;
         const ForceDropRoot<Scalar>& B = estimate.by_magnitude;

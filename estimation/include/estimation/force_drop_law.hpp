@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/elementary.hpp"
 #include "estimation/cut_geometry.hpp"
 #include "estimation/cutting_law.hpp"
 #include "estimation/measurement.hpp"
@@ -68,7 +69,7 @@ struct ForceDropLaw {
 /// What c multiplies.
 template <typename Scalar>
 Eigen::Matrix<Scalar, 3, 1> pressure_regressors(Scalar one_minus_immersion, Scalar feed_per_tooth_mm) {
-    using std::log;
+    using elementary::log;
     return {Scalar(1), one_minus_immersion, log(feed_per_tooth_mm / static_cast<Scalar>(0.15L))};
 }
 
@@ -122,8 +123,8 @@ struct ForceDropRatios {
 template <typename Scalar>
 ForceDropRatios<Scalar> force_drop_ratios(const ForceDropInputs<Scalar>& in, Scalar feed_per_tooth_mm, Scalar teeth,
                                           CutSide side, EngagementAngles<Scalar> engagement) {
-    using std::cos;
-    using std::sin;
+    using elementary::cos;
+    using elementary::sin;
     ForceDropRatios<Scalar> ratios;
     const Scalar phi = jump_angle_rad(side, engagement);
     const Scalar sine = sin(phi);

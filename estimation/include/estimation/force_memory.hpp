@@ -56,8 +56,8 @@ class ForceMemory {
     }
 
     [[nodiscard]] static Scalar carried_by(Scalar from_feed, Scalar to_feed, Scalar exponent) {
-        using std::exp;
-        using std::log;
+        using elementary::exp;
+        using elementary::log;
         return from_feed > Scalar(0) && to_feed > Scalar(0) ? exp(exponent * log(to_feed / from_feed)) : Scalar(1);
     }
 

@@ -68,14 +68,16 @@ template <typename Scalar, int Steps = 72>
 PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
                                  Scalar radial_immersion, Scalar axial_depth_mm) {
     using std::sqrt;
-    using std::tan;
+    using elementary::tan;
     const EngagementAngles<Scalar> engagement =
         engagement_angles(settings.side, radial_immersion, settings.centre_offset_in_radii);
     const Scalar sweep = axial_depth_mm * tan(settings.helix_rad) / settings.cutter_radius_mm;
     const Scalar feed = settings.nominal_feed_per_tooth_mm;
-    const Scalar F_at = average_forces(law, CutConditions<Scalar>{feed, axial_depth_mm, engagement, settings.teeth}).tangential_N;
+    // Forces per mm of depth, which is common to both: their squares stay within the range of fixed point.
+    constexpr Scalar depth_mm{1};
+    const Scalar F_at = average_forces(law, CutConditions<Scalar>{feed, depth_mm, engagement, settings.teeth}).tangential_N;
     const auto tooth_at = [&](Scalar tip) {
-        return single_tooth_force(law, feed, axial_depth_mm, sweep, engagement, tip);
+        return single_tooth_force(law, feed, depth_mm, sweep, engagement, tip);
     };
     const Scalar first = engagement.entry_rad;
     const Scalar passage = engagement.exit_rad + sweep - first;
@@ -132,7 +134,7 @@ class ToothPeakTable {
     ToothPeakTable() = default;
 
     void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
-        using std::tan;
+        using elementary::tan;
         sweep_rad_per_mm_ = tan(settings.helix_rad) / settings.cutter_radius_mm;
         side_ = settings.side;
         centre_offset_in_radii_ = settings.centre_offset_in_radii;
@@ -151,7 +153,7 @@ class ToothPeakTable {
 
     /// Immersion is clipped to 0.02…2. Any depth ≥ 0.
     [[nodiscard]] Scalar at(Scalar radial_immersion, Scalar axial_depth_mm) const {
-        using std::acos;
+        using elementary::acos;
         return at_angle(acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion, axial_depth_mm);
     }
 
@@ -186,7 +188,7 @@ class ToothPeakTable {
     static constexpr Scalar most_sweeps = static_cast<Scalar>(20);
 
     [[nodiscard]] static Scalar immersion_of(Scalar node) {
-        using std::cos;
+        using elementary::cos;
         return Scalar(1) - cos(first_rad + step_rad * node);
     }
     [[nodiscard]] static Scalar sweeps_of(Scalar node) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/elementary.hpp"
 #include "estimation/measurement.hpp"
 
 #include <array>
@@ -192,7 +193,7 @@ class RoughnessPredictor {
 
 template <typename Scalar>
 RoughnessPredictor<Scalar>::RoughnessPredictor(const RoughnessModel<Scalar>& model) : model_(model) {
-    using std::log;
+    using elementary::log;
     const auto is_positive = [](Scalar value) { return value > Scalar(0) && value - value == Scalar(0); };
     has_model_ = is_positive(model.constant_um);
     if (!has_model_) {
@@ -224,7 +225,7 @@ bool RoughnessPredictor<Scalar>::are_usable(const RoughnessConditions<Scalar>& c
 
 template <typename Scalar>
 RoughnessValues<Scalar> RoughnessPredictor<Scalar>::logarithms(const RoughnessConditions<Scalar>& cut) const {
-    using std::log;
+    using elementary::log;
     RoughnessValues<Scalar> z{};
     for (std::size_t j = 0; j < count; ++j) {
         z[j] = log(cut[j]) - ln_reference_[j];
@@ -284,7 +285,7 @@ void RoughnessPredictor<Scalar>::compare_with_tests(const RoughnessConditions<Sc
 template <typename Scalar>
 RoughnessPrediction<Scalar> RoughnessPredictor<Scalar>::prediction_of(const RoughnessConditions<Scalar>& cut,
                                                                       Scalar ratio_ln_variance) const {
-    using std::exp;
+    using elementary::exp;
     RoughnessPrediction<Scalar> prediction;
     if (!has_model_ || !are_usable(cut)) {
         return prediction;
@@ -309,7 +310,7 @@ RoughnessPrediction<Scalar> RoughnessPredictor<Scalar>::prediction_of(const Roug
 template <typename Scalar>
 Scalar RoughnessPredictor<Scalar>::highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
                                                        Scalar ratio_ln_variance) const {
-    using std::log;
+    using elementary::log;
     const auto keeps_limit = [&](Scalar z_feed) {
         z[roughness_feed] = z_feed;
         return ln_roughness(z) + half_interval(leverage(z), ratio_ln_variance) <= ln_limit;
@@ -334,8 +335,8 @@ template <typename Scalar>
 typename RoughnessPredictor<Scalar>::FeedCeiling RoughnessPredictor<Scalar>::feed_ceiling(
     RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z,
     Scalar limit_um) const {
-    using std::exp;
-    using std::log;
+    using elementary::exp;
+    using elementary::log;
     const Measurement<Scalar> ratio = force_ratio(f_x, f_z);
     const Scalar lowest = model_.minimum[roughness_feed];
     const Scalar highest = model_.maximum[roughness_feed];

@@ -47,7 +47,7 @@ struct BusDriveParameters {
     Scalar write_mapping{0};
     Scalar stale_ms{20};
     std::array<Scalar, 4> tpdo_id{};
-    std::array<Scalar, 4> tpdo_every{1, 1, 1, 1};
+    std::array<Scalar, 4> tpdo_every{Scalar(1), Scalar(1), Scalar(1), Scalar(1)};
 };
 
 /// The bus that drives and CNC are on. A machine without one has no drive with a node id.

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+/// What every Cortex-M image begins with: vector table, start of the C++ world, a stack that cannot overflow unseen,
+/// and faults that end in one place. startup.cpp implements it; the board gives memory.ld.
+///
+/// The stack lies at the bottom of RAM, its lowest 256 bytes denied by the MPU: an overflow is a fault, not a corrupted
+/// variable. (Without an MPU it runs off the RAM, which is a bus fault as well.)
+
+namespace millforce::board {
+
+/// What a processor fault leaves behind.
+struct FaultRecord {
+    std::uint32_t exception;       ///< number: 2 NMI, 3 hard fault, 4 memory, 5 bus, 6 usage, 16… an interrupt without handler
+    std::uint32_t program_counter; ///< of the faulting instruction; 0 where the stack could not be read
+    std::uint32_t link_register;
+    std::uint32_t stack_pointer;   ///< before the exception
+    std::uint32_t status;          ///< CFSR, Armv7-M Architecture Reference Manual B3.2.15
+    std::uint32_t address;         ///< MMFAR or BFAR, where `status` says that it is valid
+};
+
+/// Given by the image: what to do on a fault. Runs on a stack of its own, with interrupts masked.
+extern "C" [[noreturn]] void on_processor_fault(const FaultRecord& record);
+
+/// Given by the image: the program. Must not return.
+extern "C" [[noreturn]] void run_image();
+
+/// Paints the stack below the caller; done at the start, and again by who measures one part of a program.
+void paint_stack();
+/// Stack that was not touched since it was painted, in bytes, out of stack_size_bytes(). Linear in its result.
+[[nodiscard]] std::uint32_t untouched_stack_bytes();
+[[nodiscard]] std::uint32_t stack_size_bytes();
+
+}  // namespace millforce::board

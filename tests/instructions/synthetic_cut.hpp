@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+#include "estimation/elementary.hpp"
+#include "firmware/parameter_table.hpp"
+#include "firmware/parameters.hpp"
+#include "hal/drive_sample.hpp"
+#include "machine_and_tool.hpp"
+
+/// The cut whose ticks are counted on every processor: down milling in steel along +x after 0.1 s of air, its width
+/// growing, with the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same
+/// bits everywhere.
+
+namespace millforce::instructions {
+
+using bench::encoder_counts_per_rev;
+using bench::teeth;
+
+inline constexpr float sample_interval_s = 0.001F;
+inline constexpr std::uint32_t sample_interval_us = 1000;
+inline constexpr float spindle_speed_rad_s = 418.879F;  // 4000 rpm
+inline constexpr float feed_mm_s = 20.0F;
+
+inline constexpr int air_samples = 100;
+inline constexpr int settling_samples = 100;  // from contact until each window lies wholly in the cut
+inline constexpr int counted_samples = 300;
+inline constexpr int samples = air_samples + settling_samples + counted_samples;
+
+using bench::machine_and_tool;
+
+/// Sample `index` of a straight cut along +x that begins after `air_samples`.
+inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters) {
+    constexpr float tangential_N = 250.0F;
+    constexpr float narrow_ratio = -0.75F;  // F_ax/F_at
+    constexpr float wide_ratio = -0.2F;
+    constexpr float ripple_share = 0.3F;
+    const float time_s = static_cast<float>(index) * sample_interval_s;
+    const float turned_rev = time_s * spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
+    const float tooth_phase_rad = 2.0F * std::numbers::pi_v<float> * teeth * turned_rev;
+    const float load = index < air_samples ? 0.0F : 1.0F + ripple_share * estimation::elementary::sin(tooth_phase_rad);
+    const float torque_Nm = load * tangential_N * parameters.tool.diameter_mm * 0.0005F;
+
+    hal::DriveSample sample;
+    sample.time_us = static_cast<std::uint32_t>(index) * sample_interval_us;
+    sample.spindle_count = static_cast<std::uint32_t>(turned_rev * encoder_counts_per_rev);
+    sample.present = hal::all_present;
+    sample.spindle_current_A =
+        (torque_Nm - parameters.machine.spindle.K_t2_Nm) / parameters.machine.spindle.K_t1_Nm_per_A;
+    const float progress = static_cast<float>(index) / static_cast<float>(samples);
+    const float feed_N = tangential_N * (narrow_ratio + (wide_ratio - narrow_ratio) * progress);
+    const auto& x = parameters.machine.axes[0];
+    const float friction_A = x.positive.at(feed_mm_s * 0.06F) + x.K_x3_A;
+    sample.axis_current_A[0] = friction_A + load * feed_N / x.K_x4_N_per_A;
+    sample.axis_velocity_mm_s[0] = feed_mm_s;
+    return sample;
+}
+
+/// The same parameters in another scalar, by the parameter table.
+template <typename Scalar>
+firmware::Parameters<Scalar> parameters_in(firmware::Parameters<float> from) {
+    firmware::Parameters<Scalar> to;
+    const auto& fields = firmware::parameter_table<Scalar>;
+    for (std::size_t row = 0; row < fields.size(); ++row) {
+        for (std::size_t axis = 0; axis < firmware::axis_tables.size(); ++axis) {
+            fields[row].field(to, axis) = Scalar(firmware::parameter_table<float>[row].field(from, axis));
+        }
+    }
+    return to;
+}
+
+}  // namespace millforce::instructions

@@ -1,0 +1,83 @@
+#include <csignal>
+#include <cstdlib>
+
+#include "emulated_controller.hpp"
+#include "estimation/fixed_point.hpp"
+#include "loop/bounds.hpp"
+#include "loop/override_source.hpp"
+#include "loop/scenario.hpp"
+#include "loop/simulation.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+// A whole scenario milled by an image on an emulated processor, in lock-step with the plant on the host. The same tick
+// runs on the host beside it: every answer must have the same bits. MILLFORCE_LOOP_SCENARIO names another scenario.
+
+using namespace millforce;
+
+namespace {
+
+std::string scenario_file() {
+    const char* named = std::getenv("MILLFORCE_LOOP_SCENARIO");
+    return named != nullptr ? named : MILLFORCE_SOURCE_DIR "/sim/scenarios/width_step.toml";
+}
+
+/// Gives the plant what the image says, and compares it with the host's own tick.
+template <typename Scalar>
+class ComparedController : public sim::OverrideSource {
+  public:
+    ComparedController(const std::string& processor, const firmware::Parameters<float>& parameters)
+        : image_(processor, parameters),
+          host_(lock_step::parameters_of<Scalar>(lock_step::values_of(parameters))),
+          monitor_(parameters) {}
+
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
+        lock_step::Request request{};
+        request.sample = sample;
+        request.program = program;
+        const lock_step::Answer ours = lock_step::answer_of(host_, request);
+        const lock_step::Answer theirs = image_.step(request);
+        ++steps;
+        with_engagement += (ours.valid & 4U) != 0U ? 1 : 0;
+        different += lock_step::same_bits(ours, theirs) ? 0 : 1;
+        monitor_.step(sample, program);
+        hal::FeedOverride held;
+        return image_.works() ? theirs.feed : held;
+    }
+    void describe(sim::TracePoint& point) const override { monitor_.describe(point); }
+    [[nodiscard]] bool image_works() const { return image_.works(); }
+
+    int steps = 0;
+    int with_engagement = 0;
+    int different = 0;
+
+  private:
+    EmulatedController image_;
+    firmware::ForceControlTick<Scalar> host_;
+    sim::MillforceController monitor_;
+};
+
+template <typename Scalar>
+void mill_on(const std::string& processor) {
+    const sim::Scenario scenario = sim::read_scenario(scenario_file());
+    ComparedController<Scalar> controller(processor, scenario.parameters);
+    CHECK_TRUE_TEXT(controller.image_works(), "the emulator does not start");
+    const sim::Simulated run = sim::simulate(scenario, controller, processor);
+    CHECK_TRUE(controller.image_works());
+    CHECK_COMPARE(controller.steps, >, 1000);
+    CHECK_COMPARE(controller.with_engagement, >, 1000);
+    LONGS_EQUAL(0, controller.different);
+    CHECK_TRUE(run.result.figures.finished);
+    CHECK_TRUE(sim::bounds_hold(run.result.figures));
+}
+
+}  // namespace
+
+TEST_GROUP(ProcessorInTheLoop) {
+    void setup() override { std::signal(SIGPIPE, SIG_IGN); }
+    void teardown() override { std::signal(SIGPIPE, SIG_DFL); }
+};
+
+TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit) { mill_on<float>("cortex-m4f"); }
+
+TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) { mill_on<estimation::Fixed>("cortex-m3"); }

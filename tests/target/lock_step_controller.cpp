@@ -1,0 +1,54 @@
+// The controller in lock-step with a plant on the host: ELF REQUESTS ANSWERS, the names of two pipes. Takes the
+// parameters first, then a request and gives an answer, until the pipe ends. Exit code 3: a pipe could not be opened.
+
+#include <cstring>
+
+#include "cortex_m/processor.hpp"
+#include "estimation/fixed_point.hpp"
+#include "firmware/tick.hpp"
+#include "target/lock_step.hpp"
+#include "target/semihosting.hpp"
+
+namespace {
+
+using namespace millforce;
+using Tick = firmware::ForceControlTick<MILLFORCE_SCALAR>;
+
+char command_line[512];
+lock_step::ParameterValues parameter_values;
+
+/// The command line's next word after `text`, which is cut off behind it.
+char* next_word(char* text) {
+    char* const space = std::strchr(text, ' ');
+    if (space == nullptr) {
+        target::exit_emulator(2);
+    }
+    *space = '\0';
+    return space + 1;
+}
+
+void serve(target::HostFile& requests, target::HostFile& answers) {
+    static Tick tick(lock_step::parameters_of<MILLFORCE_SCALAR>(parameter_values));
+    lock_step::Request request{};
+    while (requests.read(&request, sizeof(request))) {
+        const lock_step::Answer answer = lock_step::answer_of(tick, request);
+        if (!answers.write(&answer, sizeof(answer))) {
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+void millforce::board::run_image() {
+    target::read_command_line(command_line, sizeof(command_line));
+    char* const requests_name = next_word(command_line);
+    char* const answers_name = next_word(requests_name);
+    target::HostFile requests(requests_name, target::OpenMode::read_binary);
+    target::HostFile answers(answers_name, target::OpenMode::write_binary);
+    if (!requests.is_open() || !answers.is_open() || !requests.read(&parameter_values, sizeof(parameter_values))) {
+        target::exit_emulator(3);
+    }
+    serve(requests, answers);
+    target::exit_emulator(0);
+}

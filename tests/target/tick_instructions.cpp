@@ -1,0 +1,121 @@
+// Counts the instructions of each tick of the synthetic cut, and the stack that they need. To be run with
+// MILLFORCE_ICOUNT=1: one instruction is 128 ns of the emulator's time, 3.2 counts of the SysTick.
+// Prints one line per figure: SCALAR KIND FIGURE VALUE. Exit code 1: the estimator did not find the cut.
+
+#include <cstdint>
+
+#include "cortex_m/processor.hpp"
+#include "estimation/fixed_point.hpp"
+#include "firmware/tick.hpp"
+#include "instructions/synthetic_cut.hpp"
+#include "target/semihosting.hpp"
+
+namespace {
+
+using namespace millforce;
+using target::write_number;
+using target::write_text;
+
+/// Counts down at 25 MHz of the emulator's time.
+class SysTick {
+  public:
+    SysTick() {
+        at(0x14) = 0xFF'FFFFU;
+        at(0x18) = 0;
+        at(0x10) = 5;  // on, by the processor's clock, no interrupt
+    }
+    [[nodiscard]] std::uint32_t now() const { return at(0x18); }
+    [[nodiscard]] static std::uint32_t counts_between(std::uint32_t start, std::uint32_t end) {
+        return (start - end) & 0xFF'FFFFU;
+    }
+
+  private:
+    static volatile std::uint32_t& at(std::uintptr_t offset) {
+        return *reinterpret_cast<volatile std::uint32_t*>(0xE000'E000U + offset);
+    }
+};
+
+struct Count {
+    std::uint32_t steps = 0;
+    std::uint32_t sum = 0;
+    std::uint32_t worst = 0;
+    void add(std::uint32_t instructions) {
+        ++steps;
+        sum += instructions;
+        worst = instructions > worst ? instructions : worst;
+    }
+};
+
+void print(const char* scalar, const char* kind, const char* figure, std::uint32_t value) {
+    for (const char* word : {scalar, " ", kind, " ", figure, " "}) {
+        write_text(word);
+    }
+    write_number(value);
+    write_text("\n");
+}
+
+void print(const char* scalar, const char* kind, const Count& count) {
+    print(scalar, kind, "mean", (count.sum + count.steps / 2) / count.steps);
+    print(scalar, kind, "worst", count.worst);
+}
+
+template <typename Scalar>
+using Tick = firmware::ForceControlTick<Scalar>;
+
+template <typename Scalar>
+[[gnu::noinline]] hal::FeedOverride counted_step(Tick<Scalar>& tick, const hal::DriveSample& sample,
+                                                 const hal::ProgramStatus& program) {
+    return tick.step(sample, program);
+}
+
+/// Instructions of an empty span between two readings of the timer.
+std::uint32_t overhead(const SysTick& timer) {
+    const std::uint32_t start = timer.now();
+    asm volatile("" ::: "memory");
+    return SysTick::counts_between(start, timer.now());
+}
+
+std::uint32_t instructions_of(std::uint32_t counts) { return (counts * 10U + 16U) / 32U; }
+
+template <typename Scalar>
+bool count_steps(const char* name) {
+    const SysTick timer;
+    const auto parameters = instructions::machine_and_tool();
+    static Tick<Scalar> tick(instructions::parameters_in<Scalar>(parameters));
+    hal::ProgramStatus program;
+    program.programmed_feed_mm_s = instructions::feed_mm_s;
+    Count plain;
+    Count estimating;
+    std::uint32_t with_engagement = 0;
+    const std::uint32_t empty = overhead(timer);
+    std::uint32_t stack = 0;
+    for (int index = 0; index < instructions::samples; ++index) {
+        const hal::DriveSample sample = instructions::sample_of(index, parameters);
+        const Scalar before_s = tick.estimator().since_period_s();
+        board::paint_stack();
+        const std::uint32_t untouched = board::untouched_stack_bytes();
+        const std::uint32_t start = timer.now();
+        counted_step(tick, sample, program);
+        const std::uint32_t counts = SysTick::counts_between(start, timer.now()) - empty;
+        const std::uint32_t used = untouched - board::untouched_stack_bytes();
+        stack = used > stack ? used : stack;
+        if (index < instructions::air_samples + instructions::settling_samples) {
+            continue;
+        }
+        const bool is_new = tick.estimator().since_period_s() < before_s;
+        (is_new ? estimating : plain).add(instructions_of(counts));
+        const auto& engagement = tick.estimate().engagement;
+        with_engagement += is_new && engagement.immersion_valid && engagement.depth_valid ? 1U : 0U;
+    }
+    print(name, "plain", plain);
+    print(name, "estimating", estimating);
+    print(name, "tick", "RAM", sizeof(tick));
+    print(name, "tick", "stack", stack);
+    return estimating.steps > 0 && with_engagement == estimating.steps;
+}
+
+}  // namespace
+
+void millforce::board::run_image() {
+    target::exit_emulator(count_steps<MILLFORCE_SCALAR>(MILLFORCE_SCALAR_NAME) ? 0 : 1);
+}
