@@ -127,7 +127,9 @@ class CutEstimator {
             return work_on();
         }
         since_period_s_ = Scalar(0);
-        predict_drifts();
+        if (!in_portions()) {
+            predict_drifts();
+        }
         const bool was_waiting = peaks_due_;
         update();
         return was_waiting ? work_on() : !peaks_due_;
@@ -143,6 +145,7 @@ class CutEstimator {
         estimate_ = {};
         engagement_ = {};
         search_ = {};
+        search_due_ = false;
         peaks_due_ = false;
     }
 
@@ -196,6 +199,8 @@ class CutEstimator {
     static constexpr int channels = 7;
     using Averager = SynchronousAverage<Scalar, channels>;
     using Signals = typename Averager::Signals;
+
+    [[nodiscard]] bool in_portions() const { return settings_.solver_values_per_step > 0; }
 
     void predict_drifts() {
         spindle_.predict(since_prediction_s_);
@@ -295,7 +300,14 @@ class CutEstimator {
             estimate_peaks();
             return true;
         }
-        if (!search_.done() && solver_.advance(search_, settings_.solver_values_per_step)) {
+        if (search_due_) {
+            search_due_ = false;
+            predict_drifts();
+            solver_.begin(search_, asked_, estimate_.feed_per_tooth_mm, settings_.side);
+        } else if (search_.done() || !solver_.advance(search_, settings_.solver_values_per_step)) {
+            return false;
+        }
+        if (search_.done()) {
             take_engagement(search_.estimate());
             peaks_due_ = true;
         }
@@ -341,17 +353,15 @@ class CutEstimator {
             memory_.blend(forces, estimate_.feed_mm_s, last_exponent_, is_new_revolution);
         blended.radial_immersion = told_immersion_;
         peaks_due_ = true;
-        if (settings_.solver_values_per_step <= 0) {
+        if (!in_portions()) {
             take_engagement(solver_.solve(blended, estimate_.feed_per_tooth_mm, settings_.side));
             work_on();
             return;
         }
         const bool has_changed = !(memory_.revolutions() > Scalar(1));
         if (search_.done() && (is_new_revolution || has_changed)) {
-            solver_.begin(search_, blended, estimate_.feed_per_tooth_mm, settings_.side);
-            if (search_.done()) {
-                take_engagement(search_.estimate());
-            }
+            asked_ = blended;
+            search_due_ = true;
         }
     }
 
@@ -484,6 +494,8 @@ class CutEstimator {
     EngagementSolver<Scalar> solver_{};
     typename EngagementSolver<Scalar>::Search search_{};
     EngagementEstimate<Scalar> engagement_{};  // the last that the solver gave
+    AverageForceMeasurement<Scalar> asked_{};      // what it is to be given next
+    bool search_due_ = false;
     bool peaks_due_ = false;
     ToothPeakTable<Scalar> down_table_{};
     ToothPeakTable<Scalar> up_table_{};

@@ -22,14 +22,16 @@ class ForceMemory {
     /// no sample with those remembered last, and are remembered. `exponent`: m.
     AverageForceMeasurement<Scalar> blend(const AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent,
                                           bool is_new_revolution) {
-        if (revolutions_ > Scalar(0) && !is_same_cut(now, feed_mm_s, exponent)) {
+        const Scalar carried = revolutions_ > Scalar(0) ? carried_by(feed_mm_s_, feed_mm_s, exponent) : Scalar(1);
+        if (revolutions_ > Scalar(0) && !is_same_cut(now, carried)) {
             clear();
         }
         if (!(revolutions_ > Scalar(0))) {
             remember(now, feed_mm_s, Scalar(1));
             return now;
         }
-        carry_to(feed_mm_s, exponent);
+        carry(carried);
+        feed_mm_s_ = feed_mm_s;
         AverageForceMeasurement<Scalar> mixed = now;
         mix(mixed.tangential_N, held_.tangential_N);
         mix(mixed.x_N, held_.x_N);
@@ -61,19 +63,16 @@ class ForceMemory {
         return from_feed > Scalar(0) && to_feed > Scalar(0) ? exp(exponent * log(to_feed / from_feed)) : Scalar(1);
     }
 
-    [[nodiscard]] bool is_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent) const {
+    [[nodiscard]] bool is_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar carried) const {
         const Scalar along = now.feed_direction_x * held_.feed_direction_x + now.feed_direction_y * held_.feed_direction_y;
-        const Scalar carried = carried_by(feed_mm_s_, feed_mm_s, exponent);
         return along > static_cast<Scalar>(0.998L) && agrees(now.tangential_N, held_.tangential_N, carried) &&
                agrees(now.x_N, held_.x_N, carried) && agrees(now.y_N, held_.y_N, carried);
     }
 
-    void carry_to(Scalar feed_mm_s, Scalar exponent) {
-        const Scalar carried = carried_by(feed_mm_s_, feed_mm_s, exponent);
+    void carry(Scalar carried) {
         held_.tangential_N.value *= carried;
         held_.x_N.value *= carried;
         held_.y_N.value *= carried;
-        feed_mm_s_ = feed_mm_s;
     }
 
     void mix(Measurement<Scalar>& now, const Measurement<Scalar>& held) const {
