@@ -27,6 +27,18 @@ struct PlantOptions {
     bool once = false;
 };
 
+/// Within what a machine can do; a NaN is not.
+bool is_sound(const millforce_plant_command& command) {
+    const auto is_within = [](double value, double largest) { return value >= -largest && value <= largest; };
+    constexpr double largest_position_mm = 1e5;
+    constexpr double largest_spindle_rev_s = 2000.0;
+    bool sound = command.period_s >= 1e-5 && command.period_s <= 0.1 && is_within(command.spindle_rev_s, largest_spindle_rev_s);
+    for (const double position_mm : command.position_mm) {
+        sound = sound && is_within(position_mm, largest_position_mm);
+    }
+    return sound;
+}
+
 bool exchange(UnixServer& server, LinuxCncPlant& plant) {
     const auto bytes = server.receive();
     millforce_plant_command command{};
@@ -35,6 +47,11 @@ bool exchange(UnixServer& server, LinuxCncPlant& plant) {
         return false;
     }
     std::memcpy(&command, bytes.data(), sizeof command);
+    if (!is_sound(command)) {
+        fmt::print(stderr, "millforce: a command is not sound: is millforce_plant of another version?\n");
+        server.drop_peer();
+        return false;
+    }
     const millforce_plant_reply reply = plant.step(command);
     server.send({reinterpret_cast<const std::uint8_t*>(&reply), sizeof reply});
     return true;

@@ -10,6 +10,7 @@
 #include "firmware_link/link_controller.hpp"
 #include "host/commands.hpp"
 #include "link/unix_socket.hpp"
+#include "live/service.hpp"
 
 namespace millforce::sim {
 
@@ -59,6 +60,10 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
 int serve(const ServeOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     UnixServer server(options.socket);
+    for (const std::string& note : become_real_time()) {
+        fmt::print(stderr, "millforce: note: {}\n", note);
+    }
+    notify_service_manager("READY=1");
     fmt::print(stderr, "millforce: {}: waiting\n", options.socket);
     while (server.wait_for_peer()) {
         fmt::print(stderr, "millforce: connected\n");

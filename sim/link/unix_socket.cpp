@@ -8,26 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 
 #include "files/input_error.hpp"
+#include "live/service.hpp"
 
 namespace millforce::sim {
 
 namespace {
-
-volatile std::sig_atomic_t stop_signal = 0;
-
-void remember_signal(int) { stop_signal = 1; }
-
-void watch_signals() {
-    struct sigaction action {};
-    action.sa_handler = remember_signal;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
 
 sockaddr_un address_of(const std::string& path) {
     sockaddr_un address{};
@@ -51,7 +39,7 @@ bool is_served(const sockaddr_un& address) {
 
 }  // namespace
 
-UnixServer::UnixServer(std::string path) : path_(std::move(path)) {
+UnixServer::UnixServer(std::string path) : path_(std::move(path)), stop_(stop_on_signal()) {
     const sockaddr_un address = address_of(path_);
     struct stat status {};
     if (lstat(path_.c_str(), &status) == 0) {
@@ -72,7 +60,6 @@ UnixServer::UnixServer(std::string path) : path_(std::move(path)) {
         close(listener_);
         throw InputError(fmt::format("{}: {}", path_, std::strerror(is_bound ? errno : error)));
     }
-    watch_signals();
 }
 
 UnixServer::~UnixServer() {
@@ -80,8 +67,6 @@ UnixServer::~UnixServer() {
     close(listener_);
     unlink(path_.c_str());
 }
-
-bool UnixServer::stop_asked() { return stop_signal != 0; }
 
 void UnixServer::drop_peer() {
     if (peer_ >= 0) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,14 +29,15 @@ class UnixServer {
     /// A peer that does not take the message is dropped: nobody is waited for.
     void send(std::span<const std::uint8_t> bytes);
 
-    /// Set by SIGINT and SIGTERM from the first server on.
-    [[nodiscard]] static bool stop_asked();
+    /// SIGINT or SIGTERM came since the first server was made.
+    [[nodiscard]] bool stop_asked() const { return stop_.load(); }
 
   private:
     void turn_away_others() const;
     [[nodiscard]] bool wait_readable(int descriptor) const;
 
     std::string path_;
+    const std::atomic<bool>& stop_;
     int listener_ = -1;
     int peer_ = -1;
     std::array<std::uint8_t, 1024> bytes_{};

@@ -63,16 +63,19 @@ class Loop {
           plant_(scenario) {
         plant_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
-        steps_per_sample_ = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+        usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+        usual_.step_s = settings.plant_step_s;
+        steps_ = usual_;
     }
 
     Simulated run(const std::string& name) {
         const auto started = std::chrono::steady_clock::now();
         Simulated simulated;
         double next_report_s = 1.0;
+        wait_for_the_controller();
         while (!cnc_.finished() && plant_.time_s() < settings_.longest_run_s && !plant_.judge().fault_stopped()) {
             step_plant();
-            if (++steps_ % steps_per_sample_ == 0) {
+            if (--steps_.count <= 0) {
                 sample();
             }
             if (settings_.progress && plant_.time_s() > next_report_s) {
@@ -90,20 +93,36 @@ class Loop {
     }
 
   private:
+    /// Spindle on, axes standing.
+    void wait_for_the_controller() {
+        const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
+        while (!controller_.is_ready()) {
+            plant_.idle(steps_.step_s, standing);
+            if (--steps_.count <= 0) {
+                override_ = controller_.step(plant_.sample(), program_status());
+                steps_ = controller_.plant_steps(usual_);
+            }
+        }
+    }
+
     void step_plant() {
-        const double dt_s = settings_.plant_step_s;
+        const double dt_s = steps_.step_s;
         cnc_.step(static_cast<double>(override_.ratio), override_.hold);
         plant_.advance(dt_s, {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(),
                               cnc_.path_mm(), cnc_.is_rapid(), cnc_.spindle_speed_rad_s(),
                               static_cast<double>(override_.ratio)});
     }
 
-    void sample() {
-        const hal::DriveSample drives = plant_.sample();
+    [[nodiscard]] hal::ProgramStatus program_status() const {
         hal::ProgramStatus program;
         program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
         program.rapid = cnc_.is_rapid();
-        override_ = controller_.step(drives, program);
+        return program;
+    }
+
+    void sample() {
+        override_ = controller_.step(plant_.sample(), program_status());
+        steps_ = controller_.plant_steps(usual_);
         plant_.judge().follow(plant_.time_s(), override_, controller_, settings_.trace_interval_s);
     }
 
@@ -112,8 +131,8 @@ class Loop {
     Cnc cnc_;
     MillingPlant plant_;
     hal::FeedOverride override_{};
-    int steps_per_sample_ = 4;
-    long steps_ = 0;
+    OverrideSource::PlantSteps usual_{};
+    OverrideSource::PlantSteps steps_{};  ///< left until the next sample
 };
 
 }  // namespace

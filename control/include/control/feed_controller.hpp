@@ -139,11 +139,10 @@ class FeedController {
         }
     }
 
-    ControlOutput<Scalar> step(const ControlInput<Scalar>& given) {
-        ControlInput<Scalar> input = given;
+    ControlOutput<Scalar> step(const ControlInput<Scalar>& input) {
         // A step of unknown, negative or absurd length moves nothing; a speed that is no number counts as rest.
-        input.dt_s = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
-        input.path_speed_mm_s = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
+        dt_s_ = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
+        path_speed_mm_s_ = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
         update_state(input);
         watch_turns(input);
         Limit limit = Limit::none;
@@ -213,9 +212,9 @@ class FeedController {
         if (state_ == CutState::fault) {
             return;
         }
-        travel_in_state_mm_ += input.path_speed_mm_s * input.dt_s;
+        travel_in_state_mm_ += path_speed_mm_s_ * dt_s_;
         const bool silent = !input.cut.force_valid;
-        silent_s_ = silent ? silent_s_ + input.dt_s : Scalar(0);
+        silent_s_ = silent ? silent_s_ + dt_s_ : Scalar(0);
         if (input.cut.fresh) {
             follow_contact(input);
         }
@@ -284,8 +283,8 @@ class FeedController {
 
     void watch_spindle(const ControlInput<Scalar>& input) {
         const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
-        if (cutting && !input.cut.spindle_turning && input.path_speed_mm_s > Scalar(0)) {
-            stopped_s_ += input.dt_s;
+        if (cutting && !input.cut.spindle_turning && path_speed_mm_s_ > Scalar(0)) {
+            stopped_s_ += dt_s_;
             if (stopped_s_ > parameters_.stale_s) {
                 enter_fault(Fault::spindle_stopped);
             }
@@ -307,12 +306,12 @@ class FeedController {
     }
 
     void watch_turns(const ControlInput<Scalar>& input) {
-        const Scalar way_mm = input.path_speed_mm_s * input.dt_s;
+        const Scalar way_mm = path_speed_mm_s_ * dt_s_;
         way_since_estimate_mm_ += way_mm;
         constexpr Scalar turn_rad = static_cast<Scalar>(6.28318530717958648L);
         const Scalar teeth_rad_s = input.cut.spindle_speed_rad_s * parameters_.teeth;
-        const bool turned = turn_.update({input.dt_s, input.velocity_x_mm_s, input.velocity_y_mm_s,
-                                          input.path_speed_mm_s, ratio_ * input.programmed_feed_mm_s,
+        const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s,
+                                          path_speed_mm_s_, ratio_ * input.programmed_feed_mm_s,
                                           input.programmed_feed_mm_s,
                                           teeth_rad_s > Scalar(0) ? turn_rad / teeth_rad_s : Scalar(0)});
         const Scalar left_mm = turn_travel_left_mm_ - way_mm;
@@ -506,17 +505,17 @@ class FeedController {
     }
 
     void approach(Scalar wanted, const ControlInput<Scalar>& input) {
-        const Scalar fall = parameters_.slew_down_per_s * input.dt_s;
+        const Scalar fall = parameters_.slew_down_per_s * dt_s_;
         if (wanted < ratio_ || !is_finite(ratio_)) {
             ratio_ = wanted < ratio_ - fall ? ratio_ - fall : wanted;
         } else {
             const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
             const Scalar revolutions =
-                input.cut.spindle_speed_rad_s * input.dt_s * static_cast<Scalar>(0.159154943091895336L);
+                input.cut.spindle_speed_rad_s * dt_s_ * static_cast<Scalar>(0.159154943091895336L);
             const Scalar paced = revolutions > Scalar(0) ? parameters_.recovery_per_rev * revolutions : Scalar(0);
             const Scalar share = cutting ? paced : Scalar(1);
             Scalar rise = (wanted - ratio_) * (share < Scalar(1) ? share : Scalar(1));
-            const Scalar most = parameters_.slew_up_per_s * input.dt_s;
+            const Scalar most = parameters_.slew_up_per_s * dt_s_;
             rise = rise > most ? most : rise;
             ratio_ += rise;
         }
@@ -524,6 +523,8 @@ class FeedController {
     }
 
     FeedControllerParameters<Scalar> parameters_;
+    Scalar dt_s_{0};  // of this step
+    Scalar path_speed_mm_s_{0};
     CutState state_ = CutState::air;
     Fault fault_ = Fault::none;
     Scalar ratio_{0};

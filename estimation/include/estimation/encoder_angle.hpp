@@ -91,9 +91,9 @@ class EncoderAngle {
 
     /// (difference mod 2³²) mod counts_per_rev, read as a signed difference so that a zero ahead of the count works.
     [[nodiscard]] std::uint32_t modulo(std::uint32_t difference) const {
-        const auto counts = static_cast<std::int64_t>(static_cast<std::int32_t>(difference));
-        const auto period = static_cast<std::int64_t>(counts_per_rev_);
-        return static_cast<std::uint32_t>(((counts % period) + period) % period);
+        const auto period = static_cast<std::int32_t>(counts_per_rev_);
+        const std::int32_t rest = static_cast<std::int32_t>(difference) % period;
+        return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
     }
 
     [[nodiscard]] Scalar angle_rev(std::uint32_t count) const {

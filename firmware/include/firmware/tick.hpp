@@ -42,6 +42,7 @@ class ForceControlTick {
         const bool has_angle = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
         if (!has_angle) {
             estimator_.restart();
+            set_cut();
         }
         wide_band_.add(dt_s, sample, may_be_in_cut());
         estimator_.tell_immersion(immersion_by_force_drops());
@@ -51,18 +52,23 @@ class ForceControlTick {
             rezero_in_air(program.rapid);
             follow_section();
             predict_roughness(signals);
+            set_cut();
         }
-        return output_of(controller_.step(control_input(dt_s, signals, program, fresh)));
+        set_motion(dt_s, signals, program);
+        input_.cut.fresh = fresh;
+        return output_of(controller_.step(input_));
     }
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
-        control::ControlInput<Scalar> input = control_input(Scalar(dt_s), {}, program, false);
-        input.time_since_sample_s = Scalar(silent_s);
-        input.cut.force_valid = false;
-        input.surface.valid = false;
+        estimator_.restart();  // no average reaches over the gap
+        set_cut();
+        set_motion(Scalar(dt_s), {}, program);
+        input_.cut.fresh = false;
+        input_.time_since_sample_s = Scalar(silent_s);
+        input_.surface.valid = false;
         has_time_ = false;
-        return output_of(controller_.step(input));
+        return output_of(controller_.step(input_));
     }
 
     void reset_fault() { controller_.reset(); }
@@ -222,27 +228,33 @@ class ForceControlTick {
         }
     }
 
-    control::ControlInput<Scalar> control_input(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals,
-                                                const hal::ProgramStatus& program, bool fresh) const {
+    /// What changes from sample to sample.
+    void set_motion(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals, const hal::ProgramStatus& program) {
+        using std::sqrt;
+        input_.dt_s = dt_s;
+        input_.time_since_sample_s = dt_s;
+        input_.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
+        input_.operator_override = Scalar(program.operator_override);
+        input_.rapid = program.rapid;
+        input_.feed_hold = program.feed_hold;
+        const auto& v = signals.axis_velocity_mm_s;
+        const Scalar plane2 = v[0] * v[0] + v[1] * v[1];
+        const Scalar axial2 = v[2] * v[2];
+        input_.path_speed_mm_s = sqrt(plane2 + axial2);
+        input_.velocity_x_mm_s = v[0];
+        input_.velocity_y_mm_s = v[1];
+        input_.plunging = axial2 > plane2 && axial2 > Scalar(0.25F);
+        const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+        const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
+        input_.cut.spindle_turning = e.window_s > Scalar(0) && estimator_.since_period_s() < period_timeout_s;
+        input_.cut.force_valid = e.tangential_N.valid && input_.cut.spindle_turning;
+    }
+
+    /// What a new estimate tells. Not inlined: once per tooth period, and every tick is shorter for it.
+    [[gnu::noinline]] void set_cut() {
         using std::sqrt;
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
-        control::ControlInput<Scalar> input;
-        input.dt_s = dt_s;
-        input.time_since_sample_s = dt_s;
-        input.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
-        input.operator_override = Scalar(program.operator_override);
-        input.rapid = program.rapid;
-        input.feed_hold = program.feed_hold;
-        const auto& v = signals.axis_velocity_mm_s;
-        input.path_speed_mm_s = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        input.velocity_x_mm_s = v[0];
-        input.velocity_y_mm_s = v[1];
-        input.plunging = v[2] * v[2] > v[0] * v[0] + v[1] * v[1] && v[2] * v[2] > Scalar(0.25F);
-        control::CutEstimateForControl<Scalar>& cut = input.cut;
-        cut.fresh = fresh;
-        const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
-        cut.spindle_turning = e.window_s > Scalar(0) && estimator_.since_period_s() < period_timeout_s;
-        cut.force_valid = e.tangential_N.valid && cut.spindle_turning;
+        control::CutEstimateForControl<Scalar>& cut = input_.cut;
         const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
         const auto& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
         cut.tangential_N = F_at.value;
@@ -250,8 +262,9 @@ class ForceControlTick {
         cut.tooth_force_valid = e.tooth_force_N.valid;
         cut.tooth_force_is_bound = e.tooth_force_is_bound;
         cut.least_tooth_force_N = e.least_tooth_force_N;
-        cut.tooth_force_N = e.tooth_force_N.valid ? e.tooth_force_N.value + control_parameters_.caution_sd * sqrt(e.tooth_force_N.variance)
-                                                  : e.worst_tooth_force_N;
+        cut.tooth_force_N = e.tooth_force_N.valid
+                                ? e.tooth_force_N.value + control_parameters_.caution_sd * sqrt(e.tooth_force_N.variance)
+                                : e.worst_tooth_force_N;
         // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
         if (e.newest_tangential_N > Scalar(0)) {
             const Scalar lead_s = reaction_s_ + Scalar(0.5F) * e.window_s;
@@ -267,8 +280,7 @@ class ForceControlTick {
         cut.feed_exponent = e.feed_exponent;
         cut.feed_mm_s = e.feed_mm_s;
         cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
-        input.surface = surface_;
-        return input;
+        input_.surface = surface_;
     }
 
     hal::FeedOverride output_of(const control::ControlOutput<Scalar>& control) {
@@ -290,6 +302,7 @@ class ForceControlTick {
     Scalar tool_diameter_mm_;
     Scalar declared_depth_mm_;
     Scalar reaction_s_;
+    control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};
     estimation::RoughnessPrediction<Scalar> roughness_{};
     control::SurfaceForControl<Scalar> surface_{};
