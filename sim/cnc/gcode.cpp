@@ -25,7 +25,7 @@ constexpr double longest_dwell_s = 3600.0;
 constexpr double mm_per_inch = 25.4;
 constexpr std::size_t largest_text_bytes = std::size_t{256} << 20U;
 
-constexpr std::string_view known_g_codes = "one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G80 G90 G91 G94";
+constexpr std::string_view known_g_codes = "one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 G80 G90 G91 G94";
 
 /// Codes of one group exclude each other within a block.
 enum ModalGroup : std::size_t {
@@ -41,6 +41,8 @@ enum ModalGroup : std::size_t {
     feed_mode,
     spindle,
     stopping,
+    path_mode,
+    adaptive_feed,
     group_count,
 };
 
@@ -129,6 +131,9 @@ class Interpreter {
                 return tool_length;
             case 540:
                 return coordinate_system;
+            case 610:
+            case 640:
+                return path_mode;
             case 800:
                 return canned_cycle;
             case 940:
@@ -145,10 +150,13 @@ class Interpreter {
         if (word.value == 2.0 || word.value == 30.0) {
             return stopping;
         }
+        if (word.value == 52.0) {
+            return adaptive_feed;
+        }
         if (word.value == 4.0) {
             fail(word, "M3: the cutter is right-handed and cuts clockwise only");
         }
-        fail(word, "one of M2 M3 M5 M30");
+        fail(word, "one of M2 M3 M5 M30 M52");
     }
 
     SortedBlock sort(const GcodeBlock& block) const {
@@ -213,13 +221,27 @@ class Interpreter {
         }
     }
 
+    /// G64 P, the path's tolerance, and M52 P1, the override acts: both are so here anyway.
+    void check_other_use_of_p(const SortedBlock& block) const {
+        const GcodeWord* value = block.address('P');
+        const GcodeWord* switched = block.code(adaptive_feed);
+        const bool blends = block.code(path_mode) != nullptr && tenths(*block.code(path_mode)) == 640;
+        if (value != nullptr && switched == nullptr && !blends) {
+            fail(*value, "P in a block with G4, G64 or M52 only");
+        }
+        if (value != nullptr && switched != nullptr && value->value != 1.0) {
+            fail(*value, "M52 P1: the override always acts here");
+        }
+        if (value != nullptr && switched == nullptr && !(value->value >= 0.0)) {
+            fail(*value, "a tolerance of 0 or more");
+        }
+    }
+
     void run_dwell(const SortedBlock& block) {
         const GcodeWord* code = block.code(dwell);
         const GcodeWord* time = block.address('P');
         if (code == nullptr) {
-            if (time != nullptr) {
-                fail(*time, "P in a block with G4 only");
-            }
+            check_other_use_of_p(block);
             return;
         }
         if (time == nullptr) {

@@ -21,6 +21,8 @@ namespace millforce::sim {
 /// | G20 G21                  | inch, mm (initial); act on the whole block that contains them                    |
 /// | G90 G91                  | absolute (initial), relative                                                     |
 /// | G40 G49 G54 G80 G94      | accepted, without effect                                                         |
+/// | G61 G64, G64 P           | accepted, without effect: the tolerance is CncSettings' own                       |
+/// | M52 P1, M52              | accepted: the override always acts                                               |
 /// | F S                      | feed in mm/min or inch/min, spindle speed in rev/min; modal                      |
 /// | M3 M5                    | spindle on clockwise, off. M4 is rejected: the plant's cutters are right-handed  |
 /// | M2 M30 or a second %     | end of the program; what follows is not read                                     |

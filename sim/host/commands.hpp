@@ -20,6 +20,8 @@ void add_reproduce(CLI::App& app, int& exit_code);
 void add_cut_table(CLI::App& app, int& exit_code);
 void add_ensemble(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
+void add_serve(CLI::App& app, int& exit_code);
+void add_plant(CLI::App& app, int& exit_code);
 void add_parameters(CLI::App& app, int& exit_code);
 
 /// `--version` for the program and every subcommand, and the rules that all of them share.

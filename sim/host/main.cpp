@@ -28,6 +28,8 @@ int run(int argc, char** argv) {
     add_reproduce(app, exit_code);
     add_cut_table(app, exit_code);
     add_bench(app, exit_code);
+    add_serve(app, exit_code);
+    add_plant(app, exit_code);
     add_parameters(app, exit_code);
     set_common_rules(app, "millforce " MILLFORCE_VERSION);
     try {

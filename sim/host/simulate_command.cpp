@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "files/input_error.hpp"
@@ -15,6 +12,7 @@
 #include "files/progress.hpp"
 #include "host/commands.hpp"
 #include "host/results_folder.hpp"
+#include "host/scenario_info.hpp"
 #include "live/plant_on_can.hpp"
 #include "live/plant_wiring.hpp"
 #include "live/service.hpp"
@@ -51,30 +49,6 @@ Scenario scenario_of(const SimulateOptions& options) {
     deviation.friction_scale = options.friction_scale.value_or(deviation.friction_scale);
     deviation.current_noise_share = options.current_noise_share.value_or(deviation.current_noise_share);
     return scenario;
-}
-
-ScenarioInfo info_of(const Scenario& scenario, double constant_ratio) {
-    ScenarioInfo info;
-    info.name = scenario.name;
-    info.title = scenario.title;
-    info.description = scenario.description;
-    info.tool = fmt::format("{} teeth, Ø{:g} mm, helix {:g}°", scenario.cutter.teeth, scenario.cutter.diameter_mm,
-                            scenario.cutter.helix_rad * 180.0 / std::numbers::pi);
-    info.material = scenario.material;
-    info.seed = scenario.seed;
-    info.tooth_force_limit_N = static_cast<double>(scenario.parameters.tool.tooth_force_limit_N);
-    info.cutter_diameter_mm = scenario.cutter.diameter_mm;
-    for (const Move& move : moves_of(scenario)) {
-        const double feed_mm_s = move.kind == MoveKind::rapid ? 0.0 : move.feed_mm_s;
-        info.spindle_speed_rad_s = std::max(info.spindle_speed_rad_s, move.spindle_speed_rad_s);
-        info.constant_feed_mm_s = std::max(info.constant_feed_mm_s, feed_mm_s * constant_ratio);
-    }
-    info.has_top_view = scenario.has_program();
-    info.stock_min_x_mm = scenario.stock.block.min_x_mm;
-    info.stock_min_y_mm = scenario.stock.block.min_y_mm;
-    info.stock_max_x_mm = scenario.stock.block.max_x_mm;
-    info.stock_max_y_mm = scenario.stock.block.max_y_mm;
-    return info;
 }
 
 std::unique_ptr<OverrideSource> controller_named(const std::string& name, const Scenario& scenario,

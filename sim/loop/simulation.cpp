@@ -11,9 +11,7 @@
 #include "cnc/cnc.hpp"
 #include "cnc/gcode.hpp"
 #include "files/input_error.hpp"
-#include "loop/run_judge.hpp"
-#include "loop/workpiece.hpp"
-#include "machine/machine_plant.hpp"
+#include "loop/milling_plant.hpp"
 
 namespace millforce::sim {
 
@@ -56,75 +54,14 @@ CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& set
     return cnc;
 }
 
-std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
-    if (scenario.has_program()) {
-        return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
-    }
-    const auto& tool = scenario.parameters.tool;
-    return std::make_unique<ProfileWorkpiece>(
-        scenario.profile, scenario.cutter, static_cast<estimation::CutSide>(static_cast<unsigned char>(tool.side)),
-        static_cast<double>(tool.centre_offset_mm));
-}
-
-/// The way that the tool has gone since the tooth before passed: the chip is what that tooth left. Looked up by the
-/// spindle's angle, one pitch back, for the spindle slows down under a tooth.
-class FeedHistory {
-  public:
-    void add(double angle_rad, double path_mm) {
-        newest_ = (newest_ + 1) % places_.size();
-        places_[newest_] = {angle_rad, path_mm};
-        filled_ = std::min(filled_ + 1, places_.size());
-        if (behind_ == newest_) {
-            behind_ = after(behind_);
-        }
-    }
-    [[nodiscard]] double feed_per_tooth_mm(double pitch_rad) {
-        const double then_rad = places_[newest_].angle_rad - pitch_rad;
-        if (filled_ < places_.size()) {
-            behind_ = (newest_ + places_.size() + 1 - filled_) % places_.size();
-        }
-        while (after(behind_) != newest_ && places_[after(behind_)].angle_rad <= then_rad) {
-            behind_ = after(behind_);
-        }
-        const Place& from = places_[behind_];
-        const Place& to = places_[after(behind_)];
-        const double turned_rad = places_[newest_].angle_rad - from.angle_rad;
-        if (filled_ < 3 || !(turned_rad > 0.0)) {
-            return 0.0;
-        }
-        if (turned_rad < pitch_rad) {
-            return (places_[newest_].path_mm - from.path_mm) * pitch_rad / turned_rad;
-        }
-        const double step_rad = to.angle_rad - from.angle_rad;
-        const double share = step_rad > 0.0 ? std::min((then_rad - from.angle_rad) / step_rad, 1.0) : 0.0;
-        return places_[newest_].path_mm - (from.path_mm + share * (to.path_mm - from.path_mm));
-    }
-
-  private:
-    struct Place {
-        double angle_rad = 0.0;
-        double path_mm = 0.0;
-    };
-    [[nodiscard]] std::size_t after(std::size_t place) const { return (place + 1) % places_.size(); }
-
-    std::array<Place, 1024> places_{};
-    std::size_t newest_ = 0;
-    std::size_t behind_ = 1;
-    std::size_t filled_ = 0;
-};
-
 class Loop {
   public:
     Loop(const Scenario& scenario, OverrideSource& controller, const SimulationSettings& settings)
-        : scenario_(deviated(scenario, scenario.deviation, scenario.seed)),
-          settings_(settings),
+        : settings_(settings),
           controller_(controller),
           cnc_(cnc_settings(scenario, settings), moves_of(scenario)),
-          machine_(scenario_.machine),
-          cutting_(scenario_.cutter, scenario_.coefficients, scenario_.cutting_options),
-          workpiece_(workpiece_of(scenario)),
-          judge_(scenario_) {
-        machine_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
+          plant_(scenario) {
+        plant_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
         usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
         usual_.step_s = settings.plant_step_s;
@@ -136,12 +73,12 @@ class Loop {
         Simulated simulated;
         double next_report_s = 1.0;
         wait_for_the_controller();
-        while (!cnc_.finished() && machine_.time_s() < settings_.longest_run_s && !judge_.fault_stopped()) {
+        while (!cnc_.finished() && plant_.time_s() < settings_.longest_run_s && !plant_.judge().fault_stopped()) {
             step_plant();
             if (--steps_.count <= 0) {
                 sample();
             }
-            if (settings_.progress && machine_.time_s() > next_report_s) {
+            if (settings_.progress && plant_.time_s() > next_report_s) {
                 next_report_s += 1.0;
                 if (!settings_.progress(cnc_.path_mm() / std::max(cnc_.total_path_mm(), 1e-9))) {
                     simulated.interrupted = true;
@@ -149,9 +86,9 @@ class Loop {
                 }
             }
         }
-        simulated.result = judge_.result(name, cnc_.finished());
+        simulated.result = plant_.judge().result(name, cnc_.finished());
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-        simulated.result.figures.real_time_factor = machine_.time_s() / std::max(wall.count(), 1e-9);
+        simulated.result.figures.real_time_factor = plant_.time_s() / std::max(wall.count(), 1e-9);
         return simulated;
     }
 
@@ -160,9 +97,9 @@ class Loop {
     void wait_for_the_controller() {
         const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
         while (!controller_.is_ready()) {
-            machine_.advance(steps_.step_s, standing, {});
+            plant_.idle(steps_.step_s, standing);
             if (--steps_.count <= 0) {
-                override_ = controller_.step(machine_.sample(), program_status());
+                override_ = controller_.step(plant_.sample(), program_status());
                 steps_ = controller_.plant_steps(usual_);
             }
         }
@@ -171,57 +108,9 @@ class Loop {
     void step_plant() {
         const double dt_s = steps_.step_s;
         cnc_.step(static_cast<double>(override_.ratio), override_.hold);
-        const Eigen::Vector3d direction = cnc_.direction();
-        machine_.advance(dt_s, {cnc_.position_mm(), direction * cnc_.feed_mm_s(), cnc_.spindle_speed_rad_s()}, load_);
-        const Eigen::Vector3d velocity = machine_.velocity_mm_s();
-        path_mm_ += velocity.norm() * dt_s;
-        history_.add(machine_.spindle_angle_rad(), path_mm_);
-        // The tool goes where the axes go; the command's direction serves while they hardly move.
-        const Eigen::Vector3d travel = velocity.norm() > 0.5 ? velocity.normalized() : direction;
-        if (!cnc_.is_rapid() || !scenario_.has_program()) {
-            workpiece_->move_to(machine_.position_mm(), travel, cnc_.path_mm());
-            cut(travel);
-        } else {
-            workpiece_->move_to(machine_.position_mm(), Eigen::Vector3d::UnitZ(), cnc_.path_mm());
-            load_ = {};
-        }
-        judge_.observe(dt_s, {machine_.position_mm(), velocity.norm(), path_mm_, cnc_.programmed_feed_mm_s(),
-                              cnc_.is_rapid(), machine_.spindle_speed_rad_s(), static_cast<double>(override_.ratio)},
-                       cutting_load_, workpiece_->truth());
-    }
-
-    /// The force over the angle that the spindle turned in this step: as many points as keep a tooth from jumping
-    /// over more than 3°.
-    void cut(const Eigen::Vector3d& direction) {
-        const double speed = machine_.spindle_speed_rad_s();
-        cutting_load_ = {};
-        load_ = {};
-        if (!workpiece_->truth().cutting || !(speed > 1.0)) {
-            return;
-        }
-        const double feed_per_tooth =
-            history_.feed_per_tooth_mm(2.0 * std::numbers::pi / static_cast<double>(scenario_.cutter.teeth));
-        const double turned_rad = speed * steps_.step_s;
-        const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
-        for (int k = 0; k < points; ++k) {
-            const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
-            const CuttingLoad part = cutting_.load(angle, feed_per_tooth, workpiece_->engagement());
-            cutting_load_.fx_N += part.fx_N / points;
-            cutting_load_.fy_N += part.fy_N / points;
-            cutting_load_.fz_N += part.fz_N / points;
-            cutting_load_.spindle_torque_Nm += part.spindle_torque_Nm / points;
-            for (std::size_t tooth = 0; tooth < part.tooth_force_N.size(); ++tooth) {
-                cutting_load_.tooth_force_N[tooth] = std::max(cutting_load_.tooth_force_N[tooth], part.tooth_force_N[tooth]);
-            }
-            peak_total_N_ = std::max(peak_total_N_, std::hypot(part.fx_N, part.fy_N));
-        }
-        judge_.observe_peak(peak_total_N_);
-        peak_total_N_ = 0.0;
-        const double along = std::max(direction.head<2>().norm(), 1e-9);
-        const Eigen::Vector2d t = direction.head<2>() / along;
-        load_.force_on_workpiece_N = {cutting_load_.fx_N * t.x() - cutting_load_.fy_N * t.y(),
-                                      cutting_load_.fx_N * t.y() + cutting_load_.fy_N * t.x(), cutting_load_.fz_N};
-        load_.spindle_torque_Nm = cutting_load_.spindle_torque_Nm;
+        plant_.advance(dt_s, {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(),
+                              cnc_.path_mm(), cnc_.is_rapid(), cnc_.spindle_speed_rad_s(),
+                              static_cast<double>(override_.ratio)});
     }
 
     [[nodiscard]] hal::ProgramStatus program_status() const {
@@ -232,25 +121,16 @@ class Loop {
     }
 
     void sample() {
-        override_ = controller_.step(machine_.sample(), program_status());
+        override_ = controller_.step(plant_.sample(), program_status());
         steps_ = controller_.plant_steps(usual_);
-        judge_.follow(machine_.time_s(), override_, controller_, settings_.trace_interval_s);
+        plant_.judge().follow(plant_.time_s(), override_, controller_, settings_.trace_interval_s);
     }
 
-    Scenario scenario_;
     SimulationSettings settings_;
     OverrideSource& controller_;
     Cnc cnc_;
-    MachinePlant machine_;
-    CuttingForce cutting_;
-    std::unique_ptr<Workpiece> workpiece_;
-    FeedHistory history_;
-    RunJudge judge_;
-    MachinePlant::Load load_{};
-    CuttingLoad cutting_load_{};
+    MillingPlant plant_;
     hal::FeedOverride override_{};
-    double path_mm_ = 0.0;
-    double peak_total_N_ = 0.0;
     OverrideSource::PlantSteps usual_{};
     OverrideSource::PlantSteps steps_{};  ///< left until the next sample
 };

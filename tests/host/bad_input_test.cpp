@@ -49,6 +49,15 @@ TEST_GROUP(BadInput) {
     }
 };
 
+TEST(BadInput, a_socket_that_cannot_be_is_refused) {
+    const auto serve = [&](const std::string& socket) {
+        return run_millforce({"serve", socket, "--machine", inputs.name("machine.toml"), "--tool", inputs.name("tool.toml")});
+    };
+    check_refused(serve(inputs.name("log.csv")), {"log.csv", "is there and no socket"});
+    check_refused(serve(inputs.name("nowhere/a.sock")), {"nowhere/a.sock", "No such file or directory"});
+    check_refused(serve("/" + std::string(200, 'x')), {"expected the path of a socket, at most 107 characters"});
+}
+
 TEST(BadInput, the_good_input_passes) {
     const Ended ended = inputs.replay();
     LONGS_EQUAL(0, ended.exit_code);

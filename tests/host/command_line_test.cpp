@@ -20,6 +20,8 @@ const std::vector<std::vector<std::string>> commands{{},
                                                      {"estimate"},
                                                      {"reproduce"},
                                                      {"run"},
+                                                     {"serve"},
+                                                     {"plant"},
                                                      {"cut-table"},
                                                      {"bench"},
                                                      {"parameters"}};

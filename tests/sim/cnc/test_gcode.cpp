@@ -171,6 +171,14 @@ TEST(Gcode, a_byte_order_mark_and_crlf_are_skipped) {
     LONGS_EQUAL(3, moves[1].line);
 }
 
+TEST(Gcode, path_modes_and_the_switch_of_the_override_change_nothing) {
+    for (const char* body : {"G64 P0.01\nM52 P1\nG1 X1", "G61\nM52\nG1 X1", "G64\nG1 X1", "G64 P0.01 G1 X1"}) {
+        const auto moves = parse_body(body);
+        LONGS_EQUAL(1, moves.size());
+        CHECK(moves[0].end_mm == Eigen::Vector3d(1.0, 0.0, 0.0));
+    }
+}
+
 TEST(Gcode, moves_without_length_are_left_out) {
     LONGS_EQUAL(0, parse_body("G1 X0 Y0\nG0 Z0").size());
 }

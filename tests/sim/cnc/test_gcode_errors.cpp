@@ -24,17 +24,19 @@ TEST_GROUP(GcodeErrors){};
 TEST(GcodeErrors, unknown_words_and_codes) {
     check_refusal("G1 X1 Q2", "part.ngc:2:7: found 'Q2', expected one of the words F G I J M N P R S X Y Z");
     check_refusal("G5 X1",
-                  "part.ngc:2:1: found 'G5', expected one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G80 G90 G91 G94");
+                  "part.ngc:2:1: found 'G5', expected one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 "
+                  "G80 G90 G91 G94");
     check_refusal("G1.5 X1",
-                  "part.ngc:2:1: found 'G1.5', expected one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G80 G90 G91 G94");
+                  "part.ngc:2:1: found 'G1.5', expected one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 "
+                  "G80 G90 G91 G94");
     CHECK(!refusal_of_body("G-1 X1").empty());
     CHECK(!refusal_of_body("G1.04 X1").empty());
     CHECK(!refusal_of_body("G99999999999999999999 X1").empty());
     check_refusal("G18", "part.ngc:2:1: found 'G18', expected G17: arcs lie in the xy plane only");
     check_refusal("G19", "part.ngc:2:1: found 'G19', expected G17: arcs lie in the xy plane only");
     check_refusal("M4", "part.ngc:2:1: found 'M4', expected M3: the cutter is right-handed and cuts clockwise only");
-    check_refusal("M8", "part.ngc:2:1: found 'M8', expected one of M2 M3 M5 M30");
-    check_refusal("M3.5", "part.ngc:2:1: found 'M3.5', expected one of M2 M3 M5 M30");
+    check_refusal("M8", "part.ngc:2:1: found 'M8', expected one of M2 M3 M5 M30 M52");
+    check_refusal("M3.5", "part.ngc:2:1: found 'M3.5', expected one of M2 M3 M5 M30 M52");
 }
 
 TEST(GcodeErrors, two_words_of_one_group) {
@@ -113,7 +115,13 @@ TEST(GcodeErrors, dwells_that_are_none) {
     check_refusal("G4 P-1", "part.ngc:2:4: found 'P-1', expected a dwell from 0 to 3600 s");
     check_refusal("G4 P3601", "part.ngc:2:4: found 'P3601', expected a dwell from 0 to 3600 s");
     check_refusal("G4 P1 X1", "part.ngc:2:7: found 'X1', expected no motion in a block with G4");
-    check_refusal("G1 X1 P1", "part.ngc:2:7: found 'P1', expected P in a block with G4 only");
+    check_refusal("G1 X1 P1", "part.ngc:2:7: found 'P1', expected P in a block with G4, G64 or M52 only");
+}
+
+TEST(GcodeErrors, a_program_that_switches_the_override_off_or_gives_no_tolerance) {
+    check_refusal("M52 P0", "part.ngc:2:5: found 'P0', expected M52 P1: the override always acts here");
+    check_refusal("G64 P-1", "part.ngc:2:5: found 'P-1', expected a tolerance of 0 or more");
+    check_refusal("G61 P1", "part.ngc:2:5: found 'P1', expected P in a block with G4, G64 or M52 only");
 }
 
 TEST(GcodeErrors, a_truncated_file_is_told_from_a_finished_one) {

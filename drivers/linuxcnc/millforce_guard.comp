@@ -1,0 +1,126 @@
+component millforce_guard """Stands between the force controller and motion.adaptive-feed, in the servo thread.
+
+motion.adaptive-feed takes what it finds: a NaN runs faster than F, a negative number runs the path backwards, and a
+controller that died leaves its last value on the pin for ever. This component passes an override on only while the
+controller proves that it lives, and only a number from 0 up to
+.B max\\fR.
+
+A fault is latched until
+.B reset\\fR. Whatever the spindle does meanwhile, a latched fault stays: a machine that was stopped in a cut does not
+start again because somebody stopped the spindle.
+
+While the controller lives its override is passed on and its hold is obeyed, whether
+.B enable
+is true or not; without it nothing is asked of it while
+.B enable
+is false.
+
+The feed is stopped in two ways at once: an override of 0, which needs M52 P1, and
+.B feed-inhibit\\fR, which motion ignores after M51 P0. Where neither acts within
+.B stop-time\\fR,
+.B machine-ok
+falls: it belongs into the emergency-stop chain.
+
+All times are counted in servo cycles.""";
+pin in float override "From millforce-hal: the override that the controller asks for";
+pin in unsigned heartbeat "From millforce-hal: ticks of the controller; must change within timeout";
+pin in bit hold "From millforce-hal: stop the feed, whatever the override says";
+pin in bit enable "The controller must be there, e.g. spindle.0.on";
+pin in bit reset "On its rising edge a latched fault is left: where enable is false, or the controller is sound";
+pin in float requested_velocity "motion.requested-vel, to find out that the override is not obeyed (M52 missing); not wired: not checked";
+pin in float current_velocity "motion.current-vel, for that check and for machine-ok";
+pin out float out "To motion.adaptive-feed";
+pin out bit feed_inhibit "To motion.feed-inhibit";
+pin out bit machine_ok=1 "Into the emergency-stop chain: false where the machine moves on though it was told to stop; true again once it stands, with enable false";
+pin out bit ok "The controller lives and its override is a number from 0 on";
+pin out bit fault "Latched";
+pin out unsigned reason "Of the latched fault: 1 never heard, 2 heartbeat stands still, 3 not a number, 4 negative, 5 not obeyed";
+pin out unsigned faults "Number of faults since the start";
+param rw float timeout=0.1 "Without a new heartbeat for longer, in s, the controller is dead";
+param rw float max=1.0 "Largest override that is passed on";
+param rw float idle=1.0 "Override while there is no controller and none is needed";
+param rw float max_rise=10.0 "Largest rise per second. A fall is passed on at once: the machine's own acceleration limits it";
+param rw bit stop_on_fault=1 "True: a fault stops the feed. False: it goes on at fallback";
+param rw float fallback=0.1 "Override at a fault where stop-on-fault is false";
+param rw float follow_time=0.3 "Faster than requested-velocity x out for longer, in s, is not obeyed";
+param rw float stop_time=0.5 "Told to stop and still moving after so long, in s: machine-ok falls";
+variable rtapi_u32 last_heartbeat;
+variable int heard;
+variable int was_reset;
+variable int was_held;
+variable real_t age_s;
+variable real_t disobeyed_s;
+variable real_t moving_s;
+variable real_t last_out=1.0;
+function _ fp "Before motion-controller, so that the override acts in the same cycle";
+license "GPL";
+author "The millforce authors";
+;;
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+enum { NONE, NEVER_HEARD, HEARTBEAT, NOT_A_NUMBER, NEGATIVE, NOT_OBEYED };
+
+static int is_number(double value) { return value - value == 0.0; }
+
+FUNCTION(_) {
+    const double dt_s = fperiod;
+    const double asked = override;  /* read once: another processor may write it meanwhile */
+    const rtapi_u32 beat = heartbeat;
+    int alive, sound, why = NONE, stopping;
+    double target;
+
+    if (!heard && beat == last_heartbeat) {
+        age_s = 0.0;
+    } else if (beat != last_heartbeat) {
+        heard = 1;
+        age_s = 0.0;
+    } else {
+        age_s += dt_s;
+    }
+    last_heartbeat = beat;
+    alive = heard && age_s <= timeout;
+    sound = is_number(asked) && asked >= 0.0;
+
+    if (!alive && (enable || was_held)) {  /* it died while it held the feed: that stays so */
+        why = heard ? HEARTBEAT : NEVER_HEARD;
+    } else if (alive && !sound) {
+        why = is_number(asked) ? NEGATIVE : NOT_A_NUMBER;
+    }
+    /* Without M52 P1 the machine runs as programmed, whatever stands on the pin. */
+    if (enable && requested_velocity > 0.0 && current_velocity > requested_velocity * last_out * 1.02 + 0.02) {
+        disobeyed_s += dt_s;
+        if (disobeyed_s > follow_time) why = NOT_OBEYED;
+    } else {
+        disobeyed_s = 0.0;
+    }
+    if (fault && reset && !was_reset && (!enable || (alive && sound))) {
+        fault = 0;
+        reason = why = NONE;
+        disobeyed_s = 0.0;
+        was_held = 0;
+    }
+    was_reset = reset;
+    if (why != NONE && !fault) {
+        fault = 1;
+        reason = why;
+        faults++;
+    }
+    ok = alive && sound;
+    if (alive) was_held = hold;
+
+    stopping = fault ? stop_on_fault : alive && hold;
+    target = stopping ? 0.0 : fault ? fallback : alive ? asked : idle;
+    if (!(target >= 0.0)) target = 0.0;
+    if (target > max) target = max;
+    if (target > last_out + max_rise * dt_s) target = last_out + max_rise * dt_s;
+    last_out = target;
+    out = target;
+    feed_inhibit = stopping;
+
+    if (stopping && current_velocity > 0.01) {
+        moving_s += dt_s;
+        if (moving_s > stop_time) machine_ok = 0;
+    } else {
+        moving_s = 0.0;
+        if (!enable && current_velocity <= 0.01) machine_ok = 1;
+    }
+}

@@ -1,0 +1,84 @@
+component millforce_sample """Takes what the force controller needs in the servo thread, once per cycle, and hands it to millforce-hal.
+
+The pins are read together, in one cycle, and the sample's time is the cycle's: a program that polls pins from outside
+the servo thread would see the current of one cycle and the position of another. What millforce-hal does not fetch in
+time is counted in
+.B overruns\\fR.""";
+pin in float spindle_current "A rms, positive where it drives in the cutting direction; or a torque, see spindle-current-scale";
+pin in s32 spindle_count "Encoder counts that never start again, e.g. encoder.0.rawcounts, growing with M3";
+pin in float spindle_revs "Instead of spindle-count: revolutions, with counts-per-rev";
+pin in s32 spindle_index_count "Count at the last index pulse";
+pin in unsigned spindle_index_number "Grows by one at each index pulse; not wired: no index";
+pin in float x_current "A rms, positive where it drives the tool in +x";
+pin in float y_current;
+pin in float z_current;
+pin in float x_velocity "mm/s, of the tool relative to the workpiece, e.g. joint.0.vel-cmd, or measured";
+pin in float y_velocity;
+pin in float z_velocity;
+pin in float requested_velocity "F of the block in work in machine units/s: motion.requested-vel. (motion.feed-mm-per-minute contains the override)";
+pin in s32 motion_type "motion.motion-type: 1 is a rapid";
+pin in bit feed_hold "Operator or CNC hold the feed, e.g. halui.program.is-paused";
+pin in bit reset "Leaves a fault of the controller; the same signal as the guard's";
+pin in float operator_limit=1.0 "Largest override that the operator allows, at most 1";
+pin out unsigned cycle "Cycles since the start: the sequence of the newest sample";
+pin out unsigned overruns "Samples that nobody fetched in time";
+param rw float spindle_current_scale=1.0 "A per unit of spindle-current: 1 over the torque constant where it is a torque";
+param rw float x_current_scale=1.0;
+param rw float y_current_scale=1.0;
+param rw float z_current_scale=1.0;
+param rw float counts_per_rev=0.0 "Not 0: spindle-revs is used, and this is encoder_counts_per_rev of machine.toml";
+param rw float mm_per_unit=1.0 "Of requested-velocity: 25.4 on a machine in inches";
+param rw unsigned present=31 "What is wired: 1 spindle position + 2 spindle current + 4 x + 8 y + 16 z";
+variable rtapi_s64 time_ns;
+variable int stream_id;
+option singleton yes;
+option extra_setup yes;
+option extra_cleanup yes;
+function _ fp "After the drives are read";
+license "GPL";
+author "The millforce authors";
+include "millforce_stream.h";
+;;
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+static hal_stream_t stream;
+static int is_open;
+
+EXTRA_SETUP() {
+    int result = hal_stream_create(&stream, comp_id, MILLFORCE_STREAM_KEY, MILLFORCE_STREAM_DEPTH, MILLFORCE_STREAM_TYPES);
+    (void)prefix;
+    (void)extra_arg;
+    is_open = result == 0;
+    return result;
+}
+
+EXTRA_CLEANUP() {
+    if (is_open) hal_stream_destroy(&stream);
+}
+
+FUNCTION(_) {
+    union hal_stream_data field[MILLFORCE_FIELDS];
+    long count = spindle_count;
+    if (counts_per_rev > 0.0) {
+        double counts = spindle_revs * counts_per_rev;
+        count = (long)counts - (counts < (long)counts);
+    }
+    time_ns += period;
+    cycle++;
+    field[MILLFORCE_CYCLE].u = cycle;
+    field[MILLFORCE_TIME_US].u = (rtapi_u32)(time_ns / 1000);
+    field[MILLFORCE_COUNT].u = (rtapi_u32)count;
+    field[MILLFORCE_INDEX_COUNT].u = (rtapi_u32)spindle_index_count;
+    field[MILLFORCE_INDEX_NUMBER].u = spindle_index_number;
+    field[MILLFORCE_FLAGS].u = (present & 31u) | (motion_type == 1 ? MILLFORCE_RAPID : 0u) |
+                               (feed_hold ? MILLFORCE_FEED_HOLD : 0u) | (reset ? MILLFORCE_RESET : 0u);
+    field[MILLFORCE_SPINDLE_CURRENT].f = spindle_current * spindle_current_scale;
+    field[MILLFORCE_X_CURRENT].f = x_current * x_current_scale;
+    field[MILLFORCE_Y_CURRENT].f = y_current * y_current_scale;
+    field[MILLFORCE_Z_CURRENT].f = z_current * z_current_scale;
+    field[MILLFORCE_X_VELOCITY].f = x_velocity;
+    field[MILLFORCE_Y_VELOCITY].f = y_velocity;
+    field[MILLFORCE_Z_VELOCITY].f = z_velocity;
+    field[MILLFORCE_FEED].f = requested_velocity * mm_per_unit;
+    field[MILLFORCE_OPERATOR_LIMIT].f = operator_limit;
+    if (hal_stream_write(&stream, field) < 0) overruns++;
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/tick.hpp"
+#include "local_link/messages.hpp"
+
+/// The whole controller behind a local link, without the socket: the bytes of a sample in, the bytes of the override
+/// out. One instance per connection.
+///
+/// Only the samples' own time counts: the same messages give the same answers, bit for bit, however late they
+/// come. So it does not know that samples stay away; who is at the other end watches the answers' heartbeat. A gap in
+/// the samples' time (the bridge dropped some) breaks the averages, and beyond the CNC's `stale_s` it is the
+/// fault `stale_input`.
+///
+/// A fault is latched until a sample with a reset comes, after one without, with all axes at rest.
+///
+/// No heap, no operating system. One thread. Cost: that of the tick.
+
+namespace millforce::firmware {
+
+class LinkController {
+  public:
+    /// `largest_override`: what the CNC's input takes; caps the machine's override_max.
+    LinkController(const Parameters<float>& parameters, float largest_override);
+
+    /// `answer` is written where the bytes are sound.
+    [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
+                                                      local_link::OverrideBytes& answer);
+
+    [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_; }
+    [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
+
+  private:
+    void bridge_gap(std::uint32_t time_us, const hal::ProgramStatus& program);
+    void reset_where_asked(const local_link::SampleMessage& message);
+    [[nodiscard]] local_link::OverrideMessage answer_to(std::uint32_t sequence) const;
+
+    ForceControlTick<float> tick_;
+    hal::FeedOverride output_{};
+    float largest_override_;
+    bool has_time_ = false;
+    bool was_reset_ = true;
+    std::uint32_t time_us_ = 0;
+};
+
+}  // namespace millforce::firmware

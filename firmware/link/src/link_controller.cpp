@@ -1,0 +1,108 @@
+#include "firmware_link/link_controller.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace millforce::firmware {
+
+namespace {
+
+constexpr std::uint32_t gap_us = 10'000;
+constexpr float at_rest_mm_s = 0.5F;
+constexpr float no_estimate = std::numeric_limits<float>::quiet_NaN();
+
+Parameters<float> capped(Parameters<float> parameters, float largest_override) {
+    float& highest = parameters.machine.cnc.override_max;
+    highest = std::min(highest, largest_override);
+    return parameters;
+}
+
+hal::DriveSample drives_of(const local_link::SampleMessage& m) {
+    hal::DriveSample sample;
+    sample.time_us = m.time_us;
+    sample.spindle_count = m.spindle_count;
+    sample.spindle_index_count = m.spindle_index_count;
+    sample.spindle_index_number = m.spindle_index_number;
+    sample.present = m.present;
+    sample.spindle_current_A = m.spindle_current_A;
+    sample.axis_current_A = m.axis_current_A;
+    sample.axis_velocity_mm_s = m.axis_velocity_mm_s;
+    return sample;
+}
+
+hal::ProgramStatus program_of(const local_link::SampleMessage& m) {
+    hal::ProgramStatus program;
+    program.programmed_feed_mm_s = m.programmed_feed_mm_s;
+    program.operator_override = m.operator_limit;
+    program.rapid = m.rapid;
+    program.feed_hold = m.feed_hold;
+    return program;
+}
+
+float value_of(const estimation::Measurement<float>& measurement) {
+    return measurement.valid ? measurement.value : no_estimate;
+}
+
+}  // namespace
+
+LinkController::LinkController(const Parameters<float>& parameters, float largest_override)
+    : tick_(capped(parameters, largest_override)), largest_override_(largest_override) {}
+
+local_link::MessageError LinkController::on_message(std::span<const std::uint8_t> bytes,
+                                                    local_link::OverrideBytes& answer) {
+    local_link::SampleMessage message;
+    if (const auto error = decode(bytes, message); error != local_link::MessageError::none) {
+        return error;
+    }
+    const hal::ProgramStatus program = program_of(message);
+    bridge_gap(message.time_us, program);
+    reset_where_asked(message);
+    output_ = tick_.step(drives_of(message), program);
+    if (tick_.work_due()) {
+        tick_.work();
+    }
+    answer = encode(answer_to(message.sequence));
+    return local_link::MessageError::none;
+}
+
+void LinkController::bridge_gap(std::uint32_t time_us, const hal::ProgramStatus& program) {
+    const auto elapsed_us = static_cast<std::int32_t>(time_us - time_us_);
+    if (has_time_ && elapsed_us > static_cast<std::int32_t>(gap_us)) {
+        const float silent_s = static_cast<float>(elapsed_us) * 1e-6F;
+        tick_.step_without_sample(silent_s, silent_s, program);
+    }
+    has_time_ = true;
+    time_us_ = time_us;
+}
+
+void LinkController::reset_where_asked(const local_link::SampleMessage& message) {
+    const auto rests = [](float velocity_mm_s) { return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s; };
+    const bool is_asked = message.reset && !was_reset_;
+    was_reset_ = message.reset;
+    if (is_asked && std::all_of(message.axis_velocity_mm_s.begin(), message.axis_velocity_mm_s.end(), rests)) {
+        tick_.reset_fault();
+    }
+}
+
+local_link::OverrideMessage LinkController::answer_to(std::uint32_t sequence) const {
+    const auto& estimate = tick_.estimate();
+    const auto engagement = tick_.engagement();
+    local_link::OverrideMessage m;
+    m.sequence = sequence;
+    m.heartbeat = output_.heartbeat;
+    m.ratio = std::min(output_.ratio, largest_override_);
+    m.hold = output_.hold;
+    m.state = output_.state;
+    m.fault = output_.fault;
+    m.limit = static_cast<std::uint8_t>(tick_.control().limit);
+    m.tangential_N = value_of(estimate.tangential_N);
+    m.feed_N = value_of(estimate.feed_N);
+    m.tooth_force_N = value_of(estimate.tooth_force_N);
+    m.radial_immersion = engagement.immersion_valid ? engagement.radial_immersion : no_estimate;
+    m.radial_immersion_sd = engagement.immersion_valid ? engagement.radial_immersion_sd : no_estimate;
+    m.axial_depth_mm = engagement.depth_valid ? engagement.axial_depth_mm : no_estimate;
+    m.axial_depth_sd_mm = engagement.depth_valid ? engagement.axial_depth_sd_mm : no_estimate;
+    return m;
+}
+
+}  // namespace millforce::firmware

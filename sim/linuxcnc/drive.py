@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""Runs OPEN_FILE of the INI file headless: LinuxCNC's DISPLAY program where there is no screen. Its exit code becomes
+that of `linuxcnc`: 0, the program came to its end; 1, LinuxCNC reported an error; 2, something did not happen in time."""
+import os
+import sys
+import time
+
+import linuxcnc
+
+
+class Drive:
+    def __init__(self):
+        self.start_s = time.monotonic()
+        self.command = linuxcnc.command()
+        self.stat = linuxcnc.stat()
+        self.error_channel = linuxcnc.error_channel()
+        self.errors = []
+        for _ in range(400):  # milltask starts in the background
+            try:
+                self.stat.poll()
+                return
+            except linuxcnc.error:
+                time.sleep(0.05)
+        self.fail("milltask does not answer")
+
+    def say(self, text):
+        print(f"[{time.monotonic() - self.start_s:7.3f}] {text}", flush=True)
+
+    def fail(self, text):
+        self.say("FAILED: " + text)
+        sys.exit(2)
+
+    def poll(self):
+        self.stat.poll()
+        message = self.error_channel.poll()
+        if message and message[0] in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR):
+            self.say("error: " + message[1])
+            self.errors.append(message[1])
+
+    def until(self, what, is_so, timeout_s=30.0, errors_end_it=True):
+        end_s = time.monotonic() + timeout_s
+        while not is_so():
+            if (self.errors and errors_end_it) or time.monotonic() > end_s:
+                self.fail(what)
+            time.sleep(0.01)
+            self.poll()
+        self.say(what)
+
+    def step(self, what, is_so, send):
+        send()
+        self.command.wait_complete(15)
+        self.until(what, is_so)
+
+    def make_ready(self):
+        c, s = self.command, self.stat
+        self.step("estop reset", lambda: s.task_state == linuxcnc.STATE_ESTOP_RESET,
+                  lambda: c.state(linuxcnc.STATE_ESTOP_RESET))
+        self.step("machine on", lambda: s.task_state == linuxcnc.STATE_ON, lambda: c.state(linuxcnc.STATE_ON))
+        self.step("manual", lambda: s.task_mode == linuxcnc.MODE_MANUAL, lambda: c.mode(linuxcnc.MODE_MANUAL))
+        self.step("homed", lambda: all(s.homed[:3]), lambda: c.home(-1))
+        self.step("auto", lambda: s.task_mode == linuxcnc.MODE_AUTO, lambda: c.mode(linuxcnc.MODE_AUTO))
+
+    def start(self, program):
+        self.command.program_open(os.path.abspath(program))
+        self.command.wait_complete(15)
+        self.command.auto(linuxcnc.AUTO_RUN, 0)
+        self.until("running", lambda: self.stat.interp_state != linuxcnc.INTERP_IDLE)
+
+    def is_done(self):
+        return self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.inpos and self.stat.queue == 0
+
+    def await_end(self, timeout_s=3600.0):
+        self.until("program ended", self.is_done, timeout_s)
+        # The recording is read out of its buffer, and the spindle's stop ends the plant's run.
+        time.sleep(0.3)
+
+
+def main():
+    ini = linuxcnc.ini(os.environ["INI_FILE_NAME"])
+    drive = Drive()
+    drive.make_ready()
+    drive.start(ini.find("DISPLAY", "OPEN_FILE"))
+    drive.await_end()
+    return 1 if drive.errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

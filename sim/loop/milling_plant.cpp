@@ -1,0 +1,88 @@
+#include "loop/milling_plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace millforce::sim {
+
+namespace {
+
+std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
+    if (scenario.has_program()) {
+        return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
+    }
+    const auto& tool = scenario.parameters.tool;
+    return std::make_unique<ProfileWorkpiece>(
+        scenario.profile, scenario.cutter, static_cast<estimation::CutSide>(static_cast<unsigned char>(tool.side)),
+        static_cast<double>(tool.centre_offset_mm));
+}
+
+}  // namespace
+
+MillingPlant::MillingPlant(const Scenario& scenario)
+    : scenario_(deviated(scenario, scenario.deviation, scenario.seed)),
+      machine_(scenario_.machine),
+      cutting_(scenario_.cutter, scenario_.coefficients, scenario_.cutting_options),
+      workpiece_(workpiece_of(scenario)),
+      judge_(scenario_) {}
+
+void MillingPlant::start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s) {
+    machine_.start_at(position_mm, spindle_speed_rad_s);
+}
+
+void MillingPlant::advance(double dt_s, const Command& command) {
+    machine_.advance(dt_s, {command.position_mm, command.direction * command.feed_mm_s, command.spindle_speed_rad_s},
+                     load_);
+    const Eigen::Vector3d velocity = machine_.velocity_mm_s();
+    path_mm_ += velocity.norm() * dt_s;
+    history_.add(machine_.spindle_angle_rad(), path_mm_);
+    // The tool goes where the axes go; the command's direction serves while they hardly move.
+    const Eigen::Vector3d travel = velocity.norm() > 0.5 ? velocity.normalized() : command.direction;
+    if (!command.is_rapid || !scenario_.has_program()) {
+        workpiece_->move_to(machine_.position_mm(), travel, command.path_mm);
+        cut(dt_s, travel);
+    } else {
+        workpiece_->move_to(machine_.position_mm(), Eigen::Vector3d::UnitZ(), command.path_mm);
+        load_ = {};
+    }
+    judge_.observe(dt_s, {machine_.position_mm(), velocity.norm(), path_mm_, command.programmed_feed_mm_s,
+                          command.is_rapid, machine_.spindle_speed_rad_s(), command.override_ratio},
+                   cutting_load_, workpiece_->truth());
+}
+
+/// The force over the angle that the spindle turned in this step: as many points as keep a tooth from jumping
+/// over more than 3°.
+void MillingPlant::cut(double dt_s, const Eigen::Vector3d& direction) {
+    const double speed = machine_.spindle_speed_rad_s();
+    cutting_load_ = {};
+    load_ = {};
+    if (!workpiece_->truth().cutting || !(speed > 1.0)) {
+        return;
+    }
+    const double feed_per_tooth =
+        history_.feed_per_tooth_mm(2.0 * std::numbers::pi / static_cast<double>(scenario_.cutter.teeth));
+    const double turned_rad = speed * dt_s;
+    const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
+    for (int k = 0; k < points; ++k) {
+        const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
+        const CuttingLoad part = cutting_.load(angle, feed_per_tooth, workpiece_->engagement());
+        cutting_load_.fx_N += part.fx_N / points;
+        cutting_load_.fy_N += part.fy_N / points;
+        cutting_load_.fz_N += part.fz_N / points;
+        cutting_load_.spindle_torque_Nm += part.spindle_torque_Nm / points;
+        for (std::size_t tooth = 0; tooth < part.tooth_force_N.size(); ++tooth) {
+            cutting_load_.tooth_force_N[tooth] = std::max(cutting_load_.tooth_force_N[tooth], part.tooth_force_N[tooth]);
+        }
+        peak_total_N_ = std::max(peak_total_N_, std::hypot(part.fx_N, part.fy_N));
+    }
+    judge_.observe_peak(peak_total_N_);
+    peak_total_N_ = 0.0;
+    const double along = std::max(direction.head<2>().norm(), 1e-9);
+    const Eigen::Vector2d t = direction.head<2>() / along;
+    load_.force_on_workpiece_N = {cutting_load_.fx_N * t.x() - cutting_load_.fy_N * t.y(),
+                                  cutting_load_.fx_N * t.y() + cutting_load_.fy_N * t.x(), cutting_load_.fz_N};
+    load_.spindle_torque_Nm = cutting_load_.spindle_torque_Nm;
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+
+#include "loop/run_judge.hpp"
+#include "loop/scenario.hpp"
+#include "loop/workpiece.hpp"
+#include "machine/machine_plant.hpp"
+
+namespace millforce::sim {
+
+/// The way that the tool has gone since the tooth before passed: the chip is what that tooth left. Looked up by the
+/// spindle's angle, one pitch back, for the spindle slows down under a tooth.
+class FeedHistory {
+  public:
+    void add(double angle_rad, double path_mm) {
+        newest_ = (newest_ + 1) % places_.size();
+        places_[newest_] = {angle_rad, path_mm};
+        filled_ = std::min(filled_ + 1, places_.size());
+        if (behind_ == newest_) {
+            behind_ = after(behind_);
+        }
+    }
+    [[nodiscard]] double feed_per_tooth_mm(double pitch_rad) {
+        const double then_rad = places_[newest_].angle_rad - pitch_rad;
+        if (filled_ < places_.size()) {
+            behind_ = (newest_ + places_.size() + 1 - filled_) % places_.size();
+        }
+        while (after(behind_) != newest_ && places_[after(behind_)].angle_rad <= then_rad) {
+            behind_ = after(behind_);
+        }
+        const Place& from = places_[behind_];
+        const Place& to = places_[after(behind_)];
+        const double turned_rad = places_[newest_].angle_rad - from.angle_rad;
+        if (filled_ < 3 || !(turned_rad > 0.0)) {
+            return 0.0;
+        }
+        if (turned_rad < pitch_rad) {
+            return (places_[newest_].path_mm - from.path_mm) * pitch_rad / turned_rad;
+        }
+        const double step_rad = to.angle_rad - from.angle_rad;
+        const double share = step_rad > 0.0 ? std::min((then_rad - from.angle_rad) / step_rad, 1.0) : 0.0;
+        return places_[newest_].path_mm - (from.path_mm + share * (to.path_mm - from.path_mm));
+    }
+
+  private:
+    struct Place {
+        double angle_rad = 0.0;
+        double path_mm = 0.0;
+    };
+    [[nodiscard]] std::size_t after(std::size_t place) const { return (place + 1) % places_.size(); }
+
+    std::array<Place, 1024> places_{};
+    std::size_t newest_ = 0;
+    std::size_t behind_ = 1;
+    std::size_t filled_ = 0;
+};
+
+/// Drives, tool and workpiece under a CNC's command: command → drives → engagement → cutting force → drives. Whose the
+/// command is does not matter: the simulated CNC's, or that of a real one.
+class MillingPlant {
+  public:
+    /// The machine is the scenario's with its deviation.
+    explicit MillingPlant(const Scenario& scenario);
+
+    struct Command {
+        Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the path; zero: it stands
+        double feed_mm_s = 0.0;
+        double programmed_feed_mm_s = 0.0;
+        double path_mm = 0.0;  ///< commanded, since the start
+        bool is_rapid = false;
+        double spindle_speed_rad_s = 0.0;
+        double override_ratio = 0.0;  ///< for the record
+    };
+
+    /// Spindle at speed, axes standing.
+    void start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s);
+    void advance(double dt_s, const Command& command);
+    /// The machine alone, away from the workpiece: nothing is cut, and nothing is judged.
+    void idle(double dt_s, const MachinePlant::Command& command) { machine_.advance(dt_s, command, {}); }
+
+    [[nodiscard]] hal::DriveSample sample() { return machine_.sample(); }
+    [[nodiscard]] const MachinePlant& machine() const { return machine_; }
+    [[nodiscard]] double time_s() const { return machine_.time_s(); }
+    [[nodiscard]] const CuttingLoad& load() const { return cutting_load_; }  ///< of the last step
+    [[nodiscard]] RunJudge& judge() { return judge_; }
+
+  private:
+    void cut(double dt_s, const Eigen::Vector3d& direction);
+
+    Scenario scenario_;
+    MachinePlant machine_;
+    CuttingForce cutting_;
+    std::unique_ptr<Workpiece> workpiece_;
+    FeedHistory history_;
+    RunJudge judge_;
+    MachinePlant::Load load_{};
+    CuttingLoad cutting_load_{};
+    double path_mm_ = 0.0;
+    double peak_total_N_ = 0.0;
+};
+
+}  // namespace millforce::sim

@@ -1,0 +1,132 @@
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "firmware_link/link_controller.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using local_link::MessageError;
+
+namespace {
+
+firmware::Parameters<float> a_mill() {
+    firmware::Parameters<float> p;
+    p.machine.cnc.override_max = 2.0F;
+    p.tool.tooth_force_limit_N = 700.0F;
+    p.tool.control.highest_programmed_feed_mm_s = 10.0F;
+    return p;
+}
+
+/// A CNC whose spindle turns at 4000 rpm in air, in a rapid.
+struct Cnc {
+    local_link::SampleMessage message{};
+    Cnc() {
+        message.present = 0x1F;
+        message.programmed_feed_mm_s = 10.0F;
+        message.rapid = true;
+    }
+    local_link::SampleBytes next(std::uint32_t elapsed_us = 1000) {
+        ++message.sequence;
+        message.time_us += elapsed_us;
+        message.spindle_count += 273;
+        return encode(message);
+    }
+};
+
+local_link::OverrideMessage answer(firmware::LinkController& controller, const local_link::SampleBytes& bytes) {
+    local_link::OverrideBytes answered{};
+    CHECK(controller.on_message(bytes, answered) == MessageError::none);
+    local_link::OverrideMessage message;
+    CHECK(decode(answered, message) == MessageError::none);
+    return message;
+}
+
+}  // namespace
+
+TEST_GROUP(LinkController){
+    Cnc cnc;
+};
+
+TEST(LinkController, answers_each_sample_with_its_sequence_and_a_heartbeat) {
+    firmware::LinkController controller(a_mill(), 1.0F);
+    for (std::uint32_t k = 1; k <= 5; ++k) {
+        const auto m = answer(controller, cnc.next());
+        UNSIGNED_LONGS_EQUAL(k, m.sequence);
+        UNSIGNED_LONGS_EQUAL(k, m.heartbeat);
+        CHECK(!m.hold && m.fault == 0);
+    }
+}
+
+TEST(LinkController, asks_for_no_more_than_the_cnc_takes) {
+    firmware::LinkController controller(a_mill(), 0.8F);
+    float highest = 0.0F;
+    for (int k = 0; k < 2000; ++k) {
+        highest = std::max(highest, answer(controller, cnc.next()).ratio);
+    }
+    DOUBLES_EQUAL(0.8, static_cast<double>(highest), 1e-6);
+}
+
+TEST(LinkController, tells_no_estimate_as_a_number_that_is_none) {
+    firmware::LinkController controller(a_mill(), 1.0F);
+    const auto m = answer(controller, cnc.next());
+    CHECK(std::isnan(m.tooth_force_N) && std::isnan(m.radial_immersion) && std::isnan(m.axial_depth_mm));
+}
+
+TEST(LinkController, leaves_bytes_that_are_not_sound_unanswered) {
+    firmware::LinkController controller(a_mill(), 1.0F);
+    answer(controller, cnc.next());
+    local_link::SampleBytes wrong = cnc.next();
+    wrong[0] ^= 1U;
+    local_link::OverrideBytes untouched{};
+    CHECK(controller.on_message(wrong, untouched) == MessageError::not_this_link);
+    CHECK(controller.on_message({}, untouched) == MessageError::length);
+    CHECK(untouched == local_link::OverrideBytes{});
+    UNSIGNED_LONGS_EQUAL(1, controller.output().heartbeat);
+}
+
+TEST(LinkController, faults_where_the_samples_have_a_gap_and_resets_at_rest_only) {
+    firmware::LinkController controller(a_mill(), 1.0F);
+    answer(controller, cnc.next());
+    const auto after_gap = answer(controller, cnc.next(80'000));  // stale_s is 50 ms
+    CHECK(after_gap.hold);
+    BYTES_EQUAL(static_cast<int>(control::Fault::stale_input), after_gap.fault);
+    cnc.message.axis_velocity_mm_s = {5.0F, 0.0F, 0.0F};
+    cnc.message.reset = true;
+    CHECK(answer(controller, cnc.next()).hold);
+    cnc.message.axis_velocity_mm_s = {};
+    CHECK(answer(controller, cnc.next()).hold);  // the reset still stands: no new one
+    cnc.message.reset = false;
+    answer(controller, cnc.next());
+    cnc.message.reset = true;
+    CHECK(!answer(controller, cnc.next()).hold);
+}
+
+TEST(LinkController, a_reset_that_stands_from_the_start_resets_nothing) {
+    firmware::LinkController controller(a_mill(), 1.0F);
+    cnc.message.reset = true;
+    answer(controller, cnc.next());
+    CHECK(answer(controller, cnc.next(80'000)).hold);
+    CHECK(answer(controller, cnc.next()).hold);
+}
+
+TEST(LinkController, gives_the_same_overrides_whenever_the_samples_come_and_whatever_they_hold) {
+    firmware::LinkController one(a_mill(), 1.0F);
+    firmware::LinkController other(a_mill(), 1.0F);
+    const std::array<float, 4> values{0.0F, 3.0F, std::numeric_limits<float>::quiet_NaN(),
+                                      std::numeric_limits<float>::infinity()};
+    for (std::size_t k = 0; k < 3000; ++k) {
+        cnc.message.spindle_current_A = values[k % 4];
+        cnc.message.axis_velocity_mm_s[0] = values[(k / 7) % 4];
+        cnc.message.programmed_feed_mm_s = values[(k / 11) % 4];
+        cnc.message.operator_limit = values[(k / 13) % 4];
+        const auto bytes = cnc.next();
+        local_link::OverrideBytes first{};
+        local_link::OverrideBytes second{};
+        CHECK(one.on_message(bytes, first) == MessageError::none);
+        CHECK(other.on_message(bytes, second) == MessageError::none);
+        CHECK(first == second);
+        CHECK(one.output().ratio >= 0.0F && one.output().ratio <= 1.0F);
+    }
+}

@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""LinuxCNC's DISPLAY program of a hazard: starts a straight cut, does in the middle of it what MILLFORCE_CASE says, and
+waits for what comes of it. What happened in the servo thread is judged afterwards, from motion.txt."""
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import linuxcnc
+
+from drive import Drive
+
+PREAMBLE = {"m52_missing": "M52 P0", "m51_p0": "M52 P1\nM51 P0", "m52_and_m51_missing": "M52 P0\nM51 P0"}
+INJECTED = {"nan": "nan", "infinite": "inf", "negative": "-0.5", "zero": "0", "above_one": "5"}
+# The program goes on to its end; elsewhere it is aborted.
+ENDS = ("zero", "above_one", "reset", "fall_back", "response")
+
+
+def halcmd(*words):
+    subprocess.run(["halcmd", *words], check=True)
+
+
+def cycles():
+    """Servo cycles since the start: the only time that counts, however slow the computer is."""
+    return int(subprocess.run(["halcmd", "getp", "millforce-plant.cycle"], capture_output=True, text=True, check=True).stdout, 0)
+
+
+def wait_cycles(number):
+    end = cycles() + number
+    while cycles() < end:
+        time.sleep(0.02)
+
+
+def client():
+    return int(subprocess.run(["pidof", "millforce-hal"], capture_output=True, text=True, check=True).stdout)
+
+
+def controller():
+    with open("controller.pid", encoding="ascii") as file:
+        return int(file.read())
+
+
+def inject(value):
+    halcmd("unlinkp", "millforce.override")
+    halcmd("sets", "millforce-override", value)
+
+
+def press_reset():
+    for level in ("1", "0"):
+        halcmd("sets", "millforce-reset", level)
+        wait_cycles(50)
+
+
+def act(case):
+    """Returns what is to be done before the end."""
+    if case in INJECTED:
+        inject(INJECTED[case])
+    elif case in ("client_killed", "m51_p0"):
+        os.kill(client(), signal.SIGKILL)
+    elif case == "fall_back":
+        halcmd("setp", "millforce-guard.0.stop-on-fault", "0")
+        os.kill(client(), signal.SIGKILL)
+    elif case == "controller_killed":
+        os.kill(controller(), signal.SIGKILL)
+    elif case == "client_hung":
+        pid = client()
+        os.kill(pid, signal.SIGSTOP)
+        return lambda: os.kill(pid, signal.SIGKILL)
+    elif case in ("controller_hung", "reset"):
+        pid = controller()
+        os.kill(pid, signal.SIGSTOP)
+        return lambda: os.kill(pid, signal.SIGCONT)
+    elif case == "response":
+        halcmd("setp", "millforce-guard.0.max-rise", "1000")
+        for value in ("0.2", "0.8", "0.3", "0.6"):
+            inject(value) if value == "0.2" else halcmd("sets", "millforce-override", value)
+            wait_cycles(250)
+    return lambda: None
+
+
+def main():
+    case = os.environ["MILLFORCE_CASE"]
+    drive = Drive()
+    halcmd("setp", "millforce-plant.patience", "0.2")
+    drive.make_ready()
+    with open("straight.ngc", encoding="ascii") as file:
+        text = file.read().replace("M52 P1", PREAMBLE.get(case, "M52 P1"))
+    with open("case.ngc", "w", encoding="ascii") as file:
+        file.write(text)
+    drive.start("case.ngc")
+    begun_mm = 0.2 if case in PREAMBLE and case != "m51_p0" else 6.0
+    drive.until("cutting", lambda: drive.stat.actual_position[0] > begun_mm, 30.0)
+    before_the_end = act(case)
+    drive.say(case)
+    wait_cycles(1500)
+    if case == "zero":
+        halcmd("sets", "millforce-override", "0.4")
+    before_the_end()
+    if case == "reset":
+        wait_cycles(300)
+        press_reset()
+    if case in ENDS:
+        drive.await_end(60.0)
+        return 1 if drive.errors else 0
+    drive.poll()
+    drive.command.abort()
+    drive.command.wait_complete(5)
+    wait_cycles(200)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
