@@ -29,7 +29,9 @@ void write_value(TomlWriter& writer, const Row& row, float value) {
 /// The rows of one table, in the order of the parameter table.
 void write_table(TomlWriter& writer, firmware::ParameterFile file, std::string_view table, std::size_t axis,
                  firmware::Parameters<float>& parameters) {
-    writer.table(table == "axis" ? firmware::axis_tables[axis] : table);
+    writer.table(table == "axis"        ? firmware::axis_tables[axis]
+                 : table == "bus.drive" ? firmware::drive_tables[axis]
+                                        : table);
     for (const Row& row : firmware::parameter_table<float>) {
         if (row.file == file && row.table == table) {
             write_value(writer, row, row.field(parameters, axis));

@@ -24,7 +24,7 @@
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
 /// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions. A solution
-/// takes Nodes + 7 of them for a side that is told and twice as many for one that is not; solve() works them off at
+/// takes Nodes + 11 of them for a side that is told and twice as many for one that is not; solve() works them off at
 /// once, begin() and advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
@@ -175,7 +175,8 @@ class EngagementSolver {
 
   private:
     static constexpr Scalar threshold_of_95_percent = static_cast<Scalar>(3.84L);
-    static constexpr int rounds = 2;  // narrower parabolas see the rounding of float and the table's grain
+    static constexpr int rounds_for_curvature = 2;
+    static constexpr int rounds = 3;  // narrower parabolas see the rounding of float and the table's grain
 
     /// One value of the profile: the depth that fits best at an immersion, and how badly it fits.
     struct Profile {
@@ -349,14 +350,14 @@ class EngagementSolver {
     void try_candidate(Search& s) const {
         const Scalar bend = s.J_low_ - Scalar(2) * s.J_middle_ + s.J_high_;
         if (bend > Scalar(0)) {
-            s.curvature_ = bend / square(s.width_rad_);
+            s.curvature_ = s.round_ < rounds_for_curvature ? bend / square(s.width_rad_) : s.curvature_;
             const Scalar shift = clamp(Scalar(0.5F) * (s.J_low_ - s.J_high_) / bend, Scalar(-1), Scalar(1));
             const Scalar theta_rad = s.middle_rad_ + shift * s.width_rad_;
             const Profile candidate = profile_at(s, theta_rad);
             if (candidate.misfit <= s.best_.misfit) {
                 keep(s, candidate, theta_rad);
             }
-            s.width_rad_ *= static_cast<Scalar>(0.35L);
+            s.width_rad_ *= Scalar(0.5F);
             s.point_ = Search::Point::low;
             if (++s.round_ < rounds) {
                 return;

@@ -259,8 +259,8 @@ class ForceControlTick {
         const auto& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
         cut.tangential_N = F_at.value;
         cut.tangential_sd_N = sqrt(F_at.variance);
-        // A force that is known to a third alone says no more than its bound.
-        constexpr Scalar vague = static_cast<Scalar>(0.3L);
+        // A force that is known to a fifth alone says no more than its bound.
+        constexpr Scalar vague = static_cast<Scalar>(0.2L);
         const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;
         const Scalar tooth_sd_N = sqrt(tooth.variance);
         cut.tooth_force_valid = tooth.valid;
