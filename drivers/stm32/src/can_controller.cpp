@@ -190,6 +190,13 @@ bool CanController::receive(hal::CanFrame& frame) {
 
 bool CanController::is_all_sent() const { return (registers_.tsr & all_empty) == all_empty; }
 
+bool CanController::has_room() const { return is_on_bus() && (registers_.tsr & all_empty) != 0; }
+
+void CanController::leave_bus() {
+    registers_.mcr = setup_request;
+    state_ = CanState::absent;
+}
+
 void CanController::abort_all() { registers_.tsr = abort_each; }
 
 }  // namespace millforce::stm32

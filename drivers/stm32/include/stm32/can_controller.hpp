@@ -54,10 +54,14 @@ class CanController {
     /// False where the frame is dropped: no mailbox is free, or the controller is off the bus.
     bool send(const hal::CanFrame& frame);
     [[nodiscard]] bool receive(hal::CanFrame& frame);
+    /// send() would take a frame.
+    [[nodiscard]] bool has_room() const;
     /// All that send() took has left.
     [[nodiscard]] bool is_all_sent() const;
     /// Frames that wait are given up.
     void abort_all();
+    /// Off the bus at once, with what is being sent; start() comes back.
+    void leave_bus();
 
     [[nodiscard]] CanState state() const { return state_; }
     [[nodiscard]] bool is_on_bus() const { return state_ >= CanState::running && state_ != CanState::bus_off; }

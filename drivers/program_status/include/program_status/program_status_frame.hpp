@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hal/can_frame.hpp"
+#include "hal/drive_sample.hpp"
+
+/// What the CNC tells of its program on CAN: one frame of 8 bytes, little endian. A CNC, or a small gateway beside it,
+/// sends it every 10 ms and at once where a flag changes.
+///
+/// | bytes | what | unit and range |
+/// |---|---|---|
+/// | 0…2 | F of the block in work, U24 | 0.01 mm/min: 0…167 772 mm/min; 0: not known |
+/// | 3 | the operator's own override, U8 | per cent |
+/// | 4 | bit 0: a rapid (G0) is in work; bit 1: the feed is held; bit 2: reset the controller's fault; bits 3…7 are 0 |
+/// | | 5, 6 | counter, U16, one more with each frame | a number that stands still is a dead CNC | | 7 | CRC-8 as in the
+/// override frame, over id low, id high, bytes 0…6 | |
+
+namespace millforce::program_status {
+
+inline constexpr std::uint32_t default_id = 0x1FD;  // TPDO 1 of node 125
+inline constexpr std::uint8_t frame_bytes = 8;
+inline constexpr float feed_mm_s_per_bit = 0.01F / 60.0F;
+
+struct ProgramStatusFrame {
+    hal::ProgramStatus program{};
+    bool reset_fault = false;
+    std::uint16_t counter = 0;
+};
+
+/// A feed or an override that is not finite goes out as 0; beyond the range they saturate. `id` has 11 bits.
+[[nodiscard]] hal::CanFrame encode(const ProgramStatusFrame& status, std::uint32_t id);
+
+enum class FrameError : std::uint8_t {
+    none,
+    not_this_frame,  ///< another id, a 29-bit id or a remote frame
+    length,          ///< not 8 bytes
+    checksum,
+    reserved_bits,  ///< bits 3…7 of byte 4: a later layout
+};
+/// Writes `status` where the frame is sound.
+[[nodiscard]] FrameError decode(const hal::CanFrame& frame, std::uint32_t id, ProgramStatusFrame& status);
+
+}  // namespace millforce::program_status
