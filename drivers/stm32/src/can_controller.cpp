@@ -12,7 +12,6 @@ constexpr std::uint32_t setup_acknowledged = 1U << 0U;
 // TSR
 constexpr std::uint32_t abort_each = 1U << 7U | 1U << 15U | 1U << 23U;
 constexpr std::uint32_t mailbox_empty = 1U << 26U;
-constexpr std::uint32_t all_empty = 7U << 26U;
 // RF0R
 constexpr std::uint32_t frames_waiting = 3U;
 constexpr std::uint32_t queue_overrun = 1U << 4U;
@@ -25,6 +24,7 @@ constexpr std::uint32_t is_bus_off = 1U << 2U;
 constexpr std::uint32_t transmit_request = 1U << 0U;
 constexpr std::uint32_t remote_frame = 1U << 1U;
 constexpr std::uint32_t extended_id = 1U << 2U;
+constexpr unsigned mailboxes = 3;
 
 /// 42 MHz / (prescaler × 14 quanta)
 std::uint32_t prescaler(CanBitRate rate) {
@@ -148,10 +148,14 @@ void CanController::watch_errors() {
     }
 }
 
+bool CanController::is_free(unsigned mailbox) const {
+    return has_bits(registers_.tsr, mailbox_empty << mailbox) &&
+           !has_bits(registers_.transmit[mailbox].identifier, transmit_request);
+}
+
 bool CanController::send(const hal::CanFrame& frame) {
-    const std::uint32_t status = registers_.tsr;
-    for (unsigned mailbox = 0; mailbox < 3U; ++mailbox) {
-        if (!is_on_bus() || (status & (mailbox_empty << mailbox)) == 0) {
+    for (unsigned mailbox = 0; mailbox < mailboxes; ++mailbox) {
+        if (!is_on_bus() || !is_free(mailbox)) {
             continue;
         }
         const std::uint32_t length = frame.length > hal::largest_can_length ? hal::largest_can_length : frame.length;
@@ -188,9 +192,9 @@ bool CanController::receive(hal::CanFrame& frame) {
     return true;
 }
 
-bool CanController::is_all_sent() const { return (registers_.tsr & all_empty) == all_empty; }
+bool CanController::is_all_sent() const { return is_free(0) && is_free(1) && is_free(2); }
 
-bool CanController::has_room() const { return is_on_bus() && (registers_.tsr & all_empty) != 0; }
+bool CanController::has_room() const { return is_on_bus() && (is_free(0) || is_free(1) || is_free(2)); }
 
 void CanController::leave_bus() {
     registers_.mcr = setup_request;

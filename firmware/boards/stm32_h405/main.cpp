@@ -115,13 +115,15 @@ void millforce::board::run_image() {
 }
 
 void millforce::board::on_processor_fault(const FaultRecord& record) {
-    constexpr std::uint32_t non_maskable = 2;    // the crystal stopped: the bit rate is wrong from now on
-    constexpr std::uint32_t spins = 200'000;     // some milliseconds: three frames at 125 kbit/s
+    constexpr std::uint32_t non_maskable = 2;  // the crystal stopped: the bit rate is wrong from now on
     kept_fault = {fault_was_kept, record.program_counter};
     if (running_controller != nullptr && record.exception == non_maskable) {
         running_controller->fall_silent();
     } else if (running_controller != nullptr) {
-        running_controller->give_up(stm32_h405::Reason::processor_fault, record.program_counter, spins);
+        // Some milliseconds: three frames at 125 kbit/s. The watchdog would end it, too.
+        std::uint32_t looks = 100'000;
+        running_controller->give_up(stm32_h405::Reason::processor_fault, record.program_counter,
+                                    [&looks] { return --looks != 0; });
     }
     reset_processor();
 }

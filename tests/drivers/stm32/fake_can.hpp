@@ -52,9 +52,13 @@ class FakeCan {
         registers.rf0r = 1;
     }
     void join_bus(millforce::stm32::CanController& controller) {
+        join_bus_with([&controller] { controller.poll(100); });
+    }
+    template <typename Poll>
+    void join_bus_with(Poll poll) {
         for (unsigned k = 0; k < 4; ++k) {
             react();
-            controller.poll(100);
+            poll();
         }
     }
 

@@ -72,6 +72,7 @@ class CanController {
     void write_filters();
     void watch_errors();
     [[nodiscard]] CanState error_state() const;
+    [[nodiscard]] bool is_free(unsigned mailbox) const;
 
     CanRegisters& registers_;
     CanBitRate rate_ = CanBitRate::kbit_500;

@@ -40,8 +40,8 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
     }
     currents_.start();
     can_.start(wiring_.bit_rate, filters_);
-    next_tick_us_ = now_us;
     complete_us_ = now_us;
+    next_tick_us_ = now_us + period_us_;  // the first scans are there by then
     if (report.parameters != firmware::BlockError::none) {
         output_.fault = static_cast<std::uint8_t>(control::Fault::bad_configuration);
         output_.state = static_cast<std::uint8_t>(control::CutState::fault);
@@ -174,24 +174,17 @@ bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {
            output.ratio <= largest_ratio_;
 }
 
-bool AnalogueController::give_up(Reason reason, std::uint32_t detail, std::uint32_t spins) {
+bool AnalogueController::send_last_words(Reason reason, std::uint32_t detail) {
     constexpr std::uint32_t heartbeat_id = 0x700;
     constexpr std::uint8_t stopped = 4;
-    can_.abort_all();
-    for (std::uint32_t spin = 0; spin < spins && !can_.is_all_sent(); ++spin) {
-    }
     output_.hold = true;
     ++output_.heartbeat;
     hal::CanFrame heartbeat;
     heartbeat.id = heartbeat_id + wiring_.feed_override.node_id;
     heartbeat.length = 1;
     heartbeat.data[0] = stopped;
-    const bool was_taken = can_.send(override_frame::encode(output_, wiring_.feed_override.id)) &&
-                           can_.send(heartbeat) &&
-                           can_.send(emergencies_.frame_of(reason, error_code(reason), detail));
-    for (std::uint32_t spin = 0; spin < spins && !can_.is_all_sent(); ++spin) {
-    }
-    return was_taken && can_.is_all_sent();
+    return can_.send(override_frame::encode(output_, wiring_.feed_override.id)) && can_.send(heartbeat) &&
+           can_.send(emergencies_.frame_of(reason, error_code(reason), detail));
 }
 
 }  // namespace millforce::stm32_h405
