@@ -5,10 +5,11 @@
 namespace millforce::sim {
 
 MachineOnBus::MachineOnBus(const MachineOnBusSettings& settings) : settings_(settings) {
-    for (std::size_t place = 0; place < settings.rated_current_A.size(); ++place) {
+    for (const DriveOnBus& wired : settings.drives) {
         CanopenDriveSettings drive;
-        drive.node_id = static_cast<std::uint8_t>(place + 1);
-        drive.rated_current_A = settings.rated_current_A[place];
+        drive.node_id = wired.node_id;
+        drive.rated_current_A = wired.rated_current_A;
+        drive.rated_torque_Nm = wired.rated_torque_Nm;
         drive.heartbeat_ms = settings.heartbeat_ms;
         drives_.emplace_back(drive);
     }
@@ -19,14 +20,14 @@ void MachineOnBus::set(const hal::DriveSample& sample) {
     has_time_ = true;
     last_time_us_ = sample.time_us;
     if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0) {
-        drives_[0].set_current_A(static_cast<double>(sample.spindle_current_A));
+        set_current(0, sample.spindle_current_A);
     }
     if ((sample.present & hal::mask(hal::Present::spindle_count)) != 0) {
-        drives_[0].set_position(static_cast<std::int32_t>(sample.spindle_count));
+        drives_[0].set_position(count_of(sample.spindle_count));
     }
     if (sample.spindle_index_number != last_index_number_) {
         last_index_number_ = sample.spindle_index_number;
-        drives_[0].latch_index(static_cast<std::int32_t>(sample.spindle_index_count));
+        drives_[0].latch_index(count_of(sample.spindle_index_count));
     }
     for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
         if ((sample.present & hal::axis_mask(axis)) != 0) {
@@ -35,13 +36,25 @@ void MachineOnBus::set(const hal::DriveSample& sample) {
     }
 }
 
+std::int32_t MachineOnBus::count_of(std::uint32_t count) const {
+    return static_cast<std::int32_t>(settings_.drives[0].count_reversed ? 0U - count : count);
+}
+
+void MachineOnBus::set_current(std::size_t place, float current_A) {
+    const DriveOnBus& wired = settings_.drives[place];
+    const double drive_A = static_cast<double>(current_A) * wired.drive_A_per_A;
+    drives_[place].set_current_A(drive_A);
+    drives_[place].set_torque_Nm(drive_A * wired.torque_Nm_per_A);
+}
+
 void MachineOnBus::set_axis(std::size_t axis, const hal::DriveSample& sample, double elapsed_s) {
     const auto velocity_mm_s = static_cast<double>(sample.axis_velocity_mm_s[axis]);
     position_mm_[axis] += velocity_mm_s * elapsed_s;
     CanopenDrive& drive = drives_[1 + axis];
-    drive.set_current_A(static_cast<double>(sample.axis_current_A[axis]));
-    drive.set_velocity(static_cast<std::int32_t>(std::lround(velocity_mm_s / settings_.velocity_unit_mm_s)));
-    drive.set_position(static_cast<std::int32_t>(std::lround(position_mm_[axis] / settings_.position_unit_mm)));
+    const DriveOnBus& wired = settings_.drives[1 + axis];
+    set_current(1 + axis, sample.axis_current_A[axis]);
+    drive.set_velocity(static_cast<std::int32_t>(std::lround(velocity_mm_s / wired.velocity_unit_mm_s)));
+    drive.set_position(static_cast<std::int32_t>(std::lround(position_mm_[axis] / wired.position_unit_mm)));
 }
 
 void MachineOnBus::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {

@@ -10,11 +10,21 @@
 
 namespace millforce::sim {
 
-/// How the drives of a simulated machine are wired: nodes 1…4 are spindle, x, y, z.
-struct MachineOnBusSettings {
-    std::array<double, 1 + hal::axis_count> rated_current_A{12.0, 12.0, 12.0, 12.0};
+/// How one drive of a simulated machine is wired.
+struct DriveOnBus {
+    std::uint8_t node_id = 1;
+    double rated_current_A = 12.0;  ///< in the drive's own meaning, rms or peak
+    double drive_A_per_A = 1.0;     ///< what the drive calls current over A rms: √2 for peak, negative where reversed
+    double rated_torque_Nm = 8.0;
+    double torque_Nm_per_A = 0.0;       ///< over the drive's own ampere
     double velocity_unit_mm_s = 0.001;  ///< of 0x606C
     double position_unit_mm = 0.0001;   ///< of 0x6064
+    bool count_reversed = false;
+};
+
+/// Spindle, x, y, z.
+struct MachineOnBusSettings {
+    std::array<DriveOnBus, 1 + hal::axis_count> drives{DriveOnBus{1}, DriveOnBus{2}, DriveOnBus{3}, DriveOnBus{4}};
     std::uint16_t heartbeat_ms = 50;
 };
 
@@ -35,7 +45,9 @@ class MachineOnBus {
     [[nodiscard]] CanopenDrive& drive(std::size_t place) { return drives_.at(place); }
 
   private:
+    void set_current(std::size_t place, float current_A);
     void set_axis(std::size_t axis, const hal::DriveSample& sample, double elapsed_s);
+    [[nodiscard]] std::int32_t count_of(std::uint32_t count) const;
 
     MachineOnBusSettings settings_;
     std::vector<CanopenDrive> drives_;

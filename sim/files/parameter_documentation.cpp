@@ -25,6 +25,13 @@ std::string default_of(const firmware::ParameterRow<float>& row) {
                                   : fmt::format("{:g}", row.default_value);
 }
 
+std::string heading_of(const std::string& table) {
+    if (table == "axis") {
+        return "[x], [y], [z]";
+    }
+    return table == "bus.drive" ? "[bus.spindle], [bus.x], [bus.y], [bus.z]" : "[" + table + "]";
+}
+
 /// Writes the heading of a table where another one begins.
 class Headings {
   public:
@@ -36,7 +43,7 @@ class Headings {
         }
         table_ = table;
         text_ += fmt::format("\n### {}\n\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n",
-                             table_ == "axis" ? "[x], [y], [z]" : "[" + table_ + "]");
+                             heading_of(table_));
     }
 
   private:
@@ -57,6 +64,15 @@ void document_file(firmware::ParameterFile file, std::string& text) {
     }
 }
 
+void document_objects(std::string& text) {
+    text +=
+        "\n### Objects of [bus.spindle], [bus.x], [bus.y], [bus.z]\n\n| key | form | default | meaning "
+        "|\n|---|---|---|---|\n";
+    for (const auto& row : firmware::text_table) {
+        text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.key, row.form, row.default_text, row.sentence);
+    }
+}
+
 void document_information(std::string& text) {
     text +=
         "\n## Keys for information\n\nA calibration writes them for the reader of its file; the controller does not "
@@ -67,9 +83,8 @@ void document_information(std::string& text) {
     for (const auto& row : firmware::information_table) {
         const std::string_view table = row.table;
         const std::string range = row.choices != nullptr ? fmt::format(" ({})", joined_words(row.choices)) : "";
-        text +=
-            fmt::format("| {} | `{}` | {} | {}{} |\n", table == "axis" ? "[x], [y], [z]" : fmt::format("[{}]", table),
-                        row.key, row.unit, row.sentence, range);
+        text += fmt::format("| {} | `{}` | {} | {}{} |\n", heading_of(std::string(table)), row.key, row.unit,
+                            row.sentence, range);
     }
 }
 
@@ -81,6 +96,7 @@ std::string parameter_documentation() {
         "of "
         "either file.\n\n## machine.toml\n";
     document_file(firmware::ParameterFile::machine, text);
+    document_objects(text);
     text += "\n## tool.toml\n";
     document_file(firmware::ParameterFile::tool, text);
     document_information(text);

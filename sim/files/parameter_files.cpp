@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/bus_objects.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_choices.hpp"
 #include "files/toml_reader.hpp"
@@ -81,22 +82,37 @@ class TableReader {
                 });
             }
         }
+    }
+
+    /// After everything was read.
+    void reject_unknown_keys() const {
         for (const auto& [name, table] : tables_) {
             table.reject_unknown_keys();
         }
     }
 
+    /// "bus.x": the table [x] within [bus].
     TomlFile::Table& table(const std::string& name) {
         const auto found = tables_.find(name);
-        return found != tables_.end() ? found->second : tables_.emplace(name, root_.table(name)).first->second;
+        if (found != tables_.end()) {
+            return found->second;
+        }
+        const std::size_t dot = name.rfind('.');
+        TomlFile::Table& parent = dot == std::string::npos ? root_ : table(name.substr(0, dot));
+        return tables_.emplace(name, parent.table(name.substr(dot + 1))).first->second;
     }
 
   private:
     template <typename Row, typename Act>
     void for_each_table(const Row& row, Act act) {
-        const bool is_axis = std::string_view(row.table) == "axis";
-        for (std::size_t axis = 0; axis < (is_axis ? firmware::axis_tables.size() : 1); ++axis) {
-            act(axis, table(is_axis ? firmware::axis_tables[axis] : row.table));
+        const std::string_view name = row.table;
+        const std::vector<const char*> tables =
+            name == "axis" ? std::vector<const char*>(firmware::axis_tables.begin(), firmware::axis_tables.end())
+            : name == "bus.drive"
+                ? std::vector<const char*>(firmware::drive_tables.begin(), firmware::drive_tables.end())
+                : std::vector<const char*>{row.table};
+        for (std::size_t k = 0; k < tables.size(); ++k) {
+            act(k, table(tables[k]));
         }
     }
 
@@ -106,13 +122,22 @@ class TableReader {
     std::map<std::string, TomlFile::Table> tables_;
 };
 
-void read_file(ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
+BusObjects read_file(ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
     TomlFile toml = TomlFile::open(path);
     TomlFile::Table root = toml.root();
     root.text("name", "");  // free text: it belongs to the file, but to no algorithm
     root.text("description", "");
-    TableReader<float>(file, root, parameters).read();
+    TableReader<float> reader(file, root, parameters);
+    reader.read();
+    BusObjects objects;
+    if (file == ParameterFile::machine) {
+        for (std::size_t drive = 0; drive < objects.size(); ++drive) {
+            objects[drive] = read_drive_objects(reader.table(firmware::drive_tables[drive]));
+        }
+    }
+    reader.reject_unknown_keys();
     root.reject_unknown_keys();
+    return objects;
 }
 
 /// A limit of R_a without a prediction of it would hold the feed where contact found it, and tell nobody why.
@@ -143,6 +168,12 @@ firmware::MachineParameters<float> read_machine_parameters(const std::string& ma
     return parameters.machine;
 }
 
+std::optional<MachineBus> read_machine_bus(const std::string& machine_path) {
+    firmware::Parameters<float> parameters;
+    const BusObjects objects = read_file(ParameterFile::machine, machine_path, parameters);
+    return machine_bus(machine_path, parameters.machine, objects);
+}
+
 CuttingTable read_cutting_table(const std::string& tool_path) {
     TomlFile toml = TomlFile::open(tool_path);
     TomlFile::Table root = toml.root();
@@ -152,6 +183,7 @@ CuttingTable read_cutting_table(const std::string& tool_path) {
     firmware::Parameters<double> parameters;
     TableReader<double> reader(ParameterFile::tool, root, parameters);
     reader.read("cutting");
+    reader.reject_unknown_keys();
     CuttingTable result{parameters.tool.law, std::nullopt};
     if (TomlFile::Table& table = reader.table("cutting"); table.has("cut_side")) {
         result.side =

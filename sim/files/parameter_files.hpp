@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "files/machine_bus.hpp"
 #include "firmware/parameter_table.hpp"
 
 namespace millforce::sim {
@@ -15,6 +16,10 @@ firmware::Parameters<float> read_parameters(const std::string& machine_path, con
 
 /// Reads machine.toml alone, by the same rules.
 firmware::MachineParameters<float> read_machine_parameters(const std::string& machine_path);
+
+/// The [bus] of machine.toml; nothing where no drive has a node id. Throws InputError as above, and where the settings
+/// do not fit together.
+std::optional<MachineBus> read_machine_bus(const std::string& machine_path);
 
 /// The [cutting] table of a tool.toml, in full precision.
 struct CuttingTable {

@@ -121,6 +121,24 @@ std::string TomlFile::Table::text(const std::string& key, std::optional<std::str
     return node->as_string()->get();
 }
 
+std::vector<std::string> TomlFile::Table::texts(const std::string& key) {
+    const toml::node* node = find(key);
+    std::vector<std::string> texts;
+    if (node == nullptr) {
+        return texts;
+    }
+    if (!node->is_array()) {
+        fail(key, "expected an array of texts in quotes");
+    }
+    for (const toml::node& element : *node->as_array()) {
+        if (!element.is_string()) {
+            fail(key, fmt::format("element {} is {}, expected a text in quotes", texts.size() + 1, shown(element)));
+        }
+        texts.push_back(element.as_string()->get());
+    }
+    return texts;
+}
+
 bool TomlFile::Table::boolean(const std::string& key, bool fallback) {
     const toml::node* node = find(key);
     if (node == nullptr) {

@@ -25,6 +25,8 @@ class TomlFile {
         /// Number within [minimum, maximum]; `fallback` where the key is missing, an error where there is none.
         double number(const std::string& key, double minimum, double maximum, std::optional<double> fallback = {});
         std::string text(const std::string& key, std::optional<std::string> fallback = {});
+        /// An array of texts; empty where the key is missing.
+        std::vector<std::string> texts(const std::string& key);
         bool boolean(const std::string& key, bool fallback);
         /// One of the choices, as its index. Booleans count as the words false and true.
         std::size_t choice(const std::string& key, const std::vector<std::string>& choices,

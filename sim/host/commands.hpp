@@ -13,6 +13,7 @@ namespace millforce::sim {
 /// 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input (by throwing InputError).
 void add_simulate(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
+void add_run(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_estimate(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);

@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
     add_simulate(app, exit_code);
     add_ensemble(app, exit_code);
     add_replay(app, exit_code);
+    add_run(app, exit_code);
     add_calibrate(app, exit_code);
     add_estimate(app, exit_code);
     add_reproduce(app, exit_code);

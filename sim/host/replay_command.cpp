@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "control/cut_state.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
@@ -19,6 +18,8 @@
 #include "files/progress.hpp"
 #include "firmware/wide_band_settings.hpp"
 #include "host/commands.hpp"
+#include "host/estimate_rows.hpp"
+#include "host/replay_candump.hpp"
 #include "loop/override_source.hpp"
 #include "loop/recording.hpp"
 
@@ -33,56 +34,7 @@ struct ReplayOptions {
     std::string output;
     std::optional<double> programmed_feed_mm_min;
     double interval_s = 0.02;
-};
-
-constexpr std::string_view header =
-    "time_s,state,tangential_force_N,feed_force_N,radial_immersion,radial_immersion_sd,axial_depth_mm,"
-    "axial_depth_sd_mm,peak_force_N,force_limit_N,override";
-
-void write_row(std::ostream& out, double time_s, const TracePoint& p, float ratio) {
-    std::string line = CsvWriter::cell(time_s);
-    line += ',';
-    line += control::name(static_cast<control::CutState>(p.state));
-    for (const double estimate : {p.tangential_force_N, p.feed_force_N, p.radial_immersion, p.radial_immersion_sd,
-                                  p.axial_depth_mm, p.axial_depth_sd_mm, p.peak_force_N, p.force_limit_N}) {
-        line += ',';
-        line += CsvWriter::cell(static_cast<float>(estimate));
-    }
-    out << line << ',' << CsvWriter::cell(ratio);
-}
-
-/// The columns of the roughness, where the tool has a model of it: value, 95 % interval, and 1 within the range of the
-/// model's tests or 0 outside.
-class RoughnessCells {
-  public:
-    explicit RoughnessCells(const estimation::RoughnessModel<float>& model)
-        : is_there_(model.constant_um > 0.0F), name_(model.measure < 0.5F ? "Ra" : "Rz") {}
-
-    void write_header(std::ostream& out) const {
-        out << (is_there_ ? fmt::format(",{0}_um,{0}_low_um,{0}_high_um,{0}_in_range", name_) : std::string());
-    }
-    void write(std::ostream& out, const estimation::RoughnessPrediction<float>& roughness) {
-        if (!is_there_) {
-            return;
-        }
-        const auto cell = [](bool is_known, float value) { return is_known ? CsvWriter::cell(value) : std::string(); };
-        out << ',' << cell(roughness.valid, roughness.roughness_um) << ','
-            << cell(roughness.has_interval, roughness.low_um) << ',' << cell(roughness.has_interval, roughness.high_um)
-            << ',' << (roughness.valid ? (roughness.in_range() ? "1" : "0") : "");
-        predicted_ += roughness.valid ? 1U : 0U;
-        outside_ += roughness.valid && !roughness.in_range() ? 1U : 0U;
-    }
-    [[nodiscard]] std::string summary() const {
-        return is_there_ ? fmt::format("{}: {} rows with a prediction, {} of them outside the fitted range\n", name_,
-                                       predicted_, outside_)
-                         : std::string();
-    }
-
-  private:
-    bool is_there_;
-    std::string name_;
-    std::size_t predicted_ = 0;
-    std::size_t outside_ = 0;
+    std::string interface;
 };
 
 /// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
@@ -178,7 +130,7 @@ hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOpti
 
 /// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
 /// come out.
-int replay(const ReplayOptions& options) {
+int replay_table(const ReplayOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     RecordingReader recording(options.log, static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
     MillforceController controller(parameters);
@@ -191,7 +143,7 @@ int replay(const ReplayOptions& options) {
     std::ostream& out = file ? file->stream() : held_back;
     RoughnessCells roughness(parameters.tool.roughness);
     WideBandCells wide_band(recording.has_force_sensor(), parameters);
-    out << header;
+    out << estimate_header;
     roughness.write_header(out);
     wide_band.write_header(out);
     out << '\n';
@@ -204,7 +156,7 @@ int replay(const ReplayOptions& options) {
         if (recording.time_s() >= next_row_s) {
             TracePoint point;
             controller.describe(point);
-            write_row(out, recording.time_s(), point, output.ratio);
+            write_estimate_row(out, recording.time_s(), point, output.ratio);
             roughness.write(out, controller.roughness());
             wide_band.write(out, controller.wide_band());
             out << '\n';
@@ -229,6 +181,18 @@ int replay(const ReplayOptions& options) {
     return 0;
 }
 
+int replay(const ReplayOptions& options) {
+    if (!is_candump_log(options.log)) {
+        return replay_table(options);
+    }
+    if (options.programmed_feed_mm_min) {
+        throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
+                                     options.log));
+    }
+    return replay_candump(
+        {options.log, options.machine, options.tool, options.output, options.interface, options.interval_s});
+}
+
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
@@ -243,8 +207,10 @@ void add_replay(CLI::App& app, int& exit_code) {
         "With a force sensor (fx_N, fy_N on the workpiece, in the machine's axes; currents may be missing) it adds "
         "the\n"
         "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
-        "[force_sensor], [force_drop] and [depth_shape].");
-    command->add_option("log", options->log, "Recording")->required()->type_name("LOG.csv");
+        "[force_sensor], [force_drop] and [depth_shape].\n"
+        "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables.\n"
+        "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for digit.");
+    command->add_option("log", options->log, "Recording: CSV, or a candump log")->required()->type_name("LOG");
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
     command->add_option("-o,--output", options->output, "Estimates; default: standard output")->type_name("OUT.csv");
@@ -255,6 +221,8 @@ void add_replay(CLI::App& app, int& exit_code) {
     command->add_option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
         ->check(number_from(0.0, 1e6))
         ->capture_default_str();
+    command->add_option("--interface", options->interface, "Of a candump log with several: the one to replay")
+        ->type_name("IFACE");
     command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

@@ -10,9 +10,14 @@
 #include <numbers>
 #include <optional>
 
+#include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"
 #include "host/results_folder.hpp"
+#include "live/plant_on_can.hpp"
+#include "live/plant_wiring.hpp"
+#include "live/service.hpp"
 #include "loop/bounds.hpp"
 #include "loop/recording.hpp"
 #include "loop/simulation.hpp"
@@ -33,6 +38,7 @@ struct SimulateOptions {
     std::optional<double> friction_scale;
     std::optional<double> current_noise_share;
     double hardest = hardest_material;
+    std::string interface;
 };
 
 constexpr const char* baseline = "constant";
@@ -92,16 +98,15 @@ SimulationSettings settings_with(Progress& progress) {
 }
 
 /// Runs the scenario; with a name for it, every step at the controller's border goes into a recording.
-RunResult run(const Scenario& scenario, const std::string& name, double constant_ratio,
+RunResult run(const Scenario& scenario, const std::string& name, OverrideSource& controller,
               const std::optional<std::filesystem::path>& recording) {
     Progress progress(fmt::format("simulating {}", name), 1);
-    const auto controller = controller_named(name, scenario, constant_ratio);
     if (!recording) {
-        return simulate(scenario, *controller, name, settings_with(progress)).result;
+        return simulate(scenario, controller, name, settings_with(progress)).result;
     }
     RecordingWriter writer(*recording, scenario.machine.encoder_counts_per_rev,
                            scenario.machine.force_sensor.is_there());
-    Recorder recorder(*controller, [&](const RecordedStep& step) { writer.add(step); });
+    Recorder recorder(controller, [&](const RecordedStep& step) { writer.add(step); });
     Simulated simulated = simulate(scenario, recorder, name, settings_with(progress));
     writer.commit();
     return std::move(simulated.result);
@@ -120,17 +125,43 @@ void print_broken_bound(const RunFigures& figures) {
                figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
 }
 
+/// The controller is another process, behind the bus.
+std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const Scenario& scenario) {
+    const auto bus = read_machine_bus(scenario.machine_file);
+    if (!bus) {
+        throw InputError(
+            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … for --bus",
+                        scenario.machine_file));
+    }
+    PlantOnCanSettings settings;
+    if (!settings.interface.set_interface(interface)) {
+        throw InputError(
+            fmt::format("--bus: '{}', expected a CAN interface of at most 15 characters, e.g. vcan0", interface));
+    }
+    settings.machine = drives_on_bus(scenario, *bus);
+    settings.cnc = cnc_on_bus(scenario, *bus);
+    settings.sync_id = bus->drives.sync_id;
+    return std::make_unique<PlantOnCan>(settings);
+}
+
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
     const std::filesystem::path out = results_folder(options.out, "summary.json");
     const auto recording = options.record ? std::optional(out / "recording.csv") : std::nullopt;
     const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;
-    if (!is_baseline) {
-        results.push_back(run(scenario, options.controller, 0.0, recording));
+    if (!options.interface.empty()) {
+        const auto controller = controller_behind(options.interface, scenario);
+        become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        results.push_back(run(scenario, "millforce", *controller, recording));
+        leave_real_time();
+    } else if (!is_baseline) {
+        results.push_back(
+            run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
     }
     const double ratio = safe_override_of(scenario, options.hardest);
-    results.push_back(run(scenario, baseline, ratio, is_baseline ? recording : std::nullopt));
+    results.push_back(
+        run(scenario, baseline, *controller_named(baseline, scenario, ratio), is_baseline ? recording : std::nullopt));
     const ScenarioInfo info = info_of(scenario, ratio);
     fmt::print("{}", summary_table(info, results));
     write_report(out, info, results);
@@ -176,6 +207,11 @@ void add_simulate(CLI::App& app, int& exit_code) {
                      "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
         ->check(number_from(1.0, 10.0))
         ->capture_default_str();
+    command
+        ->add_option("--bus", options->interface,
+                     "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
+        ->type_name("IFACE")
+        ->excludes("--controller");
     command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
 }
 

@@ -26,19 +26,19 @@ hal::FeedOverride MillforceController::step(const hal::DriveSample& sample, cons
     return output;
 }
 
-void MillforceController::describe(TracePoint& point) const {
-    const estimation::CutEstimate<float>& e = tick_.estimate();
+void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& point) {
+    const estimation::CutEstimate<float>& e = tick.estimate();
     const bool in_contact =
-        tick_.control().state != control::CutState::air && tick_.control().state != control::CutState::exit;
-    point.state = static_cast<std::uint8_t>(tick_.control().state);
-    point.limit = static_cast<std::uint8_t>(tick_.control().limit);
-    point.fault = static_cast<std::uint8_t>(tick_.control().fault);
+        tick.control().state != control::CutState::air && tick.control().state != control::CutState::exit;
+    point.state = static_cast<std::uint8_t>(tick.control().state);
+    point.limit = static_cast<std::uint8_t>(tick.control().limit);
+    point.fault = static_cast<std::uint8_t>(tick.control().fault);
     point.tangential_force_N = value_or_none(e.tangential_N);
     point.feed_force_N = value_or_none(e.feed_N);
     if (!in_contact) {
         return;
     }
-    const estimation::EngagementEstimate<float> engagement = tick_.engagement();
+    const estimation::EngagementEstimate<float> engagement = tick.engagement();
     if (engagement.immersion_valid) {
         point.radial_immersion = static_cast<double>(engagement.radial_immersion);
         point.radial_immersion_sd = static_cast<double>(engagement.radial_immersion_sd);
@@ -49,7 +49,7 @@ void MillforceController::describe(TracePoint& point) const {
     }
     point.tooth_force_N = value_or_none(e.tooth_force_N);
     if (e.tooth_force_N.valid) {
-        const auto total = tick_.estimator().total_force();
+        const auto total = tick.estimator().total_force();
         point.peak_force_N = static_cast<double>(total.peak_N);
         point.force_limit_N = static_cast<double>(total.limit_N);
     }

@@ -19,14 +19,26 @@ class OverrideSource {
     virtual hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) = 0;
     /// Writes the estimates of this moment into a trace point.
     virtual void describe(TracePoint& point) const = 0;
+
+    /// Before it is, the spindle turns and the program waits.
+    [[nodiscard]] virtual bool is_ready() const { return true; }
+    /// How the plant is to step until the next sample: as usual, but where a bus sets the time.
+    struct PlantSteps {
+        int count = 0;
+        double step_s = 0.0;
+    };
+    [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
+
+/// The estimates of a tick at this moment.
+void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& point);
 
 /// The real tick, the same class that runs on a drive controller.
 class MillforceController : public OverrideSource {
   public:
     explicit MillforceController(const firmware::Parameters<float>& parameters) : tick_(parameters) {}
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
-    void describe(TracePoint& point) const override;
+    void describe(TracePoint& point) const override { describe_tick(tick_, point); }
     [[nodiscard]] const estimation::CutEstimate<float>& estimate() const { return tick_.estimate(); }
     [[nodiscard]] const estimation::RoughnessPrediction<float>& roughness() const { return tick_.roughness(); }
     [[nodiscard]] const firmware::WideBandEstimate<float>& wide_band() const { return tick_.wide_band(); }

@@ -126,16 +126,19 @@ class Loop {
           judge_(scenario_) {
         machine_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
-        steps_per_sample_ = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+        usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+        usual_.step_s = settings.plant_step_s;
+        steps_ = usual_;
     }
 
     Simulated run(const std::string& name) {
         const auto started = std::chrono::steady_clock::now();
         Simulated simulated;
         double next_report_s = 1.0;
+        wait_for_the_controller();
         while (!cnc_.finished() && machine_.time_s() < settings_.longest_run_s && !judge_.fault_stopped()) {
             step_plant();
-            if (++steps_ % steps_per_sample_ == 0) {
+            if (--steps_.count <= 0) {
                 sample();
             }
             if (settings_.progress && machine_.time_s() > next_report_s) {
@@ -153,8 +156,20 @@ class Loop {
     }
 
   private:
+    /// Spindle on, axes standing.
+    void wait_for_the_controller() {
+        const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
+        while (!controller_.is_ready()) {
+            machine_.advance(steps_.step_s, standing, {});
+            if (--steps_.count <= 0) {
+                override_ = controller_.step(machine_.sample(), program_status());
+                steps_ = controller_.plant_steps(usual_);
+            }
+        }
+    }
+
     void step_plant() {
-        const double dt_s = settings_.plant_step_s;
+        const double dt_s = steps_.step_s;
         cnc_.step(static_cast<double>(override_.ratio), override_.hold);
         const Eigen::Vector3d direction = cnc_.direction();
         machine_.advance(dt_s, {cnc_.position_mm(), direction * cnc_.feed_mm_s(), cnc_.spindle_speed_rad_s()}, load_);
@@ -186,7 +201,7 @@ class Loop {
         }
         const double feed_per_tooth =
             history_.feed_per_tooth_mm(2.0 * std::numbers::pi / static_cast<double>(scenario_.cutter.teeth));
-        const double turned_rad = speed * settings_.plant_step_s;
+        const double turned_rad = speed * steps_.step_s;
         const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
         for (int k = 0; k < points; ++k) {
             const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
@@ -209,12 +224,16 @@ class Loop {
         load_.spindle_torque_Nm = cutting_load_.spindle_torque_Nm;
     }
 
-    void sample() {
-        const hal::DriveSample drives = machine_.sample();
+    [[nodiscard]] hal::ProgramStatus program_status() const {
         hal::ProgramStatus program;
         program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
         program.rapid = cnc_.is_rapid();
-        override_ = controller_.step(drives, program);
+        return program;
+    }
+
+    void sample() {
+        override_ = controller_.step(machine_.sample(), program_status());
+        steps_ = controller_.plant_steps(usual_);
         judge_.follow(machine_.time_s(), override_, controller_, settings_.trace_interval_s);
     }
 
@@ -232,8 +251,8 @@ class Loop {
     hal::FeedOverride override_{};
     double path_mm_ = 0.0;
     double peak_total_N_ = 0.0;
-    int steps_per_sample_ = 4;
-    long steps_ = 0;
+    OverrideSource::PlantSteps usual_{};
+    OverrideSource::PlantSteps steps_{};  ///< left until the next sample
 };
 
 }  // namespace

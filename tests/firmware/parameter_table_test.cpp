@@ -30,6 +30,9 @@ TEST(ParameterTable, names_no_key_of_a_table_twice_for_information_neither) {
     for (const auto& row : table) {
         CHECK_TEXT(keys.insert({row.file, row.table, row.key}).second, row.key);
     }
+    for (const auto& row : text_table) {
+        CHECK_TEXT(keys.insert({row.file, row.table, row.key}).second, row.key);
+    }
     for (const auto& row : information_table) {
         CHECK_TEXT(keys.insert({row.file, row.table, row.key}).second, row.key);
     }
@@ -45,7 +48,8 @@ TEST(ParameterTable, gives_every_key_a_field_of_its_own) {
     Parameters<float> parameters;
     std::set<const float*> fields;
     for (const auto& row : table) {
-        const std::size_t axes = std::string(row.table) == "axis" ? 3 : 1;
+        const std::string name = row.table;
+        const std::size_t axes = name == "axis" ? 3 : name == "bus.drive" ? 4 : 1;
         for (std::size_t axis = 0; axis < axes; ++axis) {
             CHECK_TEXT(fields.insert(&row.field(parameters, axis)).second, row.key);
         }

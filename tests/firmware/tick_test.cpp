@@ -85,6 +85,24 @@ TEST(Tick, finds_the_cut_in_the_drives_signals) {
     DOUBLES_EQUAL(250.0, static_cast<double>(tick.estimate().tangential_N.value), 12.5);
 }
 
+TEST(Tick, in_small_portions_finds_the_same_cut) {
+    Parameters small = machine_and_tool();
+    small.machine.cnc.solver_values_per_tick = 6.0F;
+    ForceControlTick<float> at_once(machine_and_tool());
+    ForceControlTick<float> in_portions(small);
+    for (int k = 0; k < 1500; ++k) {
+        at_once.step(sample_of(k), program());
+        in_portions.step(sample_of(k), program());
+    }
+    CHECK(in_portions.control().state == CutState::in_cut);
+    const auto& a = at_once.estimate();
+    const auto& b = in_portions.estimate();
+    CHECK(a.engagement.immersion_valid && b.engagement.immersion_valid);
+    DOUBLES_EQUAL(static_cast<double>(a.engagement.radial_immersion),
+                  static_cast<double>(b.engagement.radial_immersion), 0.03);
+    DOUBLES_EQUAL(1.0, static_cast<double>(b.tooth_force_N.value / a.tooth_force_N.value), 0.03);
+}
+
 TEST(Tick, counts_its_heartbeat_up_by_one_with_and_without_a_sample) {
     ForceControlTick<float> tick(machine_and_tool());
     std::uint32_t expected = 0;

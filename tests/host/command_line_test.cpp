@@ -19,6 +19,7 @@ const std::vector<std::vector<std::string>> commands{{},
                                                      {"calibrate", "cutting"},
                                                      {"estimate"},
                                                      {"reproduce"},
+                                                     {"run"},
                                                      {"cut-table"},
                                                      {"bench"},
                                                      {"parameters"}};

@@ -3,7 +3,7 @@
 # do; `= delete` and includes are no use of the word. `double` is forbidden, a literal like 0.5L is not.
 cmake_minimum_required(VERSION 3.25)
 
-set(CORE_FOLDERS hal estimation control firmware/include firmware/src drivers)
+set(CORE_FOLDERS hal estimation control firmware/include firmware/src firmware/can drivers)
 set(FORBIDDEN_WORDS
     new delete malloc calloc realloc free alloca throw try catch dynamic_cast typeid double goto
     std::vector std::string std::map std::unordered_map std::set std::list std::deque std::function

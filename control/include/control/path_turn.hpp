@@ -9,7 +9,7 @@
 ///  - the axes slow down to less than 60 % of what override and program ask for: a CNC brakes before a corner, and so
 ///    tells of it before it comes. (A twentieth of F is left for its lag behind a rising override.)
 /// Teeth that pass more slowly than a drive's velocity loop settles (15 ms) shake the axes, each of them: the velocities are
-/// averaged over what their period has beyond that.
+/// averaged over twice what their period has beyond that.
 /// Speeds in mm/s, of any sign; below 0.5 mm/s there is no direction. Some thirty operations. Not thread-safe.
 
 namespace millforce::control {
@@ -43,7 +43,7 @@ class PathTurn {
 
     Motion smoothed(const Motion& m) {
         constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
-        const Scalar over_s = m.tooth_period_s - settling_s;
+        const Scalar over_s = Scalar(2) * (m.tooth_period_s - settling_s);
         const Scalar share = over_s > m.dt_s ? m.dt_s / over_s : Scalar(1);
         follow(smooth_.velocity_x_mm_s, m.velocity_x_mm_s, share);
         follow(smooth_.velocity_y_mm_s, m.velocity_y_mm_s, share);

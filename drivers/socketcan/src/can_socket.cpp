@@ -60,6 +60,7 @@ CanSocket::CanSocket(const CanSocketSettings& settings) : settings_(settings) { 
 CanSocket::~CanSocket() { close(); }
 
 void CanSocket::poll(std::uint64_t now_us) {
+    polled_us_ = now_us;
     if (now_us < next_look_us_) {
         return;
     }
@@ -95,7 +96,7 @@ bool CanSocket::configure() const {
     }
     return set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, on) &&
            set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, on) &&
-           set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, off) &&
+           set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, settings_.receive_own ? on : off) &&
            set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, all_errors) && set_filters();
 }
 
@@ -166,8 +167,16 @@ void CanSocket::on_failure(int error) {
 }
 
 bool CanSocket::receive(hal::CanFrame& frame, std::uint64_t& time_us) {
+    ReceivedFrame received;
+    const bool is_there = receive(received);
+    frame = received.frame;
+    time_us = received.time_us;
+    return is_there;
+}
+
+bool CanSocket::receive(ReceivedFrame& received) {
     for (int skipped = 0; is_open() && skipped < most_skipped_per_call; ++skipped) {
-        const Fetched fetched = fetch(frame, time_us);
+        const Fetched fetched = fetch(received);
         if (fetched != Fetched::skipped) {
             return fetched == Fetched::frame;
         }
@@ -175,7 +184,7 @@ bool CanSocket::receive(hal::CanFrame& frame, std::uint64_t& time_us) {
     return false;
 }
 
-CanSocket::Fetched CanSocket::fetch(hal::CanFrame& frame, std::uint64_t& time_us) {
+CanSocket::Fetched CanSocket::fetch(ReceivedFrame& received) {
     canfd_frame raw{};
     iovec place{&raw, sizeof raw};
     alignas(cmsghdr) std::array<char, 128> control{};
@@ -208,8 +217,10 @@ CanSocket::Fetched CanSocket::fetch(hal::CanFrame& frame, std::uint64_t& time_us
         take_error_frame(raw.can_id, std::span(raw.data).first(raw.len));
         return Fetched::skipped;
     }
-    copy_frame(raw, frame);
-    time_us = beside.has_time ? monotonic_from(beside.time) : monotonic_us();
+    copy_frame(raw, received.frame);
+    received.time_us = beside.has_time ? clock_.monotonic_from(beside.time, polled_us_) : monotonic_us();
+    // Set by the kernel on what came from this very socket.
+    received.is_own = (message.msg_flags & MSG_CONFIRM) != 0;
     ++health_.received;
     return Fetched::frame;
 }

@@ -9,6 +9,8 @@ namespace millforce::socketcan {
 namespace {
 
 constexpr std::int64_t longest_age_us = 1'000'000;
+constexpr int offset_tries = 100;
+constexpr std::int64_t good_gap_us = 10;
 
 std::int64_t microseconds(const timespec& time) {
     return static_cast<std::int64_t>(time.tv_sec) * 1'000'000 + time.tv_nsec / 1000;
@@ -41,11 +43,40 @@ ReceiveControl receive_control(msghdr& message) {
     return control;
 }
 
-std::uint64_t monotonic_from(const timespec& realtime) {
-    const std::int64_t age_us = microseconds(now(CLOCK_REALTIME)) - microseconds(realtime);
-    const std::uint64_t now_us = monotonic_us();
-    const bool is_plausible = age_us >= 0 && age_us <= longest_age_us && static_cast<std::uint64_t>(age_us) <= now_us;
-    return is_plausible ? now_us - static_cast<std::uint64_t>(age_us) : now_us;
+/// Between two readings another process may run: of several tries the one with the shortest gap counts.
+void StampClock::measure() {
+    std::int64_t shortest_us = INT64_MAX;
+    for (int k = 0; k < offset_tries && shortest_us > good_gap_us; ++k) {
+        const std::int64_t before_us = microseconds(now(CLOCK_MONOTONIC));
+        const std::int64_t real_us = microseconds(now(CLOCK_REALTIME));
+        const std::int64_t gap_us = microseconds(now(CLOCK_MONOTONIC)) - before_us;
+        if (gap_us < shortest_us) {
+            shortest_us = gap_us;
+            offset_us_ = real_us - before_us - gap_us / 2;
+        }
+    }
+    has_offset_ = true;
+}
+
+std::int64_t StampClock::unix_offset_us() {
+    if (!has_offset_) {
+        measure();
+    }
+    return offset_us_;
+}
+
+std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t now_us) {
+    const auto near_us = static_cast<std::int64_t>(now_us);
+    const auto is_plausible = [&](std::int64_t time_us) {
+        return time_us > 0 && time_us <= near_us + longest_age_us && time_us >= near_us - longest_age_us;
+    };
+    std::int64_t time_us = microseconds(stamp) - unix_offset_us();
+    if (!is_plausible(time_us)) {
+        measure();
+        time_us = microseconds(stamp) - offset_us_;
+    }
+    const bool is_past = time_us > 0 && time_us <= near_us + longest_age_us;
+    return is_past ? static_cast<std::uint64_t>(time_us) : now_us;
 }
 
 }  // namespace millforce::socketcan

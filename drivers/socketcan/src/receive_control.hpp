@@ -16,7 +16,4 @@ struct ReceiveControl {
 };
 [[nodiscard]] ReceiveControl receive_control(msghdr& message);
 
-/// On CLOCK_MONOTONIC. A time that is not within the last second (the clock was set meanwhile) counts as now.
-[[nodiscard]] std::uint64_t monotonic_from(const timespec& realtime);
-
 }  // namespace millforce::socketcan

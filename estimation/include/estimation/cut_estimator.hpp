@@ -34,6 +34,7 @@ struct CutEstimatorSettings {
     Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
     Scalar min_samples{12};
+    int solver_values_per_step{0};   ///< of J in one add(); 0: all at once (see add())
     std::uint32_t encoder_counts_per_rev = 4096;
 };
 
@@ -96,12 +97,21 @@ class CutEstimator {
         solver.centre_offset_in_radii = settings.centre_offset_in_radii;
         solver.law_relative_sd = settings.law_relative_sd;
         solver.declared_depth_mm = settings.declared_depth_mm;
-        solver_ = EngagementSolver<Scalar>(law, solver);
+        solver_ = EngagementSolver<Scalar>(law, solver, settings.side);
+        surge_ = place_of(settings.surge_immersion);
+        turn_ = place_of(settings.turn_immersion);
+        slot_ = place_of(Scalar(2));
+        last_ = place_of(settings.assumed_immersion);
         down_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::down : settings.side));
         up_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::up : settings.side));
     }
 
-    /// Adds one sample. Returns true when a tooth period ended and estimate() is new.
+    /// Adds one sample. Returns true when estimate() is new: a tooth period ended.
+    ///
+    /// With solver_values_per_step each call does one piece of work at most, so that none is long: the forces at the end of
+    /// a tooth period, the peaks with the engagement that is known then (the estimate is new), some values of the solver,
+    /// and the peaks anew when it is done. The solver is then taken up once a revolution, or as soon as the forces have
+    /// left those that it was given last.
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
              const DriveSignals<Scalar>& signals) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
@@ -114,12 +124,13 @@ class CutEstimator {
         }
         const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, packed(signals), signals.present);
         if (completed == 0) {
-            return false;
+            return work_on();
         }
         since_period_s_ = Scalar(0);
         predict_drifts();
+        const bool was_waiting = peaks_due_;
         update();
-        return true;
+        return was_waiting ? work_on() : !peaks_due_;
     }
 
     /// An immersion that another method tells of the present cut, for the estimates to come; not valid: none.
@@ -130,6 +141,9 @@ class CutEstimator {
         encoder_.reset();
         average_.restart();
         estimate_ = {};
+        engagement_ = {};
+        search_ = {};
+        peaks_due_ = false;
     }
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
@@ -172,8 +186,8 @@ class CutEstimator {
         Scalar limit_N{0};
     };
     [[nodiscard]] TotalForce total_force() const {
-        const Scalar immersion = shown_immersion();
-        const PeakFactors<Scalar> factors = peak_factors(law_, peak_settings(last_side_), immersion, shown_depth_mm());
+        const PeakFactors<Scalar> factors =
+            peak_factors(law_, peak_settings(last_side_), last_.radial_immersion, shown_depth_mm());
         const Scalar peak_per_tooth = factors.threshold_factor();
         return {estimate_.worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
     }
@@ -202,8 +216,19 @@ class CutEstimator {
         return peak;
     }
 
-    [[nodiscard]] Scalar tooth_factor(CutSide side, Scalar immersion, Scalar depth_mm) const {
-        return side == CutSide::up ? up_table_.at(immersion, depth_mm) : down_table_.at(immersion, depth_mm);
+    /// A cut's width, as immersion and as the angle that goes with it.
+    struct Place {
+        Scalar theta_rad{0};
+        Scalar radial_immersion{0};
+    };
+    [[nodiscard]] static Place place_of(Scalar radial_immersion) {
+        using elementary::acos;
+        return {acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion};
+    }
+
+    [[nodiscard]] Scalar tooth_factor(CutSide side, const Place& cut, Scalar depth_mm) const {
+        const ToothPeakTable<Scalar>& table = side == CutSide::up ? up_table_ : down_table_;
+        return table.at_angle(cut.theta_rad, cut.radial_immersion, depth_mm);
     }
 
     [[nodiscard]] static Signals packed(const DriveSignals<Scalar>& signals) {
@@ -259,8 +284,22 @@ class CutEstimator {
         estimate_.y_N = axes_[1].force_N(axis_average(window_, 1));
         estimate_.z_N = axes_[2].force_N(axis_average(window_, 2));
         estimate_feed();
-        solve_engagement();
-        estimate_peaks();
+        take_up_engagement();
+    }
+
+    /// The next piece of work. True where the estimate is new by it.
+    bool work_on() {
+        if (peaks_due_) {
+            peaks_due_ = false;
+            estimate_.engagement = engagement_;
+            estimate_peaks();
+            return true;
+        }
+        if (!search_.done() && solver_.advance(search_, settings_.solver_values_per_step)) {
+            take_engagement(search_.estimate());
+            peaks_due_ = true;
+        }
+        return false;
     }
 
     void estimate_feed() {
@@ -288,7 +327,7 @@ class CutEstimator {
         }
     }
 
-    void solve_engagement() {
+    void take_up_engagement() {
         AverageForceMeasurement<Scalar> forces;
         forces.tangential_N = estimate_.tangential_N;
         forces.x_N = estimate_.x_N;
@@ -301,21 +340,30 @@ class CutEstimator {
         AverageForceMeasurement<Scalar> blended =
             memory_.blend(forces, estimate_.feed_mm_s, last_exponent_, is_new_revolution);
         blended.radial_immersion = told_immersion_;
-        estimate_.engagement = solver_.solve(blended, estimate_.feed_per_tooth_mm, settings_.side);
-        if (estimate_.engagement.immersion_valid) {
-            last_immersion_ = estimate_.engagement.radial_immersion;
-            last_side_ = estimate_.engagement.side;
-            last_depth_mm_ = estimate_.engagement.depth_valid ? estimate_.engagement.axial_depth_mm : last_depth_mm_;
+        peaks_due_ = true;
+        if (settings_.solver_values_per_step <= 0) {
+            take_engagement(solver_.solve(blended, estimate_.feed_per_tooth_mm, settings_.side));
+            work_on();
+            return;
+        }
+        const bool has_changed = !(memory_.revolutions() > Scalar(1));
+        if (search_.done() && (is_new_revolution || has_changed)) {
+            solver_.begin(search_, blended, estimate_.feed_per_tooth_mm, settings_.side);
+            if (search_.done()) {
+                take_engagement(search_.estimate());
+            }
         }
     }
 
-    /// The immersion that peaks are worked out with: the estimate, else the last one, else the assumed one.
-    [[nodiscard]] Scalar shown_immersion() const {
-        if (estimate_.engagement.immersion_valid) {
-            return estimate_.engagement.radial_immersion;
+    void take_engagement(const EngagementEstimate<Scalar>& found) {
+        engagement_ = found;
+        if (found.immersion_valid) {
+            last_ = {found.engagement_rad, found.radial_immersion};
+            last_side_ = found.side;
+            last_depth_mm_ = found.depth_valid ? found.axial_depth_mm : last_depth_mm_;
         }
-        return last_immersion_ > Scalar(0) ? last_immersion_ : settings_.assumed_immersion;
     }
+
     [[nodiscard]] Scalar shown_depth_mm() const {
         const EngagementEstimate<Scalar>& e = estimate_.engagement;
         if (e.immersion_valid && e.axial_depth_mm > Scalar(0)) {
@@ -324,71 +372,84 @@ class CutEstimator {
         return last_depth_mm_ > Scalar(0) ? last_depth_mm_ : settings_.largest_depth_mm;
     }
 
+    /// The peaks are worked out with the immersion that is known, else the last one, else the assumed one.
     void estimate_peaks() {
         using std::sqrt;
-        const EngagementEstimate<Scalar>& e = estimate_.engagement;
-        const Scalar immersion = shown_immersion();
-        const Scalar depth = shown_depth_mm();
-        const Scalar factor = tooth_factor(last_side_, immersion, depth);
-        const auto model = solver_.forces_per_mm(last_side_, immersion, estimate_.feed_per_tooth_mm);
-        const Scalar cutting_share = model.mean.tangential_N > Scalar(0)
-                                         ? model.per_ln_K_s.tangential_N / model.mean.tangential_N
-                                         : Scalar(1);
-        estimate_.cutting_share = cutting_share;
+        const Scalar depth_mm = shown_depth_mm();
+        const Scalar factor = tooth_factor(last_side_, last_, depth_mm);
+        const auto& table = solver_.table(last_side_);
+        const auto feed = table.feed(estimate_.feed_per_tooth_mm);
+        const auto model = table.at(last_.theta_rad, feed);
+        const bool has_model = model.tangential_N > Scalar(0) && estimate_.feed_per_tooth_mm > Scalar(0);
+        estimate_.cutting_share = has_model ? model.cutting_tangential_N / model.tangential_N : Scalar(1);
         estimate_.feed_exponent = Scalar(1) + law_.p_s;
-        last_exponent_ = estimate_.feed_exponent * cutting_share;
-        const Measurement<Scalar>& window = estimate_.tangential_N;
-        if (!window.valid) {
+        last_exponent_ = estimate_.feed_exponent * estimate_.cutting_share;
+        if (!estimate_.tangential_N.valid) {
             return;
         }
+        const Scalar newest_N = follow_growth();
+        if (has_model) {
+            const Scalar width_per_F_mm_N = last_.radial_immersion * settings_.cutter_radius_mm / model.tangential_N;
+            estimate_.section_mm2 = estimate_.tangential_N.value * width_per_F_mm_N;
+            estimate_.section_noise_mm2 = sqrt(estimate_.tangential_N.noise) * width_per_F_mm_N;
+        }
+        estimate_tooth_force(newest_N, factor, depth_mm, has_model ? table.ln_K_s_variance(model) : Scalar(0));
+        if (has_model) {
+            const Scalar now_N = model.tangential_N * factor;
+            estimate_.surge = change_to(surge_, table.at(surge_.theta_rad, feed), depth_mm, now_N);
+            estimate_.turn = change_to(turn_, table.at(turn_.theta_rad, feed), depth_mm, now_N);
+        }
+    }
+
+    /// F_at of the window, or of the last tooth where that is clearly higher; and how fast it grows then.
+    Scalar follow_growth() {
+        using std::sqrt;
+        const Measurement<Scalar>& window = estimate_.tangential_N;
         const Measurement<Scalar>& tooth = estimate_.tooth_tangential_N;
         const bool has_risen = tooth.valid && tooth.value - window.value > Scalar(2) * sqrt(tooth.variance);
-        const Scalar newest = has_risen ? tooth.value : window.value;
-        estimate_.newest_tangential_N = newest;
+        estimate_.newest_tangential_N = has_risen ? tooth.value : window.value;
         const Scalar half_window_s = Scalar(0.5F) * window_.duration_s;
         if (has_risen && half_window_s > Scalar(0)) {
             // The window's middle is half a window old, the last tooth's nearly now.
             estimate_.tangential_growth_N_per_s = (tooth.value - window.value) / half_window_s;
         }
-        if (model.mean.tangential_N > Scalar(0)) {
-            const Scalar width_per_F_mm_N = immersion * settings_.cutter_radius_mm / model.mean.tangential_N;
-            estimate_.section_mm2 = window.value * width_per_F_mm_N;
-            estimate_.section_noise_mm2 = sqrt(window.noise) * width_per_F_mm_N;
-        }
+        return estimate_.newest_tangential_N;
+    }
+
+    void estimate_tooth_force(Scalar newest_N, Scalar factor, Scalar depth_mm, Scalar ln_K_s_variance) {
+        using std::sqrt;
+        const EngagementEstimate<Scalar>& e = estimate_.engagement;
+        const Measurement<Scalar>& window = estimate_.tangential_N;
         const Scalar runout = runout_factor();
-        estimate_.worst_tooth_force_N = newest * factor * runout;
-        estimate_.least_tooth_force_N = newest * tooth_factor(last_side_, Scalar(2), depth);
+        estimate_.worst_tooth_force_N = newest_N * factor * runout;
+        estimate_.least_tooth_force_N = newest_N * tooth_factor(last_side_, slot_, depth_mm);
+        const auto bound_by = [&](Scalar bound) {
+            const Scalar ratio = runout * (bound > factor ? bound : factor);
+            estimate_.tooth_force_N = {true, newest_N * ratio, square(ratio) * window.variance, Scalar(0)};
+            estimate_.tooth_force_is_bound = true;
+        };
+        const Place low{e.engagement_low_rad, e.radial_immersion_low};
         if (e.immersion_valid) {
-            const Scalar low = tooth_factor(e.side, e.radial_immersion_low, e.axial_depth_mm > Scalar(0) ? e.depth_at_low_mm : depth);
-            const Scalar high =
-                tooth_factor(e.side, e.radial_immersion_high, e.axial_depth_mm > Scalar(0) ? e.depth_at_high_mm : depth);
-            const Scalar factor_sd = (low - high) / static_cast<Scalar>(3.92L);
+            const Place high{e.engagement_high_rad, e.radial_immersion_high};
+            const bool has_depth = e.axial_depth_mm > Scalar(0);
+            const Scalar factor_low = tooth_factor(e.side, low, has_depth ? e.depth_at_low_mm : depth_mm);
+            const Scalar factor_high = tooth_factor(e.side, high, has_depth ? e.depth_at_high_mm : depth_mm);
+            const Scalar factor_sd = (factor_low - factor_high) / static_cast<Scalar>(3.92L);
             // An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
-            const Scalar ln_K_s_sd = sqrt(model.coefficients.ln_K_s_variance);
-            const Scalar factor_by_K_s =
-                tooth_factor(e.side, immersion, depth * (Scalar(1) - ln_K_s_sd)) - factor;
+            const Scalar shallower_mm = depth_mm * (Scalar(1) - sqrt(ln_K_s_variance));
+            const Scalar factor_by_K_s = tooth_factor(e.side, last_, shallower_mm) - factor;
             estimate_.tooth_force_N = {true, estimate_.worst_tooth_force_N,
                                        square(runout) * (square(factor) * window.variance +
-                                                         square(newest) * (square(factor_sd) + square(factor_by_K_s))),
+                                                         square(newest_N) * (square(factor_sd) + square(factor_by_K_s))),
                                        Scalar(0)};
-        }
-        if (!e.immersion_valid && e.solved && e.depth_at_high_mm > Scalar(0)) {
+        } else if (e.solved && e.depth_at_high_mm > Scalar(0)) {
             // No estimate of the immersion, but a bound: the narrowest cut and the smallest depth that the forces allow
             // load one tooth most. Where even that is far from the limit, the force is known well enough.
-            const Scalar bound = tooth_factor(e.side, e.radial_immersion_low, e.depth_at_high_mm);
-            const Scalar worst = newest * runout * (bound > factor ? bound : factor);
-            estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
-            estimate_.tooth_force_is_bound = true;
-        }
-        if (!e.solved && !estimate_.x_N.valid && !estimate_.y_N.valid) {
+            bound_by(tooth_factor(e.side, low, e.depth_at_high_mm));
+        } else if (!e.solved && !estimate_.x_N.valid && !estimate_.y_N.valid) {
             // Axes too slow to show a force would stay so for ever without a bound: the narrowest and shallowest cut.
-            const Scalar bound = tooth_factor(last_side_, Scalar(0), Scalar(0));
-            const Scalar worst = newest * runout * (bound > factor ? bound : factor);
-            estimate_.tooth_force_N = {true, worst, square(worst / newest) * window.variance, Scalar(0)};
-            estimate_.tooth_force_is_bound = true;
+            bound_by(tooth_factor(last_side_, Place{}, Scalar(0)));
         }
-        estimate_.surge = change_to(settings_.surge_immersion, immersion, depth, factor, model.mean.tangential_N);
-        estimate_.turn = change_to(settings_.turn_immersion, immersion, depth, factor, model.mean.tangential_N);
     }
 
     /// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
@@ -403,16 +464,14 @@ class CutEstimator {
         return exp(last_exponent_ * log(chip));
     }
 
-    [[nodiscard]] typename CutEstimate<Scalar>::Change change_to(Scalar immersion_then, Scalar immersion, Scalar depth_mm,
-                                                               Scalar factor_now, Scalar F_at_now) const {
+    [[nodiscard]] typename CutEstimate<Scalar>::Change change_to(
+        const Place& then, const typename EngagementSolver<Scalar>::Table::Forces& forces_then, Scalar depth_mm,
+        Scalar tooth_N_per_mm_now) const {
         typename CutEstimate<Scalar>::Change change;
-        if (!(immersion_then > immersion) || !(F_at_now > Scalar(0))) {
-            return change;
+        if (then.radial_immersion > last_.radial_immersion) {
+            change.cutting_share = forces_then.cutting_tangential_N / forces_then.tangential_N;
+            change.ratio = forces_then.tangential_N * tooth_factor(last_side_, then, depth_mm) / tooth_N_per_mm_now;
         }
-        const Scalar factor_then = tooth_factor(last_side_, immersion_then, depth_mm);
-        const auto then = solver_.forces_per_mm(last_side_, immersion_then, estimate_.feed_per_tooth_mm);
-        change.cutting_share = then.per_ln_K_s.tangential_N / then.mean.tangential_N;
-        change.ratio = then.mean.tangential_N * factor_then / (F_at_now * factor_now);
         return change;
     }
 
@@ -423,6 +482,9 @@ class CutEstimator {
     SpindleDrive<Scalar> spindle_{};
     std::array<FeedDrive<Scalar>, 3> axes_{};
     EngagementSolver<Scalar> solver_{};
+    typename EngagementSolver<Scalar>::Search search_{};
+    EngagementEstimate<Scalar> engagement_{};  // the last that the solver gave
+    bool peaks_due_ = false;
     ToothPeakTable<Scalar> down_table_{};
     ToothPeakTable<Scalar> up_table_{};
 
@@ -438,7 +500,10 @@ class CutEstimator {
     Scalar since_prediction_s_{0};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
-    Scalar last_immersion_{0};
+    Place surge_{};
+    Place turn_{};
+    Place slot_{};
+    Place last_{};
     Scalar last_depth_mm_{0};
     CutSide last_side_ = CutSide::unknown;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimation/cutting_law.hpp"
+#include "estimation/engagement_table.hpp"
 #include "estimation/measurement.hpp"
 
 #include <array>
@@ -22,6 +22,10 @@
 /// An immersion that another method tells enters J as one more measurement, (R_r − R_told)²/σ².
 /// The immersion's deviation is the larger of the curvature's and of the interval in which J exceeds its minimum by
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
+///
+/// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions. A solution
+/// takes Nodes + 7 of them for a side that is told and twice as many for one that is not; solve() works them off at
+/// once, begin() and advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
 
@@ -44,6 +48,9 @@ struct EngagementEstimate {
     Scalar radial_immersion_sd{0};
     Scalar radial_immersion_low{0};  ///< 95 % interval
     Scalar radial_immersion_high{2};
+    Scalar engagement_rad{0};  ///< θ of radial_immersion, R_r = 1 − cos θ, and of the interval's ends
+    Scalar engagement_low_rad{0};
+    Scalar engagement_high_rad{pi<Scalar>};
 
     bool depth_valid = false;
     Scalar axial_depth_mm{0};
@@ -60,7 +67,6 @@ struct EngagementSolverSettings {
     Scalar teeth{4};
     Scalar centre_offset_in_radii{0};  ///< for CutSide::centred
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};     ///< misfit of the closed law itself, relative to F_at, on each axis force
-    Scalar smallest_immersion{static_cast<Scalar>(0.02L)};
     Scalar largest_immersion{2};
     Scalar widest_interval{static_cast<Scalar>(1.2L)};    ///< a 95 % interval wider than this is no estimate
     Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
@@ -68,43 +74,117 @@ struct EngagementSolverSettings {
     Scalar least_significance{4};    ///< F_at must exceed this many of its standard deviations
 };
 
-template <typename Scalar, int Nodes = 48>
+template <typename Scalar, int Nodes = 41>
 class EngagementSolver {
   public:
+    using Table = EngagementTable<Scalar, Nodes>;
+
     EngagementSolver() = default;
     EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings)
-        : law_(law), settings_(settings) {}
+        : settings_(settings) {
+        for (const CutSide side : {CutSide::down, CutSide::up}) {
+            table_of(side).build(law, settings.teeth, side, Scalar(0), largest_angle(side));
+        }
+    }
+    /// For a tool whose side is told; CutSide::centred takes this one.
+    EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings, CutSide side)
+        : EngagementSolver(law, settings) {
+        if (side == CutSide::centred) {
+            for (Table& table : tables_) {
+                table.build(law, settings.teeth, side, settings.centre_offset_in_radii, largest_angle(side));
+            }
+        }
+    }
 
-    /// Solves for the given side. With CutSide::unknown both down and up are tried and the one that fits better by
-    /// more than 3.84 is taken; where neither does, the estimate is valid only if both give the same immersion.
+    /// A solution in work. Not thread-safe.
+    class Search {
+      public:
+        [[nodiscard]] bool done() const { return phase_ == Phase::done; }
+        [[nodiscard]] const EngagementEstimate<Scalar>& estimate() const { return estimate_; }
+
+      private:
+        friend class EngagementSolver;
+        enum class Phase : unsigned char { scan, refine, depth_at_low, depth_at_high, done };
+        enum class Point : unsigned char { low, middle, high, candidate };
+
+        AverageForceMeasurement<Scalar> forces_{};
+        typename Table::Feed feed_{};
+        Scalar tangential_weight_{0};
+        Scalar law_variance_{0};
+        EngagementEstimate<Scalar> estimate_{};
+        EngagementEstimate<Scalar> down_{};
+        CutSide asked_ = CutSide::unknown;
+        CutSide side_ = CutSide::down;
+        Phase phase_ = Phase::done;
+
+        std::array<Scalar, static_cast<std::size_t>(Nodes)> J_{};
+        std::size_t node_ = 0;
+        std::size_t best_node_ = 0;
+        struct {
+            Scalar misfit{0};
+            Scalar depth_mm{0};
+            Scalar information{0};
+        } best_{};
+        Scalar centre_rad_{0};
+        Scalar width_rad_{0};
+        Scalar middle_rad_{0};
+        Scalar J_low_{0};
+        Scalar J_middle_{0};
+        Scalar J_high_{0};
+        Scalar curvature_{0};
+        Point point_ = Point::low;
+        int round_ = 0;
+    };
+
+    /// Takes up a solution for the given side. With CutSide::unknown both down and up are tried and the one that fits
+    /// better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the same immersion.
+    void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
+               CutSide side) const {
+        search.forces_ = forces;
+        search.asked_ = side;
+        search.estimate_ = {};
+        search.estimate_.side = side == CutSide::unknown ? CutSide::down : side;
+        search.phase_ = Search::Phase::done;
+        if (is_solvable(forces, feed_per_tooth_mm)) {
+            search.feed_ = tables_[0].feed(feed_per_tooth_mm);
+            search.tangential_weight_ = Scalar(1) / forces.tangential_N.variance;
+            search.law_variance_ = square(settings_.law_relative_sd * forces.tangential_N.value);
+            begin_side(search, search.estimate_.side);
+        }
+    }
+
+    /// At most so many values of J; true when the estimate is there.
+    bool advance(Search& search, int values) const {
+        for (; values > 0 && !search.done(); --values) {
+            step(search);
+        }
+        return search.done();
+    }
+
     [[nodiscard]] EngagementEstimate<Scalar> solve(const AverageForceMeasurement<Scalar>& forces,
                                                    Scalar feed_per_tooth_mm, CutSide side) const {
-        if (side != CutSide::unknown) {
-            return solve_side(forces, feed_per_tooth_mm, side);
+        Search search;
+        begin(search, forces, feed_per_tooth_mm, side);
+        while (!advance(search, Nodes)) {
         }
-        const auto down = solve_side(forces, feed_per_tooth_mm, CutSide::down);
-        const auto up = solve_side(forces, feed_per_tooth_mm, CutSide::up);
-        return choose_side(down, up);
+        return search.estimate();
     }
 
-    /// Average forces in the feed frame per mm of axial depth, at an immersion.
-    [[nodiscard]] AverageForcesWithDoubt<Scalar> forces_per_mm(CutSide side, Scalar radial_immersion,
-                                                               Scalar feed_per_tooth_mm) const {
-        return average_forces_with_doubt(
-            law_, CutConditions<Scalar>{
-                      feed_per_tooth_mm, Scalar(1),
-                      engagement_angles(side, radial_immersion, settings_.centre_offset_in_radii), settings_.teeth});
-    }
+    /// The forces of a side; unknown is taken for down.
+    [[nodiscard]] const Table& table(CutSide side) const { return tables_[side == CutSide::up ? 1 : 0]; }
 
   private:
+    static constexpr Scalar threshold_of_95_percent = static_cast<Scalar>(3.84L);
+    static constexpr int rounds = 2;  // narrower parabolas see the rounding of float and the table's grain
+
     /// One value of the profile: the depth that fits best at an immersion, and how badly it fits.
     struct Profile {
         Scalar misfit{0};
         Scalar depth_mm{0};
-        Scalar tangential_per_mm_N{0};
         Scalar information{0};  // Σ w g²: inverse variance of the depth at this immersion
-        Scalar ln_K_s_variance{0};
     };
+
+    [[nodiscard]] Table& table_of(CutSide side) { return tables_[side == CutSide::up ? 1 : 0]; }
 
     [[nodiscard]] Scalar largest_angle(CutSide side) const {
         using elementary::acos;
@@ -117,191 +197,248 @@ class EngagementSolver {
         return acos(Scalar(1) - limit);
     }
 
-    [[nodiscard]] Profile profile_at(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
-                                     CutSide side, Scalar theta_rad) const {
-        using elementary::cos;
-        const Scalar immersion = Scalar(1) - cos(theta_rad);
-        const auto model = forces_per_mm(side, immersion, feed_per_tooth_mm);
-        const Scalar t_x = forces.feed_direction_x;
-        const Scalar t_y = forces.feed_direction_y;
-        const Scalar law_variance = square(settings_.law_relative_sd * forces.tangential_N.value);
-        // The doubt in r_1 acts along the feed and across it at once; its size per F_at is known at each immersion.
-        const Scalar per_F_at = forces.tangential_N.value / model.mean.tangential_N;
-        const auto axis_variance = [&](Scalar along, Scalar across) {
-            const Scalar by_r_1 =
-                per_F_at * (along * model.per_ln_r_1.feed_N + across * model.per_ln_r_1.normal_N);
-            return law_variance + square(by_r_1) * model.coefficients.ln_r_1_variance;
-        };
-        Scalar wmg{0};
-        Scalar wgg{0};
-        const auto gather = [&](const Measurement<Scalar>& m, Scalar g, Scalar extra_variance) {
-            if (m.valid) {
-                const Scalar w = Scalar(1) / (m.variance + extra_variance);
-                wmg += w * m.value * g;
-                wgg += w * g * g;
-            }
-        };
-        const Scalar g_x = t_x * model.mean.feed_N - t_y * model.mean.normal_N;
-        const Scalar g_y = t_y * model.mean.feed_N + t_x * model.mean.normal_N;
-        const Scalar var_x = axis_variance(t_x, -t_y);
-        const Scalar var_y = axis_variance(t_y, t_x);
-        gather(forces.tangential_N, model.mean.tangential_N, Scalar(0));
-        gather(forces.x_N, g_x, var_x);
-        gather(forces.y_N, g_y, var_y);
-        // A depth that is told bounds what the forces leave open. K_s and depth act on all forces as one factor, so the
-        // factor is known as well as both are.
-        const Scalar declared = settings_.declared_depth_mm;
-        const Scalar declared_weight =
-            declared > Scalar(0)
-                ? Scalar(1) / (square(declared) * (square(settings_.declared_depth_relative_sd) +
-                                                   model.coefficients.ln_K_s_variance))
-                : Scalar(0);
-        wmg += declared_weight * declared;
-        wgg += declared_weight;
-        Profile profile;
-        profile.tangential_per_mm_N = model.mean.tangential_N;
-        profile.ln_K_s_variance = model.coefficients.ln_K_s_variance;
-        profile.information = wgg;
-        profile.depth_mm = wmg > Scalar(0) ? wmg / wgg : Scalar(0);
-        const auto misfit = [&](const Measurement<Scalar>& m, Scalar g, Scalar extra_variance) {
-            return m.valid ? square(m.value - profile.depth_mm * g) / (m.variance + extra_variance) : Scalar(0);
-        };
-        const Measurement<Scalar>& told = forces.radial_immersion;
-        profile.misfit = misfit(forces.tangential_N, model.mean.tangential_N, Scalar(0)) +
-                         misfit(forces.x_N, g_x, var_x) + misfit(forces.y_N, g_y, var_y) +
-                         declared_weight * square(profile.depth_mm - declared) +
-                         (told.valid ? square(immersion - told.value) / told.variance : Scalar(0));
-        return profile;
-    }
-
     [[nodiscard]] bool is_solvable(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const {
-        using std::sqrt;
         const Measurement<Scalar>& F_at = forces.tangential_N;
         return F_at.valid && feed_per_tooth_mm > Scalar(0) && F_at.value > Scalar(0) &&
-               F_at.value > settings_.least_significance * sqrt(F_at.variance) &&
+               square(F_at.value) > square(settings_.least_significance) * F_at.variance &&
                (forces.x_N.valid || forces.y_N.valid || forces.radial_immersion.valid);
     }
 
-    [[nodiscard]] EngagementEstimate<Scalar> solve_side(const AverageForceMeasurement<Scalar>& forces,
-                                                        Scalar feed_per_tooth_mm, CutSide side) const {
-        using elementary::acos;
-        EngagementEstimate<Scalar> estimate;
-        estimate.side = side;
-        if (!is_solvable(forces, feed_per_tooth_mm)) {
-            return estimate;
-        }
-        const Scalar first = acos(Scalar(1) - settings_.smallest_immersion);
-        const Scalar step = (largest_angle(side) - first) / Scalar(Nodes - 1);
-        std::array<Scalar, static_cast<std::size_t>(Nodes)> J{};
-        std::size_t best = 0;
-        for (std::size_t k = 0; k < J.size(); ++k) {
-            J[k] = profile_at(forces, feed_per_tooth_mm, side, first + step * Scalar(k)).misfit;
-            best = J[k] < J[best] ? k : best;
-        }
-        Scalar centre = first + step * Scalar(best);
-        Scalar curvature{0};
-        Profile at_best = refine(forces, feed_per_tooth_mm, side, {first, largest_angle(side)}, step, centre, curvature);
-        fill_immersion(estimate, J, first, step, centre, at_best.misfit, curvature);
-        fill_depth(estimate, forces, feed_per_tooth_mm, side, at_best);
-        return estimate;
+    void begin_side(Search& s, CutSide side) const {
+        s.side_ = side;
+        s.estimate_ = {};
+        s.estimate_.side = side;
+        s.node_ = 0;
+        s.best_node_ = 0;
+        s.phase_ = Search::Phase::scan;
     }
 
-    struct Range {
-        Scalar low;
-        Scalar high;
-    };
-
-    /// Three parabolas through three points each, each narrower than the last, from the best node.
-    [[nodiscard]] Profile refine(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm, CutSide side,
-                                 Range range, Scalar step, Scalar& centre, Scalar& curvature) const {
-        Profile best = profile_at(forces, feed_per_tooth_mm, side, centre);
-        Scalar width = step;
-        for (int round = 0; round < 4; ++round) {
-            const Scalar middle = clamp(centre, range.low + width, range.high - width);
-            const Scalar J_low = profile_at(forces, feed_per_tooth_mm, side, middle - width).misfit;
-            const Scalar J_mid = profile_at(forces, feed_per_tooth_mm, side, middle).misfit;
-            const Scalar J_high = profile_at(forces, feed_per_tooth_mm, side, middle + width).misfit;
-            const Scalar bend = J_low - Scalar(2) * J_mid + J_high;
-            if (!(bend > Scalar(0))) {
+    void step(Search& s) const {
+        switch (s.phase_) {
+            case Search::Phase::scan:
+                scan(s);
                 break;
-            }
-            curvature = bend / square(width);
-            const Scalar shift = clamp(Scalar(0.5F) * (J_low - J_high) / bend, Scalar(-1), Scalar(1)) * width;
-            const Profile candidate = profile_at(forces, feed_per_tooth_mm, side, middle + shift);
-            if (candidate.misfit <= best.misfit) {
-                best = candidate;
-                centre = middle + shift;
-            }
-            width *= static_cast<Scalar>(0.35L);
+            case Search::Phase::refine:
+                refine(s);
+                break;
+            case Search::Phase::depth_at_low:
+                s.estimate_.depth_at_low_mm = profile_at(s, s.estimate_.engagement_low_rad).depth_mm;
+                s.phase_ = Search::Phase::depth_at_high;
+                break;
+            case Search::Phase::depth_at_high:
+                s.estimate_.depth_at_high_mm = profile_at(s, s.estimate_.engagement_high_rad).depth_mm;
+                fill_depth(s);
+                end_side(s);
+                break;
+            case Search::Phase::done:
+                break;
         }
-        return best;
     }
 
-    template <std::size_t Count>
-    void fill_immersion(EngagementEstimate<Scalar>& estimate, const std::array<Scalar, Count>& J, Scalar first,
-                        Scalar step, Scalar centre, Scalar least, Scalar curvature) const {
+    [[nodiscard]] Profile profile_at(const Search& s, Scalar theta_rad) const {
+        return profile_of(s, table(s.side_).at(theta_rad, s.feed_), theta_rad);
+    }
+
+    [[nodiscard]] Profile profile_of(const Search& s, const typename Table::Forces& model, Scalar theta_rad) const {
         using elementary::cos;
-        using elementary::sin;
+        const AverageForceMeasurement<Scalar>& forces = s.forces_;
+        const Scalar ln_r_1_variance = table(s.side_).ln_r_1_variance(model);
+        const Scalar t_x = forces.feed_direction_x;
+        const Scalar t_y = forces.feed_direction_y;
+        // The doubt in r_1 acts along the feed and across it at once; its size per F_at is known at each immersion.
+        const Scalar per_F_at = forces.tangential_N.value / model.tangential_N;
+        const Scalar along = per_F_at * model.feed_per_ln_r_1_N;
+        const Scalar across = per_F_at * model.normal_per_ln_r_1_N;
+        const Scalar var_x =
+            forces.x_N.variance + s.law_variance_ + square(t_x * along - t_y * across) * ln_r_1_variance;
+        const Scalar var_y =
+            forces.y_N.variance + s.law_variance_ + square(t_y * along + t_x * across) * ln_r_1_variance;
+        const Scalar g_x = t_x * model.feed_N - t_y * model.normal_N;
+        const Scalar g_y = t_y * model.feed_N + t_x * model.normal_N;
+        const Scalar w_t = s.tangential_weight_;
+        const Scalar w_x = forces.x_N.valid ? Scalar(1) / var_x : Scalar(0);
+        const Scalar w_y = forces.y_N.valid ? Scalar(1) / var_y : Scalar(0);
+        // A depth that is told bounds what the forces leave open. K_s and depth act on all forces as one factor, so the
+        // factor is known as well as both are.
+        const Scalar declared = settings_.declared_depth_mm;
+        Scalar declared_weight{0};
+        if (declared > Scalar(0)) {
+            const Scalar relative_variance =
+                square(settings_.declared_depth_relative_sd) + table(s.side_).ln_K_s_variance(model);
+            declared_weight = Scalar(1) / (square(declared) * relative_variance);
+        }
+        const Scalar wt_gt = w_t * model.tangential_N;
+        const Scalar wx_gx = w_x * g_x;
+        const Scalar wy_gy = w_y * g_y;
+        Profile profile;
+        profile.information =
+            wt_gt * model.tangential_N + wx_gx * g_x + wy_gy * g_y + declared_weight;
+        const Scalar wmg = wt_gt * forces.tangential_N.value + wx_gx * forces.x_N.value + wy_gy * forces.y_N.value +
+                           declared_weight * declared;
+        profile.depth_mm = wmg > Scalar(0) ? wmg / profile.information : Scalar(0);
+        const Scalar a_p = profile.depth_mm;
+        profile.misfit = w_t * square(forces.tangential_N.value - a_p * model.tangential_N) +
+                         declared_weight * square(a_p - declared);
+        if (forces.x_N.valid) {
+            profile.misfit += w_x * square(forces.x_N.value - a_p * g_x);
+        }
+        if (forces.y_N.valid) {
+            profile.misfit += w_y * square(forces.y_N.value - a_p * g_y);
+        }
+        if (forces.radial_immersion.valid) {
+            const Scalar immersion = Scalar(1) - cos(theta_rad);
+            profile.misfit += square(immersion - forces.radial_immersion.value) / forces.radial_immersion.variance;
+        }
+        return profile;
+    }
+
+    static void keep(Search& s, const Profile& profile, Scalar theta_rad) {
+        s.best_ = {profile.misfit, profile.depth_mm, profile.information};
+        s.centre_rad_ = theta_rad;
+    }
+
+    void scan(Search& s) const {
+        const Table& nodes = table(s.side_);
+        const Scalar theta_rad = nodes.angle_rad(Scalar(static_cast<int>(s.node_)));
+        const Profile profile = profile_of(s, nodes.at_node(s.node_, s.feed_), theta_rad);
+        s.J_[s.node_] = profile.misfit;
+        if (s.node_ == 0 || profile.misfit < s.best_.misfit) {
+            s.best_node_ = s.node_;
+            keep(s, profile, theta_rad);
+        }
+        ++s.node_;
+        if (s.node_ < s.J_.size()) {
+            return;
+        }
+        // The first parabola goes through nodes, which are there already.
+        const std::size_t inner = s.best_node_ < 1 ? 1 : (s.best_node_ > s.J_.size() - 2 ? s.J_.size() - 2 : s.best_node_);
+        s.middle_rad_ = nodes.angle_rad(Scalar(static_cast<int>(inner)));
+        s.J_low_ = s.J_[inner - 1];
+        s.J_middle_ = s.J_[inner];
+        s.J_high_ = s.J_[inner + 1];
+        s.width_rad_ = nodes.step_rad();
+        s.curvature_ = Scalar(0);
+        s.round_ = 0;
+        s.point_ = Search::Point::candidate;
+        s.phase_ = Search::Phase::refine;
+    }
+
+    /// Parabolas through three points each, each narrower than the last, from the best node.
+    void refine(Search& s) const {
+        switch (s.point_) {
+            case Search::Point::low:
+                s.middle_rad_ = clamp(s.centre_rad_, Table::first_rad + s.width_rad_,
+                                      table(s.side_).last_rad() - s.width_rad_);
+                s.J_low_ = profile_at(s, s.middle_rad_ - s.width_rad_).misfit;
+                s.point_ = Search::Point::middle;
+                break;
+            case Search::Point::middle:
+                s.J_middle_ = profile_at(s, s.middle_rad_).misfit;
+                s.point_ = Search::Point::high;
+                break;
+            case Search::Point::high:
+                s.J_high_ = profile_at(s, s.middle_rad_ + s.width_rad_).misfit;
+                s.point_ = Search::Point::candidate;
+                break;
+            case Search::Point::candidate:
+                try_candidate(s);
+                break;
+        }
+    }
+
+    void try_candidate(Search& s) const {
+        const Scalar bend = s.J_low_ - Scalar(2) * s.J_middle_ + s.J_high_;
+        if (bend > Scalar(0)) {
+            s.curvature_ = bend / square(s.width_rad_);
+            const Scalar shift = clamp(Scalar(0.5F) * (s.J_low_ - s.J_high_) / bend, Scalar(-1), Scalar(1));
+            const Scalar theta_rad = s.middle_rad_ + shift * s.width_rad_;
+            const Profile candidate = profile_at(s, theta_rad);
+            if (candidate.misfit <= s.best_.misfit) {
+                keep(s, candidate, theta_rad);
+            }
+            s.width_rad_ *= static_cast<Scalar>(0.35L);
+            s.point_ = Search::Point::low;
+            if (++s.round_ < rounds) {
+                return;
+            }
+        }
+        fill_immersion(s);
+        s.phase_ = Search::Phase::depth_at_low;
+    }
+
+    void fill_immersion(Search& s) const {
+        using elementary::cos;
         using std::sqrt;
-        const Scalar threshold = least + static_cast<Scalar>(3.84L);
+        const Table& nodes = table(s.side_);
+        const auto& J = s.J_;
+        const Scalar threshold = s.best_.misfit + threshold_of_95_percent;
+        const auto angle = [&](std::size_t k) { return nodes.angle_rad(Scalar(static_cast<int>(k))); };
         std::size_t low = 0;
-        while (J[low] > threshold && first + step * Scalar(low + 1) < centre) {
+        while (J[low] > threshold && angle(low + 1) < s.centre_rad_) {
             ++low;
         }
-        std::size_t high = Count - 1;
-        while (J[high] > threshold && first + step * Scalar(high - 1) > centre) {
+        std::size_t high = J.size() - 1;
+        while (J[high] > threshold && angle(high - 1) > s.centre_rad_) {
             --high;
         }
         const auto crossing = [&](std::size_t inside, std::size_t outside) {
             const Scalar rise = J[outside] - J[inside];
             const Scalar share = rise > Scalar(0) ? clamp((threshold - J[inside]) / rise, Scalar(0), Scalar(1)) : Scalar(0);
-            return first + step * (Scalar(inside) + (Scalar(outside) - Scalar(inside)) * share);
+            return angle(inside) + (angle(outside) - angle(inside)) * share;
         };
-        const bool low_open = J[low] <= threshold;
-        const bool high_open = J[high] <= threshold;
-        const Scalar half_by_curvature = curvature > Scalar(0) ? static_cast<Scalar>(1.96L) * sqrt(Scalar(2) / curvature) : step;
-        Scalar theta_low = centre - half_by_curvature;
-        Scalar theta_high = centre + half_by_curvature;
-        if (low_open) {
-            const Scalar scanned = low > 0 ? crossing(low, low - 1) : first;
+        const Scalar half_by_curvature =
+            s.curvature_ > Scalar(0) ? static_cast<Scalar>(1.96L) * sqrt(Scalar(2) / s.curvature_) : nodes.step_rad();
+        Scalar theta_low = s.centre_rad_ - half_by_curvature;
+        Scalar theta_high = s.centre_rad_ + half_by_curvature;
+        if (J[low] <= threshold) {
+            const Scalar scanned = low > 0 ? crossing(low, low - 1) : Table::first_rad;
             theta_low = scanned < theta_low ? scanned : theta_low;
         }
-        if (high_open) {
-            const Scalar scanned = high + 1 < Count ? crossing(high, high + 1) : first + step * Scalar(Count - 1);
+        if (J[high] <= threshold) {
+            const Scalar scanned = high + 1 < J.size() ? crossing(high, high + 1) : nodes.last_rad();
             theta_high = scanned > theta_high ? scanned : theta_high;
         }
-        theta_low = theta_low < Scalar(0) ? Scalar(0) : theta_low;
-        theta_high = theta_high > pi<Scalar> ? pi<Scalar> : theta_high;
-        estimate.radial_immersion = Scalar(1) - cos(centre);
-        estimate.radial_immersion_low = Scalar(1) - cos(theta_low);
-        estimate.radial_immersion_high = Scalar(1) - cos(theta_high);
-        const Scalar width = estimate.radial_immersion_high - estimate.radial_immersion_low;
-        estimate.radial_immersion_sd = width / static_cast<Scalar>(3.92L);
-        estimate.misfit = least;
-        estimate.solved = true;
-        estimate.immersion_valid = width <= settings_.widest_interval;
+        EngagementEstimate<Scalar>& e = s.estimate_;
+        e.engagement_rad = s.centre_rad_;
+        e.engagement_low_rad = theta_low < Scalar(0) ? Scalar(0) : theta_low;
+        e.engagement_high_rad = theta_high > pi<Scalar> ? pi<Scalar> : theta_high;
+        e.radial_immersion = Scalar(1) - cos(e.engagement_rad);
+        e.radial_immersion_low = Scalar(1) - cos(e.engagement_low_rad);
+        e.radial_immersion_high = Scalar(1) - cos(e.engagement_high_rad);
+        const Scalar width = e.radial_immersion_high - e.radial_immersion_low;
+        e.radial_immersion_sd = width / static_cast<Scalar>(3.92L);
+        e.misfit = s.best_.misfit;
+        e.solved = true;
+        e.immersion_valid = width <= settings_.widest_interval;
     }
 
     /// Depth at the estimate; its deviation adds what the immersion's doubt and K_s leave open.
-    void fill_depth(EngagementEstimate<Scalar>& estimate, const AverageForceMeasurement<Scalar>& forces,
-                    Scalar feed_per_tooth_mm, CutSide side, const Profile& best) const {
-        using elementary::acos;
+    void fill_depth(Search& s) const {
         using std::sqrt;
-        if (!(best.information > Scalar(0)) || !(best.depth_mm > Scalar(0))) {
+        EngagementEstimate<Scalar>& e = s.estimate_;
+        if (!(s.best_.information > Scalar(0)) || !(s.best_.depth_mm > Scalar(0))) {
+            e.depth_at_low_mm = Scalar(0);
+            e.depth_at_high_mm = Scalar(0);
             return;
         }
-        const auto depth_at = [&](Scalar immersion) {
-            const Scalar theta = acos(Scalar(1) - clamp(immersion, settings_.smallest_immersion, Scalar(2)));
-            return profile_at(forces, feed_per_tooth_mm, side, theta).depth_mm;
-        };
-        estimate.depth_at_low_mm = depth_at(estimate.radial_immersion_low);
-        estimate.depth_at_high_mm = depth_at(estimate.radial_immersion_high);
-        const Scalar spread = (estimate.depth_at_high_mm - estimate.depth_at_low_mm) / static_cast<Scalar>(3.92L);
-        estimate.axial_depth_mm = best.depth_mm;
-        estimate.axial_depth_sd_mm = sqrt(square(spread) + Scalar(1) / best.information +
-                                          square(best.depth_mm) * best.ln_K_s_variance);
-        estimate.depth_valid =
-            estimate.immersion_valid && estimate.axial_depth_sd_mm < estimate.axial_depth_mm;
+        const Scalar spread = (e.depth_at_high_mm - e.depth_at_low_mm) / static_cast<Scalar>(3.92L);
+        e.axial_depth_mm = s.best_.depth_mm;
+        const Table& forces = table(s.side_);
+        const Scalar by_K_s = square(s.best_.depth_mm) * forces.ln_K_s_variance(forces.at(s.centre_rad_, s.feed_));
+        e.axial_depth_sd_mm = sqrt(square(spread) + Scalar(1) / s.best_.information + by_K_s);
+        e.depth_valid = e.immersion_valid && e.axial_depth_sd_mm < e.axial_depth_mm;
+    }
+
+    void end_side(Search& s) const {
+        if (s.asked_ != CutSide::unknown) {
+            s.phase_ = Search::Phase::done;
+        } else if (s.side_ == CutSide::down) {
+            s.down_ = s.estimate_;
+            begin_side(s, CutSide::up);
+        } else {
+            s.estimate_ = choose_side(s.down_, s.estimate_);
+            s.phase_ = Search::Phase::done;
+        }
     }
 
     [[nodiscard]] static EngagementEstimate<Scalar> choose_side(const EngagementEstimate<Scalar>& down,
@@ -310,14 +447,14 @@ class EngagementSolver {
         if (down.immersion_valid != up.immersion_valid) {
             const EngagementEstimate<Scalar>& only = down.immersion_valid ? down : up;
             const EngagementEstimate<Scalar>& other = down.immersion_valid ? up : down;
-            if (other.misfit - only.misfit > static_cast<Scalar>(3.84L)) {
+            if (other.misfit - only.misfit > threshold_of_95_percent) {
                 return only;
             }
         }
-        if (advantage > static_cast<Scalar>(3.84L)) {
+        if (advantage > threshold_of_95_percent) {
             return down;
         }
-        if (advantage < static_cast<Scalar>(-3.84L)) {
+        if (advantage < -threshold_of_95_percent) {
             return up;
         }
         EngagementEstimate<Scalar> either = advantage < Scalar(0) ? up : down;
@@ -331,8 +468,8 @@ class EngagementSolver {
         return either;
     }
 
-    CuttingLaw<Scalar> law_{};
     EngagementSolverSettings<Scalar> settings_{};
+    std::array<Table, 2> tables_{};
 };
 
 }  // namespace millforce::estimation

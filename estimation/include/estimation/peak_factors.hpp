@@ -154,9 +154,17 @@ class ToothPeakTable {
     /// Immersion is clipped to 0.02…2. Any depth ≥ 0.
     [[nodiscard]] Scalar at(Scalar radial_immersion, Scalar axial_depth_mm) const {
         using elementary::acos;
-        const Scalar immersion = clamp(radial_immersion, immersion_of(Scalar(0)), Scalar(2));
-        const Scalar sweeps = axial_depth_mm * sweep_rad_per_mm_ / engagement_at(immersion);
-        const Place across = place((acos(Scalar(1) - immersion) - first_rad) / step_rad, ImmersionNodes);
+        return at_angle(acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion, axial_depth_mm);
+    }
+
+    /// The same where θ is known as well, R_r = 1 − cos θ. Some 40 operations but for CutSide::centred, which takes two
+    /// arc cosines.
+    [[nodiscard]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion, Scalar axial_depth_mm) const {
+        const Scalar immersion = clamp(radial_immersion, least_immersion, Scalar(2));
+        const Scalar theta = clamp(theta_rad, first_rad, pi<Scalar>);
+        const Scalar engagement_rad = side_ == CutSide::centred ? engagement_at(immersion) : theta;
+        const Scalar sweeps = axial_depth_mm * sweep_rad_per_mm_ / engagement_rad;
+        const Place across = place((theta - first_rad) / step_rad, ImmersionNodes);
         const Place along = place(node_of(sweeps), SweepNodes);
         const auto between = [&](std::size_t k) {
             const Scalar low = nodes_[across.node][k];
@@ -172,7 +180,8 @@ class ToothPeakTable {
         Scalar share;
     };
 
-    static constexpr Scalar first_rad = static_cast<Scalar>(0.2L);  // R_r 0.02
+    static constexpr Scalar first_rad = static_cast<Scalar>(0.2L);
+    static constexpr Scalar least_immersion = static_cast<Scalar>(0.0199334222L);  // 1 − cos 0.2
     static constexpr Scalar step_rad = (pi<Scalar> - first_rad) / static_cast<Scalar>(ImmersionNodes - 1);
     static constexpr int corner_index = (SweepNodes - 1) / 2;
     static constexpr Scalar corner_node = static_cast<Scalar>(corner_index);

@@ -18,7 +18,7 @@ inline constexpr float required = std::numeric_limits<float>::quiet_NaN();
 template <typename Scalar>
 struct ParameterRow {
     ParameterFile file;
-    const char* table;  ///< "axis" stands for each of "x", "y", "z"
+    const char* table;  ///< "axis" stands for each of "x", "y", "z"; "bus.drive" for each of "bus.spindle", "bus.x" …
     const char* key;
     const char* unit;
     float default_value;
@@ -30,12 +30,14 @@ struct ParameterRow {
 };
 
 inline constexpr std::array<const char*, 3> axis_tables{"x", "y", "z"};
+inline constexpr std::array<const char*, 4> drive_tables{"bus.spindle", "bus.x", "bus.y", "bus.z"};
 
 // The rows are data; one row a line keeps them readable as the table that they are.
 // clang-format off
 // NOLINTBEGIN(bugprone-macro-parentheses): a lambda is one expression already
 #define MILLFORCE_FIELD(member) [](Parameters<Scalar>& p, std::size_t) -> Scalar& { return p.member; }
 #define MILLFORCE_AXIS(member) [](Parameters<Scalar>& p, std::size_t axis) -> Scalar& { return p.machine.axes[axis].member; }
+#define MILLFORCE_DRIVE(member) [](Parameters<Scalar>& p, std::size_t drive) -> Scalar& { return p.machine.bus.drives[drive].member; }
 
 // NOLINTEND(bugprone-macro-parentheses)
 
@@ -79,6 +81,46 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
     {ParameterFile::machine, "cnc", "acceleration_mm_s2", "mm/s²", 2000.0F, 1.0F, 1e6F, "Acceleration limit of the path velocity.", MILLFORCE_FIELD(machine.cnc.acceleration_mm_s2)},
     {ParameterFile::machine, "cnc", "stale_s", "s", 0.05F, 0.001F, 10.0F, "Without a drive sample for longer the controller faults and holds the feed.", MILLFORCE_FIELD(machine.cnc.stale_s)},
     {ParameterFile::machine, "cnc", "sample_rate_hz", "Hz", 1000.0F, 10.0F, 1e5F, "Rate of the drive samples.", MILLFORCE_FIELD(machine.cnc.sample_rate_hz)},
+    {ParameterFile::machine, "cnc", "solver_values_per_tick", "1", 0.0F, 0.0F, 1000.0F, "Values of the engagement's misfit that one tick works out (some hundred instructions each), for small processors; 0: all at once.", MILLFORCE_FIELD(machine.cnc.solver_values_per_tick)},
+
+    {ParameterFile::machine, "bus", "role", "", 0.0F, 0.0F, 1.0F, "Master: reads rated values, writes what is asked to and starts the drives (SDO, NMT). Listener: sends none of it, the CNC is the master.", MILLFORCE_FIELD(machine.bus.role), "listener|master"},
+    {ParameterFile::machine, "bus", "produces_sync", "", 0.0F, 0.0F, 1.0F, "Send SYNC; else the CNC or a drive does.", MILLFORCE_FIELD(machine.bus.produces_sync), "false|true"},
+    {ParameterFile::machine, "bus", "sync_id", "", 128.0F, 1.0F, 2047.0F, "CAN id of SYNC.", MILLFORCE_FIELD(machine.bus.sync_id)},
+    {ParameterFile::machine, "bus", "sync_period_ms", "ms", 1.0F, 0.1F, 1000.0F, "Time between two SYNCs, and so between two samples.", MILLFORCE_FIELD(machine.bus.sync_period_ms)},
+    {ParameterFile::machine, "bus", "collect_time_ms", "ms", 0.8F, 0.01F, 1000.0F, "What has not come by then after a SYNC is missing in its sample; at most the period.", MILLFORCE_FIELD(machine.bus.collect_time_ms)},
+    {ParameterFile::machine, "bus", "override_id", "", 510.0F, 1.0F, 2047.0F, "CAN id of the override frame.", MILLFORCE_FIELD(machine.bus.override_id)},
+    {ParameterFile::machine, "bus", "override_node_id", "", 126.0F, 1.0F, 127.0F, "CANopen node as which this controller gives its heartbeat.", MILLFORCE_FIELD(machine.bus.override_node_id)},
+    {ParameterFile::machine, "bus", "override_period_ms", "ms", 2.0F, 0.5F, 1000.0F, "Time between two override frames.", MILLFORCE_FIELD(machine.bus.override_period_ms)},
+    {ParameterFile::machine, "bus", "override_heartbeat_ms", "ms", 100.0F, 1.0F, 10000.0F, "Time between two of its heartbeats.", MILLFORCE_FIELD(machine.bus.override_heartbeat_ms)},
+    {ParameterFile::machine, "bus", "program_status_id", "", 509.0F, 0.0F, 2047.0F, "CAN id of the frame in which the CNC tells F, rapid and hold; 0: the CNC tells nothing, and the override stays at its minimum.", MILLFORCE_FIELD(machine.bus.program_status_id)},
+    {ParameterFile::machine, "bus", "program_status_timeout_ms", "ms", 100.0F, 1.0F, 10000.0F, "A CNC that told its status and is silent for longer has the feed held.", MILLFORCE_FIELD(machine.bus.program_status_timeout_ms)},
+
+    {ParameterFile::machine, "bus.drive", "node_id", "", 0.0F, 0.0F, 127.0F, "CANopen node of the drive; 0: this drive is not on the bus.", MILLFORCE_DRIVE(node_id)},
+    {ParameterFile::machine, "bus.drive", "current_source", "", 0.0F, 0.0F, 1.0F, "What the current is worked out of: 0x6078 (current), or 0x6077 (torque) over the torque constant.", MILLFORCE_DRIVE(current_source), "current|torque"},
+    {ParameterFile::machine, "bus.drive", "current_basis", "", 0.0F, 0.0F, 1.0F, "What the drive means by its rated current.", MILLFORCE_DRIVE(current_basis), "rms|peak"},
+    {ParameterFile::machine, "bus.drive", "current_reversed", "", 0.0F, 0.0F, 1.0F, "The drive counts the current against the machine axis.", MILLFORCE_DRIVE(current_reversed), "false|true"},
+    {ParameterFile::machine, "bus.drive", "rated_torque_Nm", "N·m", 0.0F, 0.0F, 1e6F, "Unit of 0x6077; 0: read from 0x6076. Of the current: rated_current_A in the drive's own table; 0 there: read from 0x6075.", MILLFORCE_DRIVE(rated_torque_Nm)},
+    {ParameterFile::machine, "bus.drive", "torque_constant_Nm_per_A", "N·m/A", 0.0F, 0.0F, 1e4F, "Of the motor, for current_source = \"torque\".", MILLFORCE_DRIVE(torque_constant_Nm_per_A)},
+    {ParameterFile::machine, "bus.drive", "largest_share_of_rated", "1", 4.0F, 0.01F, 32.0F, "Current or torque beyond it, over the rated one, is not used.", MILLFORCE_DRIVE(largest_share_of_rated)},
+    {ParameterFile::machine, "bus.drive", "velocity_source", "", 0.0F, 0.0F, 1.0F, "Axes: 0x606C (velocity), or the difference of 0x6064 between two SYNCs (position).", MILLFORCE_DRIVE(velocity_source), "velocity|position"},
+    {ParameterFile::machine, "bus.drive", "velocity_mm_s_per_unit", "mm/s", 0.0F, -1e4F, 1e4F, "Unit of 0x606C; negative: the drive counts against the machine axis.", MILLFORCE_DRIVE(velocity_mm_s_per_unit)},
+    {ParameterFile::machine, "bus.drive", "position_mm_per_unit", "mm", 0.0F, -1e4F, 1e4F, "Unit of 0x6064; with both units the two are compared. 0: not told.", MILLFORCE_DRIVE(position_mm_per_unit)},
+    {ParameterFile::machine, "bus.drive", "largest_velocity_mm_s", "mm/s", 2000.0F, 0.1F, 1e5F, "A velocity beyond it is not used.", MILLFORCE_DRIVE(largest_velocity_mm_s)},
+    {ParameterFile::machine, "bus.drive", "count_modulus", "1", 0.0F, 0.0F, 16777216.0F, "Spindle: counts after which the object begins again at 0; 0: the object's width.", MILLFORCE_DRIVE(count_modulus)},
+    {ParameterFile::machine, "bus.drive", "largest_count_step", "1", 1048576.0F, 1.0F, 16777216.0F, "Spindle: a step of more counts per SYNC is not used.", MILLFORCE_DRIVE(largest_count_step)},
+    {ParameterFile::machine, "bus.drive", "count_reversed", "", 0.0F, 0.0F, 1.0F, "Spindle: the count falls in the cutting direction (M3).", MILLFORCE_DRIVE(count_reversed), "false|true"},
+    {ParameterFile::machine, "bus.drive", "heartbeat_timeout_ms", "ms", 0.0F, 0.0F, 60000.0F, "A drive silent for longer is lost; 0: its heartbeat is not watched.", MILLFORCE_DRIVE(heartbeat_timeout_ms)},
+    {ParameterFile::machine, "bus.drive", "heartbeat_period_ms", "ms", 0.0F, 0.0F, 60000.0F, "A master writes it to 0x1017; 0: left as it is.", MILLFORCE_DRIVE(heartbeat_period_ms)},
+    {ParameterFile::machine, "bus.drive", "write_mapping", "", 0.0F, 0.0F, 1.0F, "A master writes tpdo1 … tpdo4 to the drive; else it is mapped so already.", MILLFORCE_DRIVE(write_mapping), "false|true"},
+    {ParameterFile::machine, "bus.drive", "stale_ms", "ms", 20.0F, 0.0F, 10000.0F, "Age up to which a PDO that does not come at every SYNC is used.", MILLFORCE_DRIVE(stale_ms)},
+    {ParameterFile::machine, "bus.drive", "tpdo1_id", "", 0.0F, 0.0F, 1407.0F, "CAN id of TPDO 1; 0: 0x180 + node_id.", MILLFORCE_DRIVE(tpdo_id[0])},
+    {ParameterFile::machine, "bus.drive", "tpdo2_id", "", 0.0F, 0.0F, 1407.0F, "CAN id of TPDO 2; 0: 0x280 + node_id.", MILLFORCE_DRIVE(tpdo_id[1])},
+    {ParameterFile::machine, "bus.drive", "tpdo3_id", "", 0.0F, 0.0F, 1407.0F, "CAN id of TPDO 3; 0: 0x380 + node_id.", MILLFORCE_DRIVE(tpdo_id[2])},
+    {ParameterFile::machine, "bus.drive", "tpdo4_id", "", 0.0F, 0.0F, 1407.0F, "CAN id of TPDO 4; 0: 0x480 + node_id.", MILLFORCE_DRIVE(tpdo_id[3])},
+    {ParameterFile::machine, "bus.drive", "tpdo1_every", "", 1.0F, 0.0F, 240.0F, "TPDO 1 comes at every so-many-th SYNC; 0: when something changes.", MILLFORCE_DRIVE(tpdo_every[0])},
+    {ParameterFile::machine, "bus.drive", "tpdo2_every", "", 1.0F, 0.0F, 240.0F, "TPDO 2 comes at every so-many-th SYNC; 0: when something changes.", MILLFORCE_DRIVE(tpdo_every[1])},
+    {ParameterFile::machine, "bus.drive", "tpdo3_every", "", 1.0F, 0.0F, 240.0F, "TPDO 3 comes at every so-many-th SYNC; 0: when something changes.", MILLFORCE_DRIVE(tpdo_every[2])},
+    {ParameterFile::machine, "bus.drive", "tpdo4_every", "", 1.0F, 0.0F, 240.0F, "TPDO 4 comes at every so-many-th SYNC; 0: when something changes.", MILLFORCE_DRIVE(tpdo_every[3])},
 
     {ParameterFile::tool, "tool", "teeth", "1", required, 1.0F, 12.0F, "Number of teeth or inserts.", MILLFORCE_FIELD(tool.teeth)},
     {ParameterFile::tool, "tool", "diameter_mm", "mm", required, 0.1F, 1000.0F, "Cutting diameter.", MILLFORCE_FIELD(tool.diameter_mm)},
@@ -215,6 +257,7 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
 
 #undef MILLFORCE_FIELD
 #undef MILLFORCE_AXIS
+#undef MILLFORCE_DRIVE
 
 /// Keys that a calibration writes for the reader of the file, not for the controller: they are checked and ignored.
 /// A numeric key of either table may also have a companion KEY_se, the standard error of its fit.
@@ -247,6 +290,26 @@ inline constexpr auto information_table = std::to_array<InformationRow>({
 
     {ParameterFile::tool, "roughness", "roughness_at_means_um", "µm", "R at the geometric means of the tests, where the model knows it best."},
     {ParameterFile::tool, "roughness", "determination", "1", "Share of the variance of ln R that the model explains."},
+});
+
+/// Keys whose value is no number but names objects of a drive: "INDEX" or "INDEX.SUBINDEX", in a PDO with ":BITS".
+struct TextRow {
+    ParameterFile file;
+    const char* table;  ///< as in ParameterRow
+    const char* key;
+    const char* default_text;
+    const char* form;
+    const char* sentence;
+};
+
+inline constexpr auto text_table = std::to_array<TextRow>({
+    {ParameterFile::machine, "bus.drive", "tpdo1", "not used", "[\"0x6064:32\", …]", "Objects of the drive's TPDO 1 in their order: index, subindex where it is not 0, bits; up to 8 of them and 64 bits."},
+    {ParameterFile::machine, "bus.drive", "tpdo2", "not used", "[\"0x6064:32\", …]", "… of TPDO 2."},
+    {ParameterFile::machine, "bus.drive", "tpdo3", "not used", "[\"0x6064:32\", …]", "… of TPDO 3."},
+    {ParameterFile::machine, "bus.drive", "tpdo4", "not used", "[\"0x6064:32\", …]", "… of TPDO 4."},
+    {ParameterFile::machine, "bus.drive", "count_object", "0x6064", "\"0x6064\"", "Spindle: the object with the encoder's count."},
+    {ParameterFile::machine, "bus.drive", "index_count_object", "none", "\"0x60BA\"", "Spindle: the object with the count at the last index pulse."},
+    {ParameterFile::machine, "bus.drive", "index_number_object", "none", "\"0x60D5\"", "Spindle: the object that counts the index pulses."},
 });
 // clang-format on
 

@@ -22,6 +22,49 @@ struct CncParameters {
     Scalar acceleration_mm_s2{2000};
     Scalar stale_s{static_cast<Scalar>(0.05L)};
     Scalar sample_rate_hz{1000};
+    Scalar solver_values_per_tick{0};  ///< see CutEstimatorSettings::solver_values_per_step
+};
+
+/// One drive on the bus. Which objects its PDOs carry stands beside the numbers, as text (text_table).
+template <typename Scalar>
+struct BusDriveParameters {
+    Scalar node_id{0};
+    Scalar current_source{0};  ///< index into cia402::CurrentSource
+    Scalar current_basis{0};   ///< index into cia402::CurrentBasis
+    Scalar current_reversed{0};
+    Scalar rated_torque_Nm{0};
+    Scalar torque_constant_Nm_per_A{0};
+    Scalar largest_share_of_rated{4};
+    Scalar velocity_source{0};  ///< index into cia402::VelocitySource
+    Scalar velocity_mm_s_per_unit{0};
+    Scalar position_mm_per_unit{0};
+    Scalar largest_velocity_mm_s{2000};
+    Scalar count_modulus{0};
+    Scalar largest_count_step{1048576};
+    Scalar count_reversed{0};
+    Scalar heartbeat_timeout_ms{0};
+    Scalar heartbeat_period_ms{0};
+    Scalar write_mapping{0};
+    Scalar stale_ms{20};
+    std::array<Scalar, 4> tpdo_id{};
+    std::array<Scalar, 4> tpdo_every{Scalar(1), Scalar(1), Scalar(1), Scalar(1)};
+};
+
+/// The bus that drives and CNC are on. A machine without one has no drive with a node id.
+template <typename Scalar>
+struct BusParameters {
+    Scalar role{0};
+    Scalar produces_sync{0};
+    Scalar sync_id{0x080};
+    Scalar sync_period_ms{1};
+    Scalar collect_time_ms{static_cast<Scalar>(0.8L)};
+    Scalar override_id{0x1FE};
+    Scalar override_node_id{126};
+    Scalar override_period_ms{2};
+    Scalar override_heartbeat_ms{100};
+    Scalar program_status_id{0x1FD};
+    Scalar program_status_timeout_ms{100};
+    std::array<BusDriveParameters<Scalar>, 4> drives{};  ///< spindle, x, y, z
 };
 
 template <typename Scalar>
@@ -32,6 +75,7 @@ struct MachineParameters {
     std::array<estimation::FeedDriveParameters<Scalar>, 3> axes{};
     std::array<Scalar, 3> axis_rated_current_A{};
     CncParameters<Scalar> cnc{};
+    BusParameters<Scalar> bus{};
 };
 
 /// What stands between the force and the samples of a force sensor.
@@ -103,6 +147,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.surge_immersion = p.tool.control.surge_radial_immersion;
     s.turn_immersion = p.tool.control.turn_radial_immersion;
     s.tooth_force_limit_N = p.tool.tooth_force_limit_N;
+    s.solver_values_per_step = static_cast<int>(p.machine.cnc.solver_values_per_tick);
     s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;
     s.encoder_counts_per_rev = static_cast<std::uint32_t>(p.machine.encoder_counts_per_rev);

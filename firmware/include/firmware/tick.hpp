@@ -61,10 +61,11 @@ class ForceControlTick {
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
+        estimator_.restart();  // no average reaches over the gap
+        set_cut();
         set_motion(Scalar(dt_s), {}, program);
         input_.cut.fresh = false;
         input_.time_since_sample_s = Scalar(silent_s);
-        input_.cut.force_valid = false;
         input_.surface.valid = false;
         has_time_ = false;
         return output_of(controller_.step(input_));
@@ -258,12 +259,15 @@ class ForceControlTick {
         const auto& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
         cut.tangential_N = F_at.value;
         cut.tangential_sd_N = sqrt(F_at.variance);
-        cut.tooth_force_valid = e.tooth_force_N.valid;
-        cut.tooth_force_is_bound = e.tooth_force_is_bound;
+        // A force that is known to a third alone says no more than its bound.
+        constexpr Scalar vague = static_cast<Scalar>(0.3L);
+        const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;
+        const Scalar tooth_sd_N = sqrt(tooth.variance);
+        cut.tooth_force_valid = tooth.valid;
+        cut.tooth_force_is_bound = e.tooth_force_is_bound || (tooth.valid && tooth_sd_N > vague * tooth.value);
         cut.least_tooth_force_N = e.least_tooth_force_N;
-        cut.tooth_force_N = e.tooth_force_N.valid
-                                ? e.tooth_force_N.value + control_parameters_.caution_sd * sqrt(e.tooth_force_N.variance)
-                                : e.worst_tooth_force_N;
+        cut.tooth_force_N =
+            tooth.valid ? tooth.value + control_parameters_.caution_sd * tooth_sd_N : e.worst_tooth_force_N;
         // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
         if (e.newest_tangential_N > Scalar(0)) {
             const Scalar lead_s = reaction_s_ + Scalar(0.5F) * e.window_s;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "override_frame/override_frame.hpp"
+#include "program_status/program_status_frame.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -61,4 +62,23 @@ TEST(Dbc, describes_the_override_frame_as_it_is_encoded) {
     DOUBLES_EQUAL(3, value_of(signals["Fault"], frame), 0);
     DOUBLES_EQUAL(0xBEEF, value_of(signals["Counter"], frame), 0);
     DOUBLES_EQUAL(frame.data[7], value_of(signals["Checksum"], frame), 0);
+}
+
+TEST(Dbc, describes_the_program_status_frame_as_it_is_encoded) {
+    auto signals = signals_of("BO_ 509 ProgramStatus: 8 ");
+    CHECK_EQUAL(8U, signals.size());
+    UNSIGNED_LONGS_EQUAL(509, program_status::default_id);
+    program_status::ProgramStatusFrame status;
+    status.program = {25.0F, 0.8F, true, false};
+    status.reset_fault = true;
+    status.counter = 0xBEEF;
+    const hal::CanFrame frame = program_status::encode(status, program_status::default_id);
+    DOUBLES_EQUAL(1500.0, value_of(signals["ProgrammedFeed"], frame), 1e-9);
+    DOUBLES_EQUAL(80, value_of(signals["OperatorOverride"], frame), 0);
+    DOUBLES_EQUAL(1, value_of(signals["Rapid"], frame), 0);
+    DOUBLES_EQUAL(0, value_of(signals["FeedHold"], frame), 0);
+    DOUBLES_EQUAL(1, value_of(signals["ResetFault"], frame), 0);
+    DOUBLES_EQUAL(0, value_of(signals["StatusReserved"], frame), 0);
+    DOUBLES_EQUAL(0xBEEF, value_of(signals["StatusCounter"], frame), 0);
+    DOUBLES_EQUAL(frame.data[7], value_of(signals["StatusChecksum"], frame), 0);
 }

@@ -9,6 +9,7 @@
 #include "hal/can_frame.hpp"
 #include "socketcan/error_frame.hpp"
 #include "socketcan/interface_query.hpp"
+#include "socketcan/stamp_clock.hpp"
 
 /// One CAN interface of a Linux kernel, `can0` or `vcan0`, as a raw socket that never blocks, opens itself again, and
 /// tells the supervisor what is wrong with the bus.
@@ -21,10 +22,10 @@
 ///         socket.send(frame);
 ///     }
 ///
-/// No heap; every call but wait() returns at once. One thread per socket. Frames that this socket sent are never
-/// received by it; those of other programs on this machine are. CAN FD frames are counted and not handed over.
-/// A controller in bus-off stays there unless the interface was configured to restart:
-/// `ip link set can0 type can restart-ms 100`.
+/// No heap; every call but wait() returns at once. One thread per socket. Frames that this socket sent are received by
+/// it where `receive_own` asks for them; those of other programs on this machine are. CAN FD frames are counted and not
+/// handed over. A controller in bus-off stays there unless the interface was configured to restart: `ip link set can0
+/// type can restart-ms 100`.
 
 namespace millforce::socketcan {
 
@@ -62,11 +63,18 @@ struct CanSocketSettings {
     std::array<char, interface_name_capacity> interface{};
     std::array<hal::CanFilter, filter_capacity> filters{};
     std::size_t filter_count = 0;  ///< 0: every frame passes, 29-bit ids and remote frames too
+    bool receive_own = false;      ///< frames that this socket sent come back when they were on the bus
     int receive_buffer_bytes = 1 << 20;
     std::uint32_t look_period_us = 50'000;  ///< between looks at the interface, and between tries to open it
 
     /// False where the name is empty or longer than 15 characters.
     bool set_interface(std::string_view name);
+};
+
+struct ReceivedFrame {
+    hal::CanFrame frame{};
+    std::uint64_t time_us = 0;  ///< when the kernel got it
+    bool is_own = false;        ///< sent by this socket
 };
 
 /// CLOCK_MONOTONIC, in which all times of this driver are given.
@@ -80,10 +88,12 @@ class CanSocket {
     CanSocket& operator=(const CanSocket&) = delete;
 
     void poll(std::uint64_t now_us);
-    /// `time_us` is when the kernel got the frame.
+    [[nodiscard]] bool receive(ReceivedFrame& received);
     [[nodiscard]] bool receive(hal::CanFrame& frame, std::uint64_t& time_us);
     /// False: not sent, see health().
     bool send(const hal::CanFrame& frame);
+    /// Added to a frame's time_us it gives µs since 1970, as candump tells them.
+    [[nodiscard]] std::int64_t unix_offset_us() { return clock_.unix_offset_us(); }
     /// Until a frame is there, or the time is over; the time alone while the interface is absent.
     void wait(std::uint64_t timeout_us) const;
 
@@ -105,17 +115,19 @@ class CanSocket {
     void close();
     void look_at_interface();
     void enter(LinkState state);
-    [[nodiscard]] Fetched fetch(hal::CanFrame& frame, std::uint64_t& time_us);
+    [[nodiscard]] Fetched fetch(ReceivedFrame& received);
     void take_error_frame(std::uint32_t id, std::span<const std::uint8_t> data);
     void on_failure(int error);
 
     CanSocketSettings settings_;
     LinkHealth health_{};
     InterfaceQuery query_{};
+    StampClock clock_{};
     int descriptor_ = -1;
     int interface_index_ = 0;
     std::uint32_t kernel_drops_ = 0;
     std::uint64_t next_look_us_ = 0;
+    std::uint64_t polled_us_ = 0;
 };
 
 }  // namespace millforce::socketcan

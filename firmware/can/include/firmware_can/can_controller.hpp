@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "cia402/drive_bus.hpp"
+#include "firmware/tick.hpp"
+#include "firmware_can/conditions.hpp"
+#include "firmware_can/sync_producer.hpp"
+#include "hal/can_frame.hpp"
+#include "override_frame/override_sender.hpp"
+#include "program_status/program_status_receiver.hpp"
+
+/// The whole controller on a CAN bus, without the bus: frames and times in, frames to send and one tick per SYNC out.
+/// The daemon runs it over SocketCAN, the tests over a bus in memory, a replay over a log.
+///
+///     controller.on_frame(frame, time_us, is_own);     // every frame of the bus, the echo of its own SYNC too
+///     controller.poll(now_us);                         // at least once per SYNC period; at next_event_us()
+///     while (controller.take_frame(frame)) { ... }     // send
+///     controller.work();                               // what may take milliseconds, now that the override is out
+///
+/// What the tick sees depends on the received frames and their times alone: the same frames in the same order with the
+/// same times give the same estimates, bit for bit. So a cycle begins when the own SYNC comes back from the bus, at its
+/// time, and not when it was handed out. `poll(now_us)` counts as later than every frame that was received before
+/// `now_us − settle_us`.
+///
+/// Supervision. A sample is complete where every configured drive told everything. The tick begins with the first
+/// complete one and sees complete ones only; what lacks something is left out. After five SYNC periods without a
+/// complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s` it faults and holds the
+/// feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as they do. A fault
+/// is latched until the CNC resets it (program status frame) with all axes at rest.
+///
+/// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
+
+namespace millforce::firmware {
+
+struct CanControllerSettings {
+    cia402::BusSettings drives{};  ///< check(drives) == none
+    override_frame::OverrideSenderSettings feed_override{};
+    program_status::ProgramStatusReceiverSettings program{};
+    std::uint32_t settle_us = 0;  ///< a frame may be handed over so much later than its time
+};
+
+class CanController;
+
+/// Is told of each tick as soon as it has run, from within on_frame() and poll().
+class TickListener {
+  public:
+    virtual void on_tick(const CanController& controller) = 0;
+
+  protected:
+    ~TickListener() = default;
+};
+
+class CanController {
+  public:
+    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 1;
+
+    CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
+                  TickListener* listener = nullptr);
+
+    /// `is_own`: the echo of a frame that this controller sent.
+    void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
+    void poll(std::uint64_t now_us);
+    [[nodiscard]] bool take_frame(hal::CanFrame& frame);
+    /// The tick's work beside its steps. What is not done by then is done before the next sample: it is the same work.
+    void work();
+    /// No more ticks nor SYNC: the override says hold at once, and the heartbeat `stopped` a little later.
+    void stop(std::uint64_t now_us);
+
+    [[nodiscard]] std::uint64_t next_event_us(std::uint64_t now_us) const;
+    /// Ids of the frames that on_frame() can use; returns how many.
+    std::size_t filters(std::span<hal::CanFilter, filter_capacity> filters) const;
+
+    /// The newest tick: its time, what went in and what came out.
+    [[nodiscard]] std::uint64_t tick_time_us() const { return tick_time_us_; }
+    [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
+    [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
+    [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
+    [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
+    [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
+
+    [[nodiscard]] const Conditions& conditions() const { return conditions_; }
+    [[nodiscard]] const cia402::DriveBus& drives() const { return bus_; }
+    [[nodiscard]] std::uint32_t foreign_syncs() const { return foreign_syncs_; }
+    [[nodiscard]] std::uint32_t syncs_skipped() const { return sync_.skipped(); }
+
+  private:
+    void advance_to(std::uint64_t time_us);
+    void run_ticks();
+    void tick_on_sample();
+    void tick_without_sample();
+    void finish(const hal::FeedOverride& output, std::uint64_t time_us);
+    [[nodiscard]] hal::ProgramStatus program_at(std::uint64_t time_us) const;
+    void reset_fault_where_asked();
+    [[nodiscard]] bool is_at_rest() const;
+    [[nodiscard]] bool is_any_drive_stopped() const;
+    void judge(std::uint64_t now_us);
+
+    CanControllerSettings settings_;
+    std::uint8_t complete_;  ///< what a complete sample has present
+    std::uint64_t stale_us_;
+    std::uint64_t silent_after_us_;
+    cia402::DriveBus bus_;
+    SyncProducer sync_;
+    program_status::ProgramStatusReceiver program_receiver_;
+    override_frame::OverrideSender sender_;
+    ForceControlTick<float> tick_;
+    TickListener* listener_;
+
+    std::uint64_t bus_time_us_ = 0;
+    bool has_begun_ = false;
+    std::uint64_t sync_time_us_ = 0;      ///< of the newest sample
+    std::uint64_t complete_time_us_ = 0;  ///< of the newest complete one
+    std::uint64_t next_silent_us_ = 0;
+    std::uint64_t tick_time_us_ = 0;
+    hal::DriveSample sample_{};
+    hal::ProgramStatus program_{};
+    hal::FeedOverride output_{};
+    Conditions conditions_{};
+    bool stopped_ = false;
+    std::uint32_t foreign_syncs_ = 0;
+    std::uint64_t foreign_sync_us_ = 0;
+};
+
+}  // namespace millforce::firmware

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// What is wrong, or not yet right, by name. Nothing here latches: a condition is there as long as its cause.
+
+namespace millforce::firmware {
+
+enum class Condition : std::uint8_t {
+    interface_absent,  ///< no such interface, or a kernel without CAN
+    interface_down,
+    error_warning,  ///< of the CAN controller; frames flow
+    error_passive,  ///< the same
+    bus_off,
+    send_queue_full,       ///< ENOBUFS
+    frames_lost,           ///< overruns: frames came faster than they were fetched, within the last second
+    sync_lost,             ///< no SYNC for three periods
+    sync_foreign,          ///< somebody else sends SYNC, too, within the last second
+    drive_preparing,       ///< is asked or written to, or waited for
+    drive_refused,         ///< refused an SDO transfer
+    drive_lost,            ///< its heartbeat stays away
+    drive_not_enabled,     ///< its statusword tells a fault or a quick stop: the feed is held
+    drive_emergency,       ///< its last EMCY is an error
+    drive_units_disagree,  ///< velocity and position tell different speeds
+    input_incomplete,      ///< the last sample lacks a quantity of a drive
+    input_stale,           ///< no complete sample for so long that the tick faults
+    program_unknown,       ///< the CNC has not told its status: the override stays where it is
+    program_silent,        ///< the CNC told its status and stopped: the feed is held
+};
+inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::program_silent) + 1;
+
+constexpr const char* name(Condition condition) {
+    constexpr const char* names[] = {"interface_absent",  "interface_down",  "error_warning",        "error_passive",
+                                     "bus_off",           "send_queue_full", "frames_lost",          "sync_lost",
+                                     "sync_foreign",      "drive_preparing", "drive_refused",        "drive_lost",
+                                     "drive_not_enabled", "drive_emergency", "drive_units_disagree", "input_incomplete",
+                                     "input_stale",       "program_unknown", "program_silent"};
+    static_assert(sizeof names / sizeof names[0] == condition_count);
+    return names[static_cast<std::size_t>(condition) % condition_count];
+}
+
+class Conditions {
+  public:
+    void set(Condition condition, bool is_there) {
+        const std::uint32_t bit = 1U << static_cast<unsigned>(condition);
+        bits_ = is_there ? bits_ | bit : bits_ & ~bit;
+    }
+    [[nodiscard]] bool has(Condition condition) const {
+        return (bits_ & (1U << static_cast<unsigned>(condition))) != 0;
+    }
+    void add(const Conditions& others) { bits_ |= others.bits_; }
+    [[nodiscard]] bool none() const { return bits_ == 0; }
+    [[nodiscard]] bool operator==(const Conditions&) const = default;
+
+  private:
+    std::uint32_t bits_ = 0;
+};
+
+}  // namespace millforce::firmware

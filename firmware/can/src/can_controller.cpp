@@ -1,0 +1,230 @@
+#include "firmware_can/can_controller.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace millforce::firmware {
+
+namespace {
+
+/// SYNC is watched by its echo: the bus itself only listens for it.
+cia402::BusSettings listening_for_sync(cia402::BusSettings settings) {
+    settings.produces_sync = false;
+    return settings;
+}
+
+std::uint8_t complete_sample(const cia402::BusSettings& settings) {
+    std::uint8_t present = 0;
+    for (std::size_t role = 0; role < settings.drives.size(); ++role) {
+        const std::uint8_t of_spindle =
+            hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current);
+        const std::uint8_t of_role = role == 0 ? of_spindle : hal::axis_mask(role - 1);
+        present = static_cast<std::uint8_t>(present | (settings.drives[role].node_id != 0 ? of_role : 0U));
+    }
+    return present;
+}
+
+std::uint64_t microseconds(float seconds) {
+    return static_cast<std::uint64_t>(seconds * 1e6F);
+}
+
+float seconds(std::uint64_t microseconds) {
+    return static_cast<float>(microseconds) * 1e-6F;
+}
+
+/// SYNC periods without a sample after which the tick runs without one.
+constexpr std::uint64_t silent_after_periods = 5;
+/// The fault has long been latched then: a log with a gap of hours is not ticked through.
+constexpr std::uint64_t longest_silence_us = 10'000'000;
+constexpr float at_rest_mm_s = 0.5F;
+constexpr std::uint64_t shown_for_us = 1'000'000;
+
+}  // namespace
+
+CanController::CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
+                             TickListener* listener)
+    : settings_(settings),
+      complete_(complete_sample(settings.drives)),
+      stale_us_(microseconds(parameters.machine.cnc.stale_s)),
+      silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
+      bus_(listening_for_sync(settings.drives)),
+      sync_(settings.drives.sync_id, settings.drives.sync_period_us),
+      program_receiver_(settings.program),
+      sender_(settings.feed_override),
+      tick_(parameters),
+      listener_(listener) {}
+
+/// What is due before a frame's time is done before the frame is looked at: so it does not matter how often poll()
+/// comes.
+void CanController::advance_to(std::uint64_t time_us) {
+    bus_time_us_ = std::max(bus_time_us_, time_us);
+    bus_.poll(bus_time_us_);
+    run_ticks();
+}
+
+void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own) {
+    advance_to(time_us);
+    const bool is_sync = frame.id == settings_.drives.sync_id && !frame.extended && !frame.remote;
+    if (is_sync && settings_.drives.produces_sync && !is_own) {
+        foreign_syncs_ += foreign_syncs_ < UINT32_MAX ? 1U : 0U;
+        foreign_sync_us_ = time_us;
+        return;
+    }
+    if (is_own && !is_sync) {
+        return;
+    }
+    program_receiver_.on_frame(frame, time_us);
+    bus_.on_frame(frame, time_us);
+    run_ticks();
+}
+
+void CanController::poll(std::uint64_t now_us) {
+    advance_to(now_us > settings_.settle_us ? now_us - settings_.settle_us : 0);
+    if (settings_.drives.produces_sync && !stopped_) {
+        sync_.poll(now_us);
+    }
+    sender_.poll(now_us);
+    judge(now_us);
+}
+
+void CanController::run_ticks() {
+    if (stopped_) {
+        return;
+    }
+    if (hal::DriveSample sample; bus_.take_sample(sample)) {
+        sample_ = sample;
+        // The sample's time is that of its SYNC in 32 bits: the nearest such time at or before now.
+        const auto age_us = static_cast<std::uint32_t>(static_cast<std::uint32_t>(bus_time_us_) - sample.time_us);
+        sync_time_us_ = bus_time_us_ - age_us;
+        tick_on_sample();
+    }
+    if (has_begun_ && bus_time_us_ > next_silent_us_ + longest_silence_us) {
+        next_silent_us_ = bus_time_us_ - longest_silence_us;
+    }
+    while (has_begun_ && bus_time_us_ >= next_silent_us_) {
+        tick_without_sample();
+    }
+}
+
+/// A sample that lacks something is left out: the next complete one spans its time.
+void CanController::tick_on_sample() {
+    if ((sample_.present & complete_) != complete_) {
+        return;
+    }
+    has_begun_ = true;
+    complete_time_us_ = sync_time_us_;
+    next_silent_us_ = sync_time_us_ + silent_after_us_;
+    program_ = program_at(sync_time_us_);
+    reset_fault_where_asked();
+    work();
+    finish(tick_.step(sample_, program_), sync_time_us_);
+}
+
+void CanController::tick_without_sample() {
+    const std::uint64_t time_us = next_silent_us_;
+    next_silent_us_ += settings_.drives.sync_period_us;
+    program_ = program_at(time_us);
+    finish(tick_.step_without_sample(seconds(time_us - complete_time_us_), seconds(settings_.drives.sync_period_us),
+                                     program_),
+           time_us);
+}
+
+void CanController::work() {
+    if (tick_.work_due()) {
+        tick_.work();
+    }
+}
+
+void CanController::finish(const hal::FeedOverride& output, std::uint64_t time_us) {
+    output_ = output;
+    tick_time_us_ = time_us;
+    sender_.update(output_, bus_time_us_);
+    if (listener_ != nullptr) {
+        listener_->on_tick(*this);
+    }
+}
+
+void CanController::stop(std::uint64_t now_us) {
+    stopped_ = true;
+    output_.hold = true;
+    if (has_begun_) {
+        sender_.update(output_, now_us);
+    }
+}
+
+hal::ProgramStatus CanController::program_at(std::uint64_t time_us) const {
+    hal::ProgramStatus program = program_receiver_.program(time_us);
+    program.feed_hold = program.feed_hold || is_any_drive_stopped();
+    return program;
+}
+
+/// The CNC brakes by itself then; the override must not rise meanwhile, nor pull when the drive comes back.
+bool CanController::is_any_drive_stopped() const {
+    for (std::size_t role = 0; role < cia402::drive_capacity; ++role) {
+        const cia402::PowerState power = bus_.health(static_cast<cia402::DriveRole>(role)).power;
+        if (cia402::is_faulted(power) || power == cia402::PowerState::quick_stop_active) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void CanController::reset_fault_where_asked() {
+    if (program_receiver_.take_reset() && is_at_rest()) {
+        tick_.reset_fault();
+    }
+}
+
+bool CanController::is_at_rest() const {
+    const auto rests = [](float velocity_mm_s) {
+        return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
+    };
+    return (sample_.present & complete_) == complete_ &&
+           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), rests);
+}
+
+void CanController::judge(std::uint64_t now_us) {
+    using cia402::NodeState;
+    Conditions found;
+    found.set(Condition::sync_lost, bus_.health().sync_lost);
+    found.set(Condition::sync_foreign, foreign_syncs_ > 0 && now_us < foreign_sync_us_ + shown_for_us);
+    for (std::size_t role = 0; role < cia402::drive_capacity; ++role) {
+        const cia402::NodeHealth& drive = bus_.health(static_cast<cia402::DriveRole>(role));
+        Conditions of_drive;
+        of_drive.set(Condition::drive_preparing,
+                     drive.state == NodeState::preparing || drive.state == NodeState::starting);
+        of_drive.set(Condition::drive_refused, drive.state == NodeState::refused);
+        of_drive.set(Condition::drive_lost, drive.state == NodeState::lost);
+        of_drive.set(Condition::drive_emergency, drive.emergency_active);
+        of_drive.set(Condition::drive_units_disagree, drive.units_disagree);
+        found.add(of_drive);
+    }
+    found.set(Condition::drive_not_enabled, is_any_drive_stopped());
+    found.set(Condition::input_incomplete, (sample_.present & complete_) != complete_);
+    found.set(Condition::input_stale, has_begun_ && bus_time_us_ > complete_time_us_ + stale_us_);
+    const program_status::ProgramSource source = program_receiver_.source(bus_time_us_);
+    found.set(Condition::program_unknown, source == program_status::ProgramSource::never_heard);
+    found.set(Condition::program_silent, source == program_status::ProgramSource::silent);
+    conditions_ = found;
+}
+
+bool CanController::take_frame(hal::CanFrame& frame) {
+    return sync_.take_frame(frame) || sender_.take_frame(frame) || bus_.take_frame(frame);
+}
+
+std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
+    std::uint64_t next_us = std::min(bus_.next_event_us(now_us) + settings_.settle_us,
+                                     now_us + settings_.feed_override.period_us);
+    if (settings_.drives.produces_sync && !stopped_) {
+        next_us = std::min(next_us, sync_.next_us());
+    }
+    return std::max(next_us, now_us);
+}
+
+std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
+    const std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
+    filters[count] = {settings_.program.id, hal::largest_standard_can_id};
+    return count + (settings_.program.id != 0 ? 1U : 0U);
+}
+
+}  // namespace millforce::firmware

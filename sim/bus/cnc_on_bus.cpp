@@ -1,0 +1,44 @@
+#include "bus/cnc_on_bus.hpp"
+
+#include <utility>
+
+namespace millforce::sim {
+
+namespace {
+
+/// F in the frame's own steps: the CNC's rounding of one and the same F is no change.
+bool differ(const hal::ProgramStatus& a, const hal::ProgramStatus& b) {
+    return a.rapid != b.rapid || a.feed_hold != b.feed_hold || a.programmed_feed_mm_s != b.programmed_feed_mm_s ||
+           a.operator_override != b.operator_override;
+}
+
+}  // namespace
+
+void CncOnBus::set(const hal::ProgramStatus& program, std::uint64_t time_us) {
+    const bool is_news = !has_status_ || differ(program, newest_.program);
+    newest_.program = program;
+    has_status_ = true;
+    if (is_news) {
+        send(time_us);
+    }
+}
+
+void CncOnBus::poll(std::uint64_t time_us) {
+    if (has_status_ && time_us >= next_us_) {
+        send(time_us);
+    }
+}
+
+void CncOnBus::send(std::uint64_t time_us) {
+    next_us_ = time_us + settings_.program_status_period_us;
+    if (settings_.program_status_id != 0) {
+        ++newest_.counter;
+        outgoing_.push_back(program_status::encode(newest_, settings_.program_status_id));
+    }
+}
+
+std::vector<hal::CanFrame> CncOnBus::take_frames() {
+    return std::exchange(outgoing_, {});
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/can_frame.hpp"
+#include "hal/drive_sample.hpp"
+#include "override_frame/override_receiver.hpp"
+#include "program_status/program_status_frame.hpp"
+
+namespace millforce::sim {
+
+struct CncOnBusSettings {
+    override_frame::OverrideReceiverSettings feed_override{};
+    std::uint32_t program_status_id = program_status::default_id;  ///< 0: it tells nothing
+    std::uint32_t program_status_period_us = 10'000;
+};
+
+/// A CNC's side of the bus: it takes the feed override and tells F, rapid and hold, at once where one of them changes.
+class CncOnBus {
+  public:
+    explicit CncOnBus(const CncOnBusSettings& settings) : settings_(settings), receiver_(settings.feed_override) {}
+
+    void set(const hal::ProgramStatus& program, std::uint64_t time_us);
+    /// The operator's acknowledgement of a latched fault, in the status frames from now on.
+    void press_reset(bool pressed) { newest_.reset_fault = pressed; }
+    void on_frame(const hal::CanFrame& frame, std::uint64_t time_us) { receiver_.on_frame(frame, time_us); }
+    void poll(std::uint64_t time_us);
+    [[nodiscard]] std::vector<hal::CanFrame> take_frames();
+    [[nodiscard]] override_frame::ReceivedOverride feed_override(std::uint64_t now_us) const {
+        return receiver_.current(now_us);
+    }
+
+  private:
+    void send(std::uint64_t time_us);
+
+    CncOnBusSettings settings_;
+    override_frame::OverrideReceiver receiver_;
+    program_status::ProgramStatusFrame newest_{};
+    bool has_status_ = false;
+    std::uint64_t next_us_ = 0;
+    std::vector<hal::CanFrame> outgoing_;
+};
+
+}  // namespace millforce::sim

@@ -1,0 +1,229 @@
+#include "files/bus_objects.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "files/input_error.hpp"
+#include "firmware/parameter_table.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+using cia402::MappedObject;
+using cia402::SettingsError;
+
+/// Hexadecimal with 0x, else decimal; nothing where it is no number up to `largest`.
+std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t largest) {
+    const bool is_hexadecimal = text.starts_with("0x") || text.starts_with("0X");
+    text.remove_prefix(is_hexadecimal ? 2 : 0);
+    std::uint32_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value, is_hexadecimal ? 16 : 10);
+    return error == std::errc() && stopped == end && value <= largest ? std::optional(value) : std::nullopt;
+}
+
+/// "0x6064" or "0x60FE.1".
+std::optional<cia402::ObjectAddress> address_of(std::string_view text) {
+    const std::size_t dot = text.find('.');
+    const auto index = whole_number(text.substr(0, dot), 0xFFFF);
+    const auto subindex = dot == std::string_view::npos ? std::optional(0U) : whole_number(text.substr(dot + 1), 0xFF);
+    if (!index || *index == 0 || !subindex) {
+        return std::nullopt;
+    }
+    return cia402::ObjectAddress{static_cast<std::uint16_t>(*index), static_cast<std::uint8_t>(*subindex)};
+}
+
+/// "0x6064:32".
+std::optional<MappedObject> mapped_object_of(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    const auto address = address_of(text.substr(0, colon));
+    const std::string_view width = colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
+    const std::uint32_t bits = whole_number(width, 64).value_or(0);
+    if (!address || bits == 0) {
+        return std::nullopt;
+    }
+    return MappedObject{address->index, address->subindex, static_cast<std::uint8_t>(bits)};
+}
+
+void read_mapping(TomlFile::Table& table, const std::string& key, cia402::PdoMapping& pdo) {
+    const std::vector<std::string> texts = table.texts(key);
+    if (texts.size() > cia402::largest_pdo_objects) {
+        table.fail(key, fmt::format("{} objects, expected at most {}", texts.size(), cia402::largest_pdo_objects));
+    }
+    unsigned bits = 0;
+    for (const std::string& text : texts) {
+        const auto object = mapped_object_of(text);
+        if (!object) {
+            table.fail(key, fmt::format("\"{}\" is no object, expected INDEX:BITS or INDEX.SUBINDEX:BITS with 1 to 64 "
+                                        "bits, e.g. \"0x6064:32\"",
+                                        text));
+        }
+        bits += object->bits;
+        pdo.objects[pdo.object_count++] = *object;
+    }
+    if (bits > 64) {
+        table.fail(key, fmt::format("{} bits, expected at most 64", bits));
+    }
+}
+
+cia402::ObjectAddress read_address(TomlFile::Table& table, const std::string& key, cia402::ObjectAddress fallback) {
+    const std::string text = table.text(key, "");
+    if (text.empty()) {
+        return fallback;
+    }
+    const auto address = address_of(text);
+    if (!address) {
+        table.fail(key, "expected an object as INDEX or INDEX.SUBINDEX, e.g. \"0x6064\"");
+    }
+    return *address;
+}
+
+std::uint32_t microseconds_of(float milliseconds) {
+    return static_cast<std::uint32_t>(std::lround(milliseconds * 1e3F));
+}
+std::uint32_t whole(float value) {
+    return static_cast<std::uint32_t>(std::lround(value));
+}
+bool is_set(float value) {
+    return value > 0.5F;
+}
+
+cia402::DriveSettings drive_settings(const firmware::BusDriveParameters<float>& p, float rated_current_A,
+                                     const DriveObjects& objects) {
+    cia402::DriveSettings drive;
+    drive.node_id = static_cast<std::uint8_t>(whole(p.node_id));
+    drive.pdos = objects.pdos;
+    for (std::size_t k = 0; k < drive.pdos.size(); ++k) {
+        cia402::PdoMapping& pdo = drive.pdos[k];
+        const auto usual_id = static_cast<std::uint32_t>(0x180U + 0x100U * k + drive.node_id);
+        const std::uint32_t id = p.tpdo_id[k] > 0.0F ? whole(p.tpdo_id[k]) : usual_id;
+        pdo.id = pdo.object_count > 0 ? id : 0;
+        pdo.transmission_type = static_cast<std::uint8_t>(is_set(p.tpdo_every[k]) ? whole(p.tpdo_every[k]) : 254U);
+    }
+    drive.current_source = static_cast<cia402::CurrentSource>(whole(p.current_source));
+    drive.current_basis = static_cast<cia402::CurrentBasis>(whole(p.current_basis));
+    drive.current_reversed = is_set(p.current_reversed);
+    drive.rated_current_A = rated_current_A;
+    drive.rated_torque_Nm = p.rated_torque_Nm;
+    drive.torque_constant_Nm_per_A = p.torque_constant_Nm_per_A;
+    drive.largest_share_of_rated = p.largest_share_of_rated;
+    drive.velocity_source = static_cast<cia402::VelocitySource>(whole(p.velocity_source));
+    drive.velocity_mm_s_per_unit = p.velocity_mm_s_per_unit;
+    drive.position_mm_per_unit = p.position_mm_per_unit;
+    drive.largest_velocity_mm_s = p.largest_velocity_mm_s;
+    drive.count_object = objects.count;
+    drive.index_count_object = objects.index_count;
+    drive.index_number_object = objects.index_number;
+    drive.count_modulus = whole(p.count_modulus);
+    drive.largest_count_step = whole(p.largest_count_step);
+    drive.count_reversed = is_set(p.count_reversed);
+    drive.heartbeat_timeout_us = microseconds_of(p.heartbeat_timeout_ms);
+    drive.heartbeat_period_ms = static_cast<std::uint16_t>(whole(p.heartbeat_period_ms));
+    drive.write_mapping = is_set(p.write_mapping);
+    drive.stale_us = microseconds_of(p.stale_ms);
+    return drive;
+}
+
+/// What is wrong, and what was expected.
+const char* explanation(SettingsError error) {
+    switch (error) {
+        case SettingsError::none:
+            return "nothing is wrong";
+        case SettingsError::no_drive:
+            return "no drive, expected a node_id";
+        case SettingsError::node_id:
+            return "node_id is used twice, expected another for each drive";
+        case SettingsError::pdo_mapping:
+            return "tpdo1 … tpdo4: expected CAN ids from 0x181 to 0x57F and at most 64 bits";
+        case SettingsError::id_used_twice:
+            return "a CAN id is used twice, expected another for each PDO and SYNC";
+        case SettingsError::object_missing:
+            return "a needed object is in none of tpdo1 … tpdo4, expected 0x6078 (or 0x6077 with current_source = "
+                   "\"torque\"), and count_object and the index objects of the spindle, or 0x606C (or 0x6064 with "
+                   "velocity_source = \"position\") of an axis";
+        case SettingsError::object_width:
+            return "an object that is read has more than 32 bits";
+        case SettingsError::rated_value:
+            return "no rated value, and a listener cannot ask the drive; expected rated_current_A in the drive's own "
+                   "table, or rated_torque_Nm here";
+        case SettingsError::torque_constant:
+            return "torque_constant_Nm_per_A = 0, expected a positive one with current_source = \"torque\"";
+        case SettingsError::unit:
+            return "velocity_mm_s_per_unit = 0, or position_mm_per_unit with velocity_source = \"position\"; expected "
+                   "the unit of the object";
+        case SettingsError::limit:
+            return "count_modulus or largest_count_step, expected steps of at most half the modulus";
+        case SettingsError::heartbeat:
+            return "heartbeat_timeout_ms, expected more than heartbeat_period_ms";
+        case SettingsError::sync:
+            return "collect_time_ms, expected at most sync_period_ms";
+    }
+    return "";
+}
+
+[[noreturn]] void refuse(const std::string& file, const char* table, SettingsError error) {
+    throw InputError(fmt::format("{}: {}: {}", file, table, explanation(error)));
+}
+
+/// Each drive alone first: the message can name its table then.
+void check_bus(const std::string& file, const cia402::BusSettings& settings) {
+    for (std::size_t k = 0; k < settings.drives.size(); ++k) {
+        cia402::BusSettings alone = settings;
+        alone.drives = {};
+        alone.drives[k] = settings.drives[k];
+        const SettingsError error = settings.drives[k].node_id == 0 ? SettingsError::none : check(alone);
+        if (error != SettingsError::none) {
+            refuse(file, error == SettingsError::sync ? "bus" : firmware::drive_tables[k], error);
+        }
+    }
+    if (const SettingsError error = check(settings); error != SettingsError::none) {
+        refuse(file, "bus", error);
+    }
+}
+
+}  // namespace
+
+DriveObjects read_drive_objects(TomlFile::Table& table) {
+    DriveObjects objects;
+    for (std::size_t k = 0; k < objects.pdos.size(); ++k) {
+        read_mapping(table, fmt::format("tpdo{}", k + 1), objects.pdos[k]);
+    }
+    objects.count = read_address(table, "count_object", {cia402::DriveSettings{}.count_object});
+    objects.index_count = read_address(table, "index_count_object", {});
+    objects.index_number = read_address(table, "index_number_object", {});
+    return objects;
+}
+
+std::optional<MachineBus> machine_bus(const std::string& file, const firmware::MachineParameters<float>& machine,
+                                      const BusObjects& objects) {
+    const firmware::BusParameters<float>& p = machine.bus;
+    MachineBus bus;
+    bool has_drive = false;
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+        const float rated_A = k == 0 ? machine.spindle_rated_current_A : machine.axis_rated_current_A[k - 1];
+        bus.drives.drives[k] = drive_settings(p.drives[k], rated_A, objects[k]);
+        has_drive = has_drive || bus.drives.drives[k].node_id != 0;
+    }
+    if (!has_drive) {
+        return std::nullopt;
+    }
+    bus.drives.is_master = is_set(p.role);
+    bus.drives.produces_sync = is_set(p.produces_sync);
+    bus.drives.sync_id = whole(p.sync_id);
+    bus.drives.sync_period_us = microseconds_of(p.sync_period_ms);
+    bus.drives.collect_us = microseconds_of(p.collect_time_ms);
+    check_bus(file, bus.drives);
+    bus.feed_override.id = whole(p.override_id);
+    bus.feed_override.node_id = static_cast<std::uint8_t>(whole(p.override_node_id));
+    bus.feed_override.period_us = microseconds_of(p.override_period_ms);
+    bus.feed_override.heartbeat_period_us = microseconds_of(p.override_heartbeat_ms);
+    bus.program.id = whole(p.program_status_id);
+    bus.program.timeout_us = microseconds_of(p.program_status_timeout_ms);
+    return bus;
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,176 @@
+#include "live/can_daemon.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "loop/override_source.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+using firmware::Condition;
+
+/// Between a frame's stamp and its place in the socket's queue lie microseconds, but milliseconds where this thread runs
+/// before the kernel's deferred work. What is missing by then is left out anyway; only `input_stale` comes so much later.
+constexpr std::uint32_t settle_us = 5'000;
+constexpr std::uint64_t second_us = 1'000'000;
+/// The override's sender finds out that ticks stay away (20 ms) and says so in its heartbeat.
+constexpr std::uint64_t farewell_us = 40'000;
+
+firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
+    firmware::CanControllerSettings settings;
+    settings.drives = bus.drives;
+    settings.feed_override = bus.feed_override;
+    settings.program = bus.program;
+    settings.settle_us = settle_us;
+    return settings;
+}
+
+}  // namespace
+
+CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
+                     const firmware::Parameters<float>& parameters, Journal& journal, bool records)
+    : journal_(journal),
+      override_id_(bus.feed_override.id),
+      controller_(controller_settings(bus), parameters, this),
+      socket_(socket_settings(interface, controller_, records)) {}
+
+socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSettings settings,
+                                                        const firmware::CanController& controller, bool records) {
+    settings.receive_own = true;
+    if (!records) {
+        std::array<hal::CanFilter, firmware::CanController::filter_capacity> filters{};
+        settings.filter_count = controller.filters(filters);
+        std::copy_n(filters.begin(), settings.filter_count, settings.filters.begin());
+    }
+    return settings;
+}
+
+void CanDaemon::run(const std::atomic<bool>& stop) {
+    while (!stop.load(std::memory_order_relaxed)) {
+        step();
+    }
+    end(farewell_us);
+}
+
+void CanDaemon::step() {
+    const std::uint64_t before_us = socketcan::monotonic_us();
+    socket_.wait(controller_.next_event_us(before_us) - before_us);
+    const std::uint64_t now_us = socketcan::monotonic_us();
+    socket_.poll(now_us);
+    receive_all();
+    controller_.poll(now_us);
+    send_all();
+    controller_.work();
+    report(now_us);
+}
+
+void CanDaemon::end(std::uint64_t duration_us) {
+    const std::uint64_t start_us = socketcan::monotonic_us();
+    controller_.stop(start_us);
+    for (std::uint64_t now_us = start_us; now_us < start_us + duration_us; now_us = socketcan::monotonic_us()) {
+        step();
+    }
+}
+
+void CanDaemon::receive_all() {
+    socketcan::ReceivedFrame received;
+    while (socket_.receive(received)) {
+        journal_.record(received.frame, unix_us(received.time_us));
+        controller_.on_frame(received.frame, received.time_us, received.is_own);
+    }
+}
+
+void CanDaemon::send_all() {
+    hal::CanFrame frame;
+    while (controller_.take_frame(frame)) {
+        const bool is_new = frame.id == override_id_ && controller_.tick_time_us() != measured_tick_us_;
+        if (socket_.send(frame) && is_new) {
+            measured_tick_us_ = controller_.tick_time_us();
+            const std::uint64_t now_us = socketcan::monotonic_us();
+            latency_.add(now_us > measured_tick_us_ ? now_us - measured_tick_us_ : 0);
+        }
+    }
+}
+
+std::uint64_t CanDaemon::unix_us(std::uint64_t time_us) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(time_us) + socket_.unix_offset_us());
+}
+
+void CanDaemon::on_tick(const firmware::CanController& controller) {
+    if (controller.tick_time_us() < next_estimate_us_) {
+        return;
+    }
+    next_estimate_us_ = controller.tick_time_us() + estimate_interval_us_;
+    newest_ = {};
+    newest_.unix_us = unix_us(controller.tick_time_us());
+    describe_tick(controller.controller(), newest_.point);
+    newest_.override_ratio = controller.output().ratio;
+    newest_.hold = controller.output().hold;
+    journal_.estimate(newest_);
+}
+
+firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
+    using socketcan::LinkState;
+    const socketcan::LinkHealth& link = socket_.health();
+    firmware::Conditions found = controller_.conditions();
+    found.set(Condition::interface_absent, link.state == LinkState::absent);
+    found.set(Condition::interface_down, link.state == LinkState::down);
+    found.set(Condition::error_warning, link.state == LinkState::error_warning);
+    found.set(Condition::error_passive, link.state == LinkState::error_passive);
+    found.set(Condition::bus_off, link.state == LinkState::bus_off);
+    found.set(Condition::send_queue_full, link.send_queue_full);
+    if (const std::uint32_t lost = link.overruns + link.controller_overflows; lost != frames_lost_) {
+        frames_lost_ = lost;
+        frames_lost_us_ = now_us;
+    }
+    found.set(Condition::frames_lost, frames_lost_ > 0 && now_us < frames_lost_us_ + second_us);
+    return found;
+}
+
+/// With what was there within the last second: a condition that flutters is told once.
+firmware::Conditions CanDaemon::recent(const firmware::Conditions& now, std::uint64_t now_us) {
+    firmware::Conditions found;
+    for (std::size_t k = 0; k < firmware::condition_count; ++k) {
+        const auto condition = static_cast<Condition>(k);
+        seen_us_[k] = now.has(condition) ? now_us : seen_us_[k];
+        found.set(condition, seen_us_[k] != 0 && now_us < seen_us_[k] + second_us);
+    }
+    return found;
+}
+
+void CanDaemon::report(std::uint64_t now_us) {
+    const firmware::Conditions now = recent(conditions(now_us), now_us);
+    const bool is_periodic = now_us >= next_status_us_;
+    const bool is_news = !has_told_ || !(now == told_);
+    if (!is_periodic && !is_news) {
+        return;
+    }
+    has_told_ = true;
+    told_ = now;
+    StatusEntry entry;
+    entry.unix_us = unix_us(now_us);
+    entry.conditions = now;
+    entry.link = socket_.health();
+    entry.bus = controller_.drives().health();
+    entry.rejects = controller_.drives().rejects();
+    for (std::size_t role = 0; role < entry.drives.size(); ++role) {
+        const auto drive = static_cast<cia402::DriveRole>(role);
+        entry.drives[role] = controller_.drives().health(drive);
+        entry.is_used[role] = controller_.drives().node(drive).node_id() != 0;
+    }
+    entry.ticks = controller_.ticks();
+    entry.syncs_skipped = controller_.syncs_skipped();
+    entry.newest = newest_;
+    if (is_news) {
+        journal_.status(entry);
+    }
+    if (is_periodic) {
+        next_status_us_ = now_us + second_us;
+        entry.is_periodic = true;
+        journal_.status(entry);
+    }
+}
+
+}  // namespace millforce::sim

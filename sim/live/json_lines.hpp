@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "live/journal.hpp"
+
+namespace millforce::sim {
+
+/// One line of the log of `millforce run`, with its end: an estimate, or a status.
+std::string json_line(const EstimateEntry& entry);
+std::string json_line(const StatusEntry& entry);
+
+/// The status in one line for a person.
+std::string status_line(const StatusEntry& entry);
+
+/// `drive_lost (x), sync_lost`; empty: nothing is wrong.
+std::string condition_list(const StatusEntry& entry);
+
+}  // namespace millforce::sim

@@ -1,0 +1,104 @@
+#include "live/plant_on_can.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "files/input_error.hpp"
+
+namespace millforce::sim {
+
+namespace {
+constexpr std::uint64_t longest_wait_us = 5'000;
+}
+
+PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings)
+    : settings_(settings),
+      socket_(settings.interface),
+      machine_(settings.machine),
+      cnc_(settings.cnc),
+      start_us_(socketcan::monotonic_us()),
+      plant_us_(start_us_),
+      due_us_(start_us_) {}
+
+hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    const std::uint64_t now_us = socketcan::monotonic_us();
+    machine_.set(sample);
+    cnc_.set(program, now_us);
+    if (sync_is_pending_) {
+        sync_is_pending_ = false;
+        longest_delay_us_ = std::max(longest_delay_us_, now_us > due_us_ ? now_us - due_us_ : 0);
+        machine_.on_frame(sync_, now_us);
+    }
+    machine_.poll(now_us);
+    cnc_.poll(now_us);
+    send_all();
+    await_sync();
+    const override_frame::ReceivedOverride got = cnc_.feed_override(due_us_);
+    is_ready_ = is_ready_ || got.is_alive;
+    return {got.ratio, got.hold, got.state, got.fault, 0};
+}
+
+/// Until the next SYNC, or until the plant has to go on without one. `due_us_` is the time of it.
+void PlantOnCan::await_sync() {
+    for (;;) {
+        const std::uint64_t now_us = socketcan::monotonic_us();
+        socket_.poll(now_us);
+        if (receive_until_sync()) {
+            return;
+        }
+        machine_.poll(now_us);
+        cnc_.poll(now_us);
+        send_all();
+        if (now_us >= plant_us_ + longest_wait_us) {
+            due_us_ = now_us;
+            check_patience(now_us);
+            return;
+        }
+        socket_.wait(plant_us_ + longest_wait_us - now_us);
+    }
+}
+
+bool PlantOnCan::receive_until_sync() {
+    socketcan::ReceivedFrame received;
+    while (socket_.receive(received)) {
+        const hal::CanFrame& frame = received.frame;
+        if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
+            sync_ = frame;
+            sync_is_pending_ = true;
+            due_us_ = std::max(received.time_us, plant_us_);
+            ++syncs_;
+            check_patience(due_us_);
+            return true;
+        }
+        machine_.on_frame(frame, received.time_us);
+        cnc_.on_frame(frame, received.time_us);
+    }
+    return false;
+}
+
+void PlantOnCan::check_patience(std::uint64_t now_us) const {
+    if (!is_ready_ && now_us > start_us_ + settings_.patience_us) {
+        throw InputError(fmt::format("{}: no feed override within {} s, expected 'millforce run' on the same interface",
+                                     settings_.interface.interface.data(), settings_.patience_us / 1'000'000));
+    }
+}
+
+void PlantOnCan::send_all() {
+    for (const hal::CanFrame& frame : machine_.take_frames()) {
+        socket_.send(frame);
+    }
+    for (const hal::CanFrame& frame : cnc_.take_frames()) {
+        socket_.send(frame);
+    }
+}
+
+OverrideSource::PlantSteps PlantOnCan::plant_steps(const PlantSteps& usual) {
+    const double elapsed_s = 1e-6 * static_cast<double>(std::max<std::uint64_t>(due_us_ - plant_us_, 1));
+    plant_us_ = due_us_;
+    const int count = std::max(1, static_cast<int>(std::lround(elapsed_s / usual.step_s)));
+    return {count, elapsed_s / count};
+}
+
+}  // namespace millforce::sim

@@ -1,0 +1,54 @@
+#include "controller_on_loopback.hpp"
+
+#include "loop/bounds.hpp"
+#include "loop/simulation.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::test;
+
+namespace {
+
+sim::Scenario scenario_named(const std::string& name) {
+    return sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml");
+}
+
+/// What the controller makes of a log of frames.
+std::vector<std::string> replayed(const ControllerOnLoopback& run, const sim::Scenario& scenario, std::size_t first) {
+    firmware::CanControllerSettings settings =
+        controller_settings(sim::read_machine_bus(scenario.machine_file).value());
+    settings.drives.produces_sync = false;
+    TickLog ticks;
+    firmware::CanController controller(settings, scenario.parameters, &ticks);
+    for (std::size_t k = first; k < run.log.size(); ++k) {
+        controller.on_frame(run.log[k].frame, run.log[k].time_us, false);
+        hal::CanFrame sent;
+        while (controller.take_frame(sent)) {
+        }
+    }
+    return ticks.lines;
+}
+
+}  // namespace
+
+TEST_GROUP(ClosedLoopOverBus){};
+
+TEST(ClosedLoopOverBus, a_scenario_gives_the_figures_of_the_loop_without_a_bus_and_its_log_gives_its_estimates) {
+    const sim::Scenario scenario = scenario_named("slot_entry");
+    sim::MillforceController direct(scenario.parameters);
+    const sim::RunFigures in_process = sim::simulate(scenario, direct, "millforce").result.figures;
+    ControllerOnLoopback behind_bus(scenario);
+    const sim::RunFigures over_bus = sim::simulate(scenario, behind_bus, "millforce").result.figures;
+    CHECK(over_bus.finished);
+    CHECK(sim::bounds_hold(over_bus));
+    DOUBLES_EQUAL(in_process.time_s, over_bus.time_s, 0.02 * in_process.time_s);
+    DOUBLES_EQUAL(in_process.peak_over_limit, over_bus.peak_over_limit, 0.03);
+    DOUBLES_EQUAL(in_process.immersion_rms, over_bus.immersion_rms, 0.02);
+    DOUBLES_EQUAL(in_process.estimate_share, over_bus.estimate_share, 0.05);
+    UNSIGNED_LONGS_EQUAL(0, behind_bus.controller.drives().rejects()[cia402::Reject::pdo_late]);
+
+    const std::vector<std::string> again = replayed(behind_bus, scenario, 0);
+    CHECK(again.size() > 7000);
+    CHECK(again == behind_bus.ticks.lines);
+}

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bus/cnc_on_bus.hpp"
+#include "bus/loopback_bus.hpp"
+#include "bus/machine_on_bus.hpp"
+#include "files/parameter_files.hpp"
+#include "firmware_can/can_controller.hpp"
+#include "live/plant_wiring.hpp"
+#include "loop/override_source.hpp"
+#include "loop/scenario.hpp"
+
+/// The whole controller, a machine's drives and a CNC on one bus in memory, in virtual time.
+
+namespace millforce::test {
+
+struct LoggedFrame {
+    std::uint64_t time_us = 0;
+    hal::CanFrame frame{};
+    bool is_own = false;
+};
+
+/// One line per tick: everything that it estimated and commanded, with all digits.
+class TickLog final : public firmware::TickListener {
+  public:
+    void on_tick(const firmware::CanController& controller) override {
+        sim::TracePoint point;
+        sim::describe_tick(controller.controller(), point);
+        std::string line = std::to_string(controller.tick_time_us());
+        for (const double value :
+             {point.tangential_force_N, point.feed_force_N, point.radial_immersion, point.axial_depth_mm,
+              point.peak_force_N, static_cast<double>(controller.output().ratio)}) {
+            line += ',' + sim::CsvWriter::cell(value);
+        }
+        lines.push_back(line + ',' + std::to_string(controller.output().state));
+    }
+    std::vector<std::string> lines{};
+};
+
+inline firmware::CanControllerSettings controller_settings(const sim::MachineBus& bus) {
+    firmware::CanControllerSettings settings;
+    settings.drives = bus.drives;
+    settings.feed_override = bus.feed_override;
+    settings.program = bus.program;
+    return settings;
+}
+
+/// An override source whose controller sits behind the bus. Each step is one SYNC period.
+class ControllerOnLoopback : public sim::OverrideSource {
+  public:
+    explicit ControllerOnLoopback(const sim::Scenario& scenario)
+        : ControllerOnLoopback(scenario, sim::read_machine_bus(scenario.machine_file).value()) {}
+    ControllerOnLoopback(const sim::Scenario& scenario, const sim::MachineBus& bus)
+        : machine(sim::drives_on_bus(scenario, bus)),
+          cnc(sim::cnc_on_bus(scenario, bus)),
+          controller(controller_settings(bus), scenario.parameters, &ticks) {
+        sender_ = wire.attach([](const hal::CanFrame&, std::uint64_t) {});
+        wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { hear(frame, t); });
+        plant_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) {
+            machine.on_frame(frame, t);
+            cnc.on_frame(frame, t);
+        });
+    }
+
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
+        machine.set(sample);
+        if (cnc_tells_) {
+            cnc.set(program, now_us);
+        }
+        run_us(1000);
+        const override_frame::ReceivedOverride got = cnc.feed_override(now_us);
+        return {got.ratio, got.hold, got.state, got.fault, 0};
+    }
+    void describe(sim::TracePoint& point) const override { sim::describe_tick(controller.controller(), point); }
+    [[nodiscard]] bool is_ready() const override { return cnc.feed_override(now_us).is_alive; }
+
+    void run_us(std::uint64_t duration_us) {
+        for (const std::uint64_t end_us = now_us + duration_us; now_us < end_us; now_us += 20) {
+            if (controller_runs) {
+                controller.poll(now_us);
+                hal::CanFrame frame;
+                while (controller.take_frame(frame)) {
+                    wire.send(sender_, frame, now_us);
+                }
+            }
+            machine.poll(now_us);
+            cnc.poll(now_us);
+            for (const auto& frames : {machine.take_frames(), cnc.take_frames()}) {
+                for (const hal::CanFrame& sent : frames) {
+                    wire.send(plant_, sent, now_us);
+                }
+            }
+            wire.advance_to(now_us);
+        }
+    }
+    void silence_cnc() { cnc_tells_ = false; }
+
+    sim::LoopbackBus wire{};
+    sim::MachineOnBus machine;
+    sim::CncOnBus cnc;
+    TickLog ticks{};
+    firmware::CanController controller;
+    std::vector<LoggedFrame> log{};
+    std::uint64_t now_us = 1'700'000'000'000'000;
+    bool controller_runs = true;
+
+  private:
+    void hear(const hal::CanFrame& frame, std::uint64_t time_us) {
+        const bool is_own = frame.id == 0x080 || frame.id == 0x000 || frame.id == 0x1FE || frame.id == 0x77E ||
+                            (frame.id & 0x780U) == 0x600;
+        log.push_back({time_us, frame, is_own});
+        if (controller_runs) {
+            controller.on_frame(frame, time_us, is_own);
+        }
+    }
+
+    int sender_ = 0;
+    int plant_ = 0;
+    bool cnc_tells_ = true;
+};
+
+}  // namespace millforce::test

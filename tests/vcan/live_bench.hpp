@@ -1,0 +1,130 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bus_peers.hpp"
+#include "host/program.hpp"
+
+/// `millforce run` and `millforce simulate --bus` as two processes on vcan0.
+
+namespace millforce::vcan {
+
+/// The machine of the scenarios with a bus slow enough for a virtual kernel on a busy host: SYNC every 4 ms, patient
+/// time-outs.
+inline std::string slow_machine() {
+    std::string text = test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml");
+    text = test::with(text, "sync_period_ms = 1.0", "sync_period_ms = 4.0\nprogram_status_timeout_ms = 2000");
+    text = test::with(text, "collect_time_ms = 0.9", "collect_time_ms = 4.0");
+    return test::with(text, "[cnc]", "[cnc]\nsample_rate_hz = 250\nstale_s = 0.4");
+}
+
+/// A cut of 5 × 3 mm at 2000 rpm: two samples in a tooth's time.
+inline const std::string slow_scenario = R"(machine = "machine.toml"
+tool = "tool.toml"
+seed = 5
+[profile]
+spindle_speed_rpm = 2000
+feed_mm_min = 800
+length_mm = 26
+[[profile.point]]
+path_mm = 2
+axial_depth_mm = 5
+radial_width_mm = 3
+[[profile.point]]
+path_mm = 22
+axial_depth_mm = 0
+radial_width_mm = 0
+[material]
+K_tc_N_mm2 = 1650
+K_rc_N_mm2 = 620
+K_te_N_mm = 22
+K_re_N_mm = 28
+)";
+
+class LiveFolder {
+  public:
+    LiveFolder() : path_(temporary_file("live")) {
+        std::filesystem::create_directories(path_);
+        write("machine.toml", slow_machine());
+        write("tool.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/tools/endmill_10mm.toml"));
+        write("scenario.toml", slow_scenario);
+    }
+    ~LiveFolder() { std::filesystem::remove_all(path_); }
+    LiveFolder(const LiveFolder&) = delete;
+    LiveFolder& operator=(const LiveFolder&) = delete;
+
+    [[nodiscard]] std::string file(const std::string& name) const { return path_ + "/" + name; }
+    [[nodiscard]] std::string text(const std::string& name) const { return test::text_of(file(name)); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
+
+    [[nodiscard]] std::vector<std::string> run_words() const {
+        return {"run",   "vcan0",           "--machine", file("machine.toml"), "--tool", file("tool.toml"),
+                "--log", file("run.jsonl"), "--record",  file("run.log")};
+    }
+    [[nodiscard]] std::vector<std::string> plant_words() const {
+        return {"simulate", file("scenario.toml"), "--bus", "vcan0", "--out", file("out")};
+    }
+    /// Waits for a text in the run's log of conditions; false after twenty seconds.
+    [[nodiscard]] bool logged(const std::string& part) const {
+        for (int k = 0; k < 400; ++k) {
+            if (text("run.jsonl").find(part) != std::string::npos) {
+                return true;
+            }
+            sleep_ms(50);
+        }
+        return false;
+    }
+
+  private:
+    std::string path_;
+};
+
+/// The value of a member in a line of JSON as it stands there; "" for null.
+inline std::string member(const std::string& line, const std::string& key) {
+    const std::size_t at = line.find("\"" + key + "\":");
+    if (at == std::string::npos) {
+        return "missing";
+    }
+    const std::size_t begin = at + key.size() + 3;
+    const std::string value = line.substr(begin, line.find_first_of(",}", begin) - begin);
+    return value == "null" ? "" : value;
+}
+
+/// The estimates of a log of `run` as rows of a replay.
+inline std::vector<std::string> estimates_of(const std::string& jsonl) {
+    std::vector<std::string> rows;
+    std::istringstream lines(jsonl);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("\"type\":\"estimate\"") == std::string::npos) {
+            continue;
+        }
+        std::string row;
+        for (const char* key :
+             {"state", "tangential_force_N", "feed_force_N", "radial_immersion", "radial_immersion_sd",
+              "axial_depth_mm", "axial_depth_sd_mm", "peak_force_N", "force_limit_N", "override"}) {
+            std::string value = member(line, key);
+            std::erase(value, '"');
+            row += (row.empty() ? "" : ",") + value;
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+/// The rows of a replay without their times.
+inline std::vector<std::string> rows_of(const std::string& csv) {
+    std::vector<std::string> rows;
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        rows.push_back(line.substr(line.find(',') + 1));
+    }
+    return rows;
+}
+
+}  // namespace millforce::vcan

@@ -1,0 +1,142 @@
+#include "live_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::vcan;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// Of the first run in the summary.
+double peak_over_limit(const LiveFolder& folder) {
+    return std::stod(member(folder.text("out/summary.json"), "peak_over_limit"));
+}
+
+/// The replay's rows but for the last ones, which see the bus after the run had ended.
+void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::string& log) {
+    const test::Ended replay = test::run_millforce({"replay", log, "--machine", folder.file("machine.toml"), "--tool",
+                                                    folder.file("tool.toml"), "-o", folder.file("replay.csv")});
+    STRCMP_EQUAL("", replay.error.c_str());
+    const std::vector<std::string> run = estimates_of(folder.text("run.jsonl"));
+    const std::vector<std::string> again = rows_of(folder.text("replay.csv"));
+    CHECK(run.size() > 100);
+    CHECK(again.size() >= run.size());
+    for (std::size_t k = 0; k < run.size(); ++k) {
+        STRCMP_EQUAL(run[k].c_str(), again[k].c_str());
+    }
+}
+
+}  // namespace
+
+TEST_GROUP(RunOnVcan){void teardown() override{shell("ip link set vcan0 up");
+}
+}
+;
+
+TEST(RunOnVcan, a_part_is_milled_by_two_processes_and_what_candump_recorded_replays_bit_for_bit) {
+    const LiveFolder folder;
+    const std::string recorded = folder.file("candump.log");
+    Child candump("candump -L vcan0 >" + recorded);
+    sleep_ms(200);
+    test::Program controller(folder.run_words());
+    test::Program plant(folder.plant_words());
+    plant.wait();
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    sleep_ms(300);
+    candump.send_signal(SIGTERM);
+    candump.wait();
+    STRCMP_EQUAL("", plant.error().c_str());
+    LONGS_EQUAL(0, plant.exit_code());  // the bounds hold, the program finished
+    LONGS_EQUAL(0, controller.exit_code());
+    CHECK(has(controller.out(), " 0 not sent, 0 lost"));
+    CHECK(has(folder.text("run.jsonl"), "\"state\":\"in_cut\""));
+    const double over_bus = peak_over_limit(folder);
+    LONGS_EQUAL(0,
+                test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
+    const double in_process = peak_over_limit(folder);
+    std::printf("\n    peak over limit %.3f, in process %.3f\n    %s", over_bus, in_process, controller.out().c_str());
+    CHECK(over_bus > 0.5 * in_process);
+    CHECK(over_bus < in_process + 0.15);
+    replays_to_the_estimates_of_the_run(folder, folder.file("run.log"));
+    replays_to_the_estimates_of_the_run(folder, recorded);
+}
+
+TEST(RunOnVcan, sigterm_ends_with_hold_a_stopped_heartbeat_and_complete_files) {
+    const LiveFolder folder;
+    const Candump candump("vcan0");
+    test::Program controller(folder.run_words());
+    test::Program plant(folder.plant_words());
+    CHECK(folder.logged("\"type\":\"estimate\""));
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    LONGS_EQUAL(0, controller.exit_code());
+    plant.interrupt(SIGTERM);
+    plant.wait();
+    const std::vector<std::string> frames = candump.frames();
+    std::string last_override;
+    std::string last_heartbeat;
+    for (const std::string& frame : frames) {
+        last_override = frame.starts_with("1FE#") ? frame : last_override;
+        last_heartbeat = frame.starts_with("77E#") ? frame : last_heartbeat;
+    }
+    STRCMP_EQUAL("77E#04", last_heartbeat.c_str());
+    STRCMP_EQUAL("01", last_override.substr(8, 2).c_str());  // hold
+    CHECK(folder.text("run.jsonl").ends_with("}\n"));
+    CHECK(folder.text("run.log").ends_with("\n"));
+}
+
+TEST(RunOnVcan, a_plant_that_vanishes_is_stale_input_and_lost_by_name_and_comes_back) {
+    const LiveFolder folder;
+    test::Program controller(folder.run_words());
+    {
+        test::Program plant(folder.plant_words());
+        CHECK(folder.logged("\"type\":\"estimate\""));
+        plant.interrupt(SIGSTOP);
+        CHECK(folder.logged("\"fault\":\"stale_input\""));
+        CHECK(folder.logged("\"drive_lost\""));
+        plant.interrupt(SIGKILL);
+        plant.wait();
+    }
+    folder.write("run.jsonl", "");
+    test::Program plant(folder.plant_words());
+    CHECK(folder.logged("\"spindle\":{\"state\":\"operational\""));
+    controller.interrupt(SIGINT);
+    controller.wait();
+    plant.interrupt(SIGTERM);
+    plant.wait();
+    LONGS_EQUAL(0, controller.exit_code());
+    CHECK(has(controller.error(), "drive_lost ("));
+}
+
+TEST(RunOnVcan, an_interface_that_goes_down_is_told_and_waited_for) {
+    const LiveFolder folder;
+    test::Program controller(folder.run_words());
+    test::Program plant(folder.plant_words());
+    CHECK(folder.logged("\"type\":\"estimate\""));
+    LONGS_EQUAL(0, shell("ip link set vcan0 down"));
+    CHECK(folder.logged("\"interface_down\""));
+    CHECK(folder.logged("\"fault\":\"stale_input\""));
+    LONGS_EQUAL(0, shell("ip link set vcan0 up"));
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    LONGS_EQUAL(0, controller.exit_code());
+    CHECK(has(controller.error(), "vcan0: interface_down"));
+    plant.interrupt(SIGTERM);
+    plant.wait();
+}
+
+TEST(RunOnVcan, an_interface_that_is_not_there_is_told_and_waited_for) {
+    const LiveFolder folder;
+    std::vector<std::string> words = folder.run_words();
+    words[1] = "nocan0";
+    test::Program controller(words);
+    CHECK(folder.logged("\"interface_absent\""));
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    LONGS_EQUAL(0, controller.exit_code());
+}
