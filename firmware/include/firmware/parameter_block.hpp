@@ -146,6 +146,24 @@ inline BlockError check_block(std::span<const std::uint8_t> bytes) {
 
 inline std::uint32_t sequence_of(std::span<const std::uint8_t> block) { return detail::get(block, 8); }
 
+/// What reading a block needs of the table's rows: without their texts, 16 KiB that no chip needs.
+template <typename Scalar>
+struct BlockRow {
+    float minimum = 0.0F;
+    float maximum = 0.0F;
+    std::size_t axes = 0;
+    Scalar& (*field)(Parameters<Scalar>&, std::size_t axis) = nullptr;
+};
+template <typename Scalar>
+inline constexpr auto block_rows = [] {
+    std::array<BlockRow<Scalar>, parameter_table<Scalar>.size()> rows{};
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const ParameterRow<Scalar>& row = parameter_table<Scalar>[k];
+        rows[k] = {row.minimum, row.maximum, axes_of(row.table), row.field};
+    }
+    return rows;
+}();
+
 /// The parameters of a block; untouched where it is refused.
 template <typename Scalar>
 BlockError decode(std::span<const std::uint8_t> bytes, Parameters<Scalar>& parameters) {
@@ -155,8 +173,8 @@ BlockError decode(std::span<const std::uint8_t> bytes, Parameters<Scalar>& param
     }
     Parameters<Scalar> read;
     std::size_t offset = block_header_bytes;
-    for (const auto& row : parameter_table<Scalar>) {
-        for (std::size_t axis = 0; axis < axes_of(row.table); ++axis) {
+    for (const BlockRow<Scalar>& row : block_rows<Scalar>) {
+        for (std::size_t axis = 0; axis < row.axes; ++axis) {
             const float value = std::bit_cast<float>(detail::get(bytes, offset));
             offset += 4;
             if (!(value >= row.minimum && value <= row.maximum)) {

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "firmware/parameter_block.hpp"
+#include "firmware/tick.hpp"
+#include "hal/drive_sample.hpp"
+#include "override_frame/override_sender.hpp"
+#include "program_status/program_status_receiver.hpp"
+#include "stm32/clock.hpp"
+#include "stm32/timers.hpp"
+#include "stm32/watchdog.hpp"
+#include "stm32_h405/emergency.hpp"
+#include "stm32_h405/motion.hpp"
+#include "stm32_h405/wiring.hpp"
+
+/// The controller on one chip: currents and encoders in, the override out on CAN. No interrupt: poll() in a loop.
+///
+/// What ends where:
+///
+/// | what happens | override | on the bus |
+/// |---|---|---|
+/// | start | hold until the first tick | boot-up, EMCY with the reset's cause |
+/// | no parameters, or refused | hold, fault `bad_configuration` | EMCY 0x6300 with the reason |
+/// | a current or an encoder is missing or implausible | not raised; after the CNC's `stale_s` hold, fault `stale_input` | EMCY 0x5000, the frame's fault |
+/// | supply below 2.9 V | hold at once; its samples are not used | EMCY 0x3200 |
+/// | fault of the tick | hold | the frame's fault, EMCY 0xFF00 |
+/// | CNC falls silent | the tick holds the feed | the frame's hold bit |
+/// | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when it is back |
+/// | fault of the processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice |
+/// | a tick that hangs, or answers nonsense | silence, then the watchdog's reset | EMCY 0x6010 after it |
+/// | supply fails | silence, reset by the brown-out circuit | EMCY 0x3200 after it |
+///
+/// A tick is healthy where its heartbeat went on by one and its ratio is within the limits; nothing else feeds the
+/// watchdog. That an input is missing is no reason for a reset, which would not bring it back.
+///
+/// No heap. One thread. RAM: sizeof.
+
+namespace millforce::stm32_h405 {
+
+/// What is known before the controller starts.
+struct StartReport {
+    stm32::ResetCause cause = stm32::ResetCause::unknown;
+    firmware::BlockError parameters = firmware::BlockError::none;
+    bool had_processor_fault = false;
+    std::uint32_t fault_program_counter = 0;
+};
+
+class AnalogueController {
+  public:
+    using Tick = firmware::ForceControlTick<float, firmware::NoWideBand<float>>;
+
+    AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
+
+    /// `parameters` are used where the report says that there are some.
+    void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us);
+    /// As often as possible, at least once per sample period.
+    void poll(std::uint64_t now_us);
+    /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is asked
+    /// while frames are on their way, and says when to wait no longer.
+    template <typename Patience>
+    bool give_up(Reason reason, std::uint32_t detail, Patience has_patience) {
+        can_.abort_all();
+        while (!can_.is_all_sent() && has_patience()) {
+        }
+        const bool was_taken = send_last_words(reason, detail);
+        while (!can_.is_all_sent() && has_patience()) {
+        }
+        return was_taken && can_.is_all_sent();
+    }
+    /// Where the clock is no longer the crystal's: no frame at all.
+    void fall_silent() { can_.leave_bus(); }
+
+    [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
+    [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
+    [[nodiscard]] const stm32::CanController& can() const { return can_; }
+    [[nodiscard]] stm32::CurrentScan& currents() { return currents_; }
+    [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
+
+  private:
+    void tell_start(const StartReport& report);
+    void receive_frames(std::uint64_t now_us);
+    void send_frames();
+    bool send_last_words(Reason reason, std::uint32_t detail);
+    void run_tick(std::uint64_t now_us);
+    void take_sample(std::uint64_t now_us);
+    [[nodiscard]] bool is_at_rest() const;
+    [[nodiscard]] hal::FeedOverride step(std::uint64_t now_us);
+    [[nodiscard]] bool is_healthy(const hal::FeedOverride& output) const;
+
+    Wiring wiring_;
+    stm32::PwrRegisters& pwr_;
+    stm32::Encoder spindle_;
+    std::array<stm32::Encoder, hal::axis_count> axes_;
+    stm32::CurrentScan currents_;
+    stm32::CanController can_;
+    stm32::Watchdog watchdog_;
+    override_frame::OverrideSender sender_;
+    program_status::ProgramStatusReceiver program_;
+    Emergencies emergencies_;
+    std::array<AxisVelocity, hal::axis_count> velocities_{};
+    EncoderWatch encoder_watch_{0};
+    std::array<hal::CanFilter, 1> filters_;
+
+    std::optional<Tick> tick_{};
+    float largest_ratio_ = 0.0F;
+    std::uint32_t period_us_ = 1000;
+    std::uint64_t next_tick_us_ = 0;
+    std::uint64_t complete_us_ = 0;
+    hal::DriveSample sample_{};
+    hal::FeedOverride output_{};
+    std::uint32_t bus_offs_ = 0;
+    std::uint32_t late_ticks_ = 0;
+};
+
+}  // namespace millforce::stm32_h405

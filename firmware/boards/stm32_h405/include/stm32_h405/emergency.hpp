@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/can_frame.hpp"
+
+/// Why, on the bus: CANopen emergency frames (CiA 301, 7.2.7), id 0x80 + node.
+///
+/// | bytes | what |
+/// |---|---|
+/// | 0, 1 | error code of CiA 301, U16; 0: no error, or the one that `reason` names is over |
+/// | 2 | error register: bit 0 while any error is there |
+/// | 3 | Reason |
+/// | 4…7 | detail, U32 |
+
+namespace millforce::stm32_h405 {
+
+enum class Reason : std::uint8_t {
+    started = 0,          ///< detail: stm32::ResetCause. An error after a watchdog, a brown-out or an unknown cause
+    processor_fault = 1,  ///< detail: program counter; told at the fault and after the reset that it causes
+    no_parameters = 2,    ///< detail: firmware::BlockError
+    supply_low = 3,       ///< below 2.9 V
+    inputs_missing = 4,   ///< detail: hal::Present of what is there
+    tick_fault = 5,       ///< detail: control::Fault
+    bus_was_off = 6,      ///< detail: how many times since the start; told when it is back
+};
+inline constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::bus_was_off) + 1;
+
+/// What is wrong, and what of it the bus does not know yet. One thread.
+class Emergencies {
+  public:
+    explicit Emergencies(std::uint8_t node_id) : node_id_(node_id) {}
+
+    /// Tells a change of `is_there`, and nothing where it is as before.
+    void set(Reason reason, bool is_there, std::uint32_t detail);
+    /// Tells an event that has no end.
+    void tell(Reason reason, std::uint16_t code, std::uint32_t detail);
+    [[nodiscard]] bool has(Reason reason) const { return (there_ & bit(reason)) != 0; }
+    /// True once for each frame that is to be sent.
+    [[nodiscard]] bool take_frame(hal::CanFrame& frame);
+    [[nodiscard]] hal::CanFrame frame_of(Reason reason, std::uint16_t code, std::uint32_t detail) const;
+
+  private:
+    static std::uint32_t bit(Reason reason) { return 1U << static_cast<unsigned>(reason); }
+
+    struct Entry {
+        std::uint16_t code = 0;
+        std::uint32_t detail = 0;
+    };
+    std::uint8_t node_id_;
+    std::array<Entry, reason_count> entries_{};
+    std::uint32_t there_ = 0;
+    std::uint32_t untold_ = 0;
+};
+
+/// CiA 301, table 26.
+std::uint16_t error_code(Reason reason);
+
+}  // namespace millforce::stm32_h405

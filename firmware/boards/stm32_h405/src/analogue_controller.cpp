@@ -1,0 +1,190 @@
+#include "stm32_h405/analogue_controller.hpp"
+
+#include <algorithm>
+
+namespace millforce::stm32_h405 {
+
+namespace {
+
+constexpr std::uint32_t can_patience = 100'000;  // polls until the CAN controller counts as absent
+constexpr float at_rest_mm_s = 0.5F;
+
+stm32::EncoderSettings axis_encoder(const AxisWiring& axis) { return {.reversed = axis.reversed}; }
+
+float seconds(std::uint64_t microseconds) { return static_cast<float>(microseconds) * 1e-6F; }
+
+}  // namespace
+
+AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wiring)
+    : wiring_(wiring),
+      pwr_(p.pwr),
+      spindle_(p.spindle_timer,
+               {.is_32_bit = true, .reversed = wiring.spindle_reversed, .has_index = wiring.has_index}),
+      axes_{stm32::Encoder(*p.axis_timers[0], axis_encoder(wiring.axes[0])),
+            stm32::Encoder(*p.axis_timers[1], axis_encoder(wiring.axes[1])),
+            stm32::Encoder(*p.axis_timers[2], axis_encoder(wiring.axes[2]))},
+      currents_(p.adc, p.adc_common, p.dma, wiring.currents),
+      can_(p.can),
+      watchdog_(p.watchdog),
+      sender_(wiring.feed_override),
+      program_(wiring.program),
+      emergencies_(wiring.feed_override.node_id),
+      filters_{{{wiring.program.id, hal::largest_standard_can_id}}} {}
+
+void AnalogueController::start(const StartReport& report, const firmware::Parameters<float>& parameters,
+                               std::uint64_t now_us) {
+    tell_start(report);
+    spindle_.start();
+    for (stm32::Encoder& axis : axes_) {
+        axis.start();
+    }
+    currents_.start();
+    can_.start(wiring_.bit_rate, filters_);
+    complete_us_ = now_us;
+    next_tick_us_ = now_us + period_us_;  // the first scans are there by then
+    if (report.parameters != firmware::BlockError::none) {
+        output_.fault = static_cast<std::uint8_t>(control::Fault::bad_configuration);
+        output_.state = static_cast<std::uint8_t>(control::CutState::fault);
+        return;
+    }
+    tick_.emplace(parameters);
+    largest_ratio_ = parameters.machine.cnc.override_max;
+    period_us_ = static_cast<std::uint32_t>(1e6F / parameters.machine.cnc.sample_rate_hz);
+    encoder_watch_ = EncoderWatch(static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
+    watchdog_.start(wiring_.watchdog_us);
+}
+
+void AnalogueController::tell_start(const StartReport& report) {
+    constexpr std::uint16_t watchdog_reset = 0x6010;
+    constexpr std::uint16_t generic_error = 0x1000;
+    std::uint16_t code = 0;
+    if (report.cause == stm32::ResetCause::watchdog) {
+        code = watchdog_reset;
+    } else if (report.cause == stm32::ResetCause::brown_out) {
+        code = error_code(Reason::supply_low);
+    } else if (report.cause == stm32::ResetCause::unknown) {
+        code = generic_error;
+    }
+    emergencies_.tell(Reason::started, code, static_cast<std::uint32_t>(report.cause));
+    if (report.had_processor_fault) {
+        emergencies_.tell(Reason::processor_fault, error_code(Reason::processor_fault), report.fault_program_counter);
+    }
+    emergencies_.set(Reason::no_parameters, report.parameters != firmware::BlockError::none,
+                     static_cast<std::uint32_t>(report.parameters));
+}
+
+void AnalogueController::poll(std::uint64_t now_us) {
+    can_.poll(can_patience);
+    receive_frames(now_us);
+    if (now_us >= next_tick_us_) {
+        const bool is_late = now_us >= next_tick_us_ + period_us_;
+        late_ticks_ += is_late ? 1U : 0U;
+        next_tick_us_ = is_late ? now_us + period_us_ : next_tick_us_ + period_us_;
+        run_tick(now_us);
+    }
+    sender_.poll(now_us);
+    send_frames();
+}
+
+void AnalogueController::receive_frames(std::uint64_t now_us) {
+    hal::CanFrame frame;
+    while (can_.receive(frame)) {
+        program_.on_frame(frame, now_us);
+    }
+    if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
+        bus_offs_ = can_.health().bus_offs;
+        emergencies_.tell(Reason::bus_was_off, error_code(Reason::bus_was_off), bus_offs_);
+    }
+}
+
+void AnalogueController::send_frames() {
+    hal::CanFrame frame;
+    // The boot-up comes before any EMCY, the newest override before both once it runs: the sender's order first.
+    while (can_.has_room() && (sender_.take_frame(frame) || emergencies_.take_frame(frame))) {
+        can_.send(frame);
+    }
+}
+
+void AnalogueController::run_tick(std::uint64_t now_us) {
+    take_sample(now_us);
+    const bool is_supply_low = stm32::supply_is_low(pwr_);
+    emergencies_.set(Reason::supply_low, is_supply_low, 0);
+    hal::FeedOverride output = step(now_us);
+    if (is_healthy(output)) {
+        watchdog_.feed();
+    } else {
+        output.hold = true;
+    }
+    output.hold = output.hold || is_supply_low;
+    emergencies_.set(Reason::tick_fault, tick_ && output.fault != 0, output.fault);
+    output_ = output;
+    sender_.update(output_, now_us);
+}
+
+void AnalogueController::take_sample(std::uint64_t now_us) {
+    const stm32::ScanReading currents = currents_.take();
+    const stm32::EncoderReading spindle = spindle_.read();
+    hal::DriveSample sample;
+    sample.time_us = static_cast<std::uint32_t>(now_us);
+    sample.spindle_count = spindle.count;
+    sample.spindle_index_count = spindle.index_count;
+    sample.spindle_index_number = spindle.index_number;
+    sample.spindle_current_A = currents.current_A[0];
+    unsigned present = currents.has[0] ? hal::mask(hal::Present::spindle_current) : 0U;
+    if (!wiring_.has_index || encoder_watch_.is_plausible(spindle.count, spindle.index_count, spindle.index_number)) {
+        present |= hal::mask(hal::Present::spindle_count);
+    }
+    for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
+        sample.axis_current_A[axis] = currents.current_A[1U + axis];
+        sample.axis_velocity_mm_s[axis] =
+            velocities_[axis].update(axes_[axis].read().count, sample.time_us, wiring_.axes[axis].mm_per_count);
+        present |= currents.has[1U + axis] ? hal::axis_mask(axis) : 0U;
+    }
+    sample.present = static_cast<std::uint8_t>(present);
+    sample_ = sample;
+}
+
+bool AnalogueController::is_at_rest() const {
+    return sample_.present == hal::all_present &&
+           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(),
+                       [](float velocity_mm_s) { return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s; });
+}
+
+hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
+    if (!tick_) {
+        hal::FeedOverride output = output_;
+        ++output.heartbeat;
+        return output;
+    }
+    const bool is_complete = sample_.present == hal::all_present && !stm32::supply_is_low(pwr_);
+    emergencies_.set(Reason::inputs_missing, sample_.present != hal::all_present, sample_.present);
+    const hal::ProgramStatus program = program_.program(now_us);
+    if (program_.take_reset() && is_at_rest()) {
+        tick_->reset_fault();
+    }
+    if (is_complete) {
+        complete_us_ = now_us;
+        return tick_->step(sample_, program);
+    }
+    return tick_->step_without_sample(seconds(now_us - complete_us_), seconds(period_us_), program);
+}
+
+bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {
+    return tick_.has_value() && output.heartbeat == output_.heartbeat + 1U && output.ratio >= 0.0F &&
+           output.ratio <= largest_ratio_;
+}
+
+bool AnalogueController::send_last_words(Reason reason, std::uint32_t detail) {
+    constexpr std::uint32_t heartbeat_id = 0x700;
+    constexpr std::uint8_t stopped = 4;
+    output_.hold = true;
+    ++output_.heartbeat;
+    hal::CanFrame heartbeat;
+    heartbeat.id = heartbeat_id + wiring_.feed_override.node_id;
+    heartbeat.length = 1;
+    heartbeat.data[0] = stopped;
+    return can_.send(override_frame::encode(output_, wiring_.feed_override.id)) && can_.send(heartbeat) &&
+           can_.send(emergencies_.frame_of(reason, error_code(reason), detail));
+}
+
+}  // namespace millforce::stm32_h405
