@@ -5,6 +5,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
+#include <initializer_list>
 
 using namespace millforce::estimation;
 using millforce::tests::carbide_in_SM45C;

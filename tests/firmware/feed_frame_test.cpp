@@ -3,6 +3,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 using Frame = millforce::firmware::FeedFrame<float>;

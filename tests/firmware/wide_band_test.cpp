@@ -3,6 +3,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 namespace hal = millforce::hal;

@@ -20,7 +20,8 @@
 ///   12      4      length of the values in bytes
 ///   16      4      CRC-32 of the values
 ///   20      4      CRC-32 of the header up to here
-///   24      4 n    the values as IEEE 754 float; a row of the table "axis" three times, for x, y, z
+///   24      4 n    the values as IEEE 754 float; a row of the table "axis" three times, for x, y, z,
+///                and one of "bus.drive" four times. PDO mappings, which are texts, are not in it
 ///
 /// A block that another version of the table has made is refused, not guessed at; so is one with a value out of its
 /// range. The bytes may come from anywhere.
@@ -47,13 +48,12 @@ constexpr const char* name(BlockError error) {
 
 namespace detail {
 
-constexpr bool is_of_axes(const char* table) {
-    constexpr const char* axis = "axis";
-    std::size_t k = 0;
-    while (k < 4 && table[k] == axis[k]) {
-        ++k;
+constexpr bool are_equal(const char* a, const char* b) {
+    while (*a != '\0' && *a == *b) {
+        ++a;
+        ++b;
     }
-    return k == 4 && table[4] == '\0';
+    return *a == *b;
 }
 
 /// With the zero behind it, so that "ab" "c" and "a" "bc" differ.
@@ -82,7 +82,13 @@ inline std::uint32_t get(std::span<const std::uint8_t> bytes, std::size_t offset
 
 }  // namespace detail
 
-constexpr std::size_t axes_of(const char* table) { return detail::is_of_axes(table) ? axis_tables.size() : 1; }
+/// How many tables of a file a table of the parameter table stands for.
+constexpr std::size_t axes_of(const char* table) {
+    if (detail::are_equal(table, "axis")) {
+        return axis_tables.size();
+    }
+    return detail::are_equal(table, "bus.drive") ? drive_tables.size() : 1;
+}
 
 /// Values in a block.
 inline constexpr std::size_t block_values = [] {

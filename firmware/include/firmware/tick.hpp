@@ -259,12 +259,10 @@ class ForceControlTick {
         const auto& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
         cut.tangential_N = F_at.value;
         cut.tangential_sd_N = sqrt(F_at.variance);
-        // A force that is known to a fifth alone says no more than its bound.
-        constexpr Scalar vague = static_cast<Scalar>(0.2L);
         const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;
         const Scalar tooth_sd_N = sqrt(tooth.variance);
         cut.tooth_force_valid = tooth.valid;
-        cut.tooth_force_is_bound = e.tooth_force_is_bound || (tooth.valid && tooth_sd_N > vague * tooth.value);
+        cut.tooth_force_is_bound = e.tooth_force_is_bound;
         cut.least_tooth_force_N = e.least_tooth_force_N;
         cut.tooth_force_N =
             tooth.valid ? tooth.value + control_parameters_.caution_sd * tooth_sd_N : e.worst_tooth_force_N;
