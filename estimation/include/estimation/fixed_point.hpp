@@ -119,7 +119,7 @@ class FixedPoint {
 
     template <typename Float>
     static consteval Raw from_constant(Float value) {
-        const Float scaled = value * Float{4294967296} + (value < Float{0} ? Float{-0.5} : Float{0.5});
+        const Float scaled = value * Float{4294967296} + (value < Float{0} ? static_cast<Float>(-0.5L) : static_cast<Float>(0.5L));
         constexpr auto most = static_cast<Float>(detail::raw_highest);
         return scaled >= most ? detail::raw_highest : (scaled <= -most ? detail::raw_lowest : static_cast<Raw>(scaled));
     }
