@@ -49,6 +49,7 @@ std::vector<TipAngle> angles_of(const ForceShapeCalibrationOptions& options,
                                 const std::vector<StretchConditions>& cuts) {
     std::vector<DepthMonitor> monitors;
     std::vector<TipAngle> angles(cuts.size());
+    monitors.reserve(cuts.size());
     for (const StretchConditions& cut : cuts) {
         monitors.push_back(monitor_of(cut, parameters.tool));
     }
