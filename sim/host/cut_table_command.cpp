@@ -52,7 +52,7 @@ std::vector<Cut> grid_of(const Scenario& scenario) {
 }
 
 estimation::CutSide side_of(const Scenario& scenario) {
-    const auto side = static_cast<estimation::CutSide>(static_cast<unsigned char>(scenario.parameters.tool.side));
+    const auto side = firmware::cut_side(scenario.parameters.tool);
     return side == estimation::CutSide::up ? side : estimation::CutSide::down;
 }
 

@@ -14,7 +14,7 @@ std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
     }
     const auto& tool = scenario.parameters.tool;
     return std::make_unique<ProfileWorkpiece>(
-        scenario.profile, scenario.cutter, static_cast<estimation::CutSide>(static_cast<unsigned char>(tool.side)),
+        scenario.profile, scenario.cutter, firmware::cut_side(tool),
         static_cast<double>(tool.centre_offset_mm));
 }
 

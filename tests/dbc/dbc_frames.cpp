@@ -7,6 +7,7 @@
 #include "bus/machine_on_bus.hpp"
 #include "cia402/drive_bus.hpp"
 #include "override_frame/override_sender.hpp"
+#include "program_status/program_status_frame.hpp"
 
 /// Frames of every kind that millforce.dbc names, by the code that sends them, each with the values that went in:
 /// `id data name=value...`. check_dbc decodes them by the DBC and compares.
@@ -65,6 +66,34 @@ void print_heartbeats() {
             }
         }
     }
+}
+
+void print_program_status(const program_status::ProgramStatusFrame& status, double feed_mm_min, double percent) {
+    const hal::CanFrame frame = program_status::encode(status, program_status::default_id);
+    print(frame, {{"ProgrammedFeed", feed_mm_min},
+                  {"OperatorOverride", percent},
+                  {"Rapid", status.program.rapid ? 1.0 : 0.0},
+                  {"FeedHold", status.program.feed_hold ? 1.0 : 0.0},
+                  {"ResetFault", status.reset_fault ? 1.0 : 0.0},
+                  {"StatusReserved", 0.0},
+                  {"StatusCounter", status.counter},
+                  {"StatusChecksum", frame.data[7]}});
+}
+
+void print_program_statuses() {
+    program_status::ProgramStatusFrame status;
+    for (unsigned k = 0; k < 256; k += 5) {
+        const double feed_mm_min = 123.45 * k;
+        status.program.programmed_feed_mm_s = static_cast<float>(feed_mm_min / 60.0);
+        status.program.operator_override = static_cast<float>(k) * 0.01F;
+        status.program.rapid = k % 2 == 1;
+        status.program.feed_hold = k % 3 == 1;
+        status.reset_fault = k % 7 == 1;
+        status.counter = static_cast<std::uint16_t>(257 * k);
+        print_program_status(status, feed_mm_min, k);
+    }
+    status.program.programmed_feed_mm_s = status.program.operator_override = 1e9F;
+    print_program_status(status, 167772.15, 255.0);
 }
 
 /// SYNC and NMT start, by the master.
@@ -146,6 +175,7 @@ void print_drives() {
 int main() {
     print_overrides();
     print_heartbeats();
+    print_program_statuses();
     print_master();
     print_drives();
     return 0;

@@ -26,8 +26,12 @@ int cangen_rounds() {
     return std::max(frames / frames_per_cangen, static_cast<int>(cangen_options.size()));
 }
 
+/// Half of it is longer than any two of cangen's frames are apart, on the slowest emulated controller too: a second SYNC
+/// is early.
+constexpr std::uint32_t sync_period_us = 50'000;
+
 cia402::BusSettings listener_settings() {
-    cia402::BusSettings settings = bus_settings(2, 1000);
+    cia402::BusSettings settings = bus_settings(2, sync_period_us);
     settings.is_master = settings.produces_sync = false;
     for (std::size_t role = 0; role < 2; ++role) {
         settings.drives[role].rated_current_A = 12.0F;

@@ -131,6 +131,11 @@ struct Parameters {
     ToolParameters<Scalar> tool{};
 };
 
+template <typename Scalar>
+estimation::CutSide cut_side(const ToolParameters<Scalar>& tool) {
+    return static_cast<estimation::CutSide>(static_cast<unsigned char>(tool.side));
+}
+
 /// Settings of the estimator, worked out from the parameters.
 template <typename Scalar>
 estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Scalar>& p) {
@@ -140,7 +145,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.cutter_radius_mm = radius_mm;
     s.helix_rad = p.tool.helix_deg * estimation::pi<Scalar> / Scalar(180);
     s.runout_mm = p.tool.runout_um * Scalar(0.001F);
-    s.side = static_cast<estimation::CutSide>(static_cast<unsigned char>(p.tool.side));
+    s.side = cut_side(p.tool);
     s.centre_offset_in_radii = p.tool.centre_offset_mm / radius_mm;
     s.largest_depth_mm = p.tool.flute_length_mm;
     s.nominal_feed_per_tooth_mm = p.tool.control.entry_feed_per_tooth_mm;

@@ -44,7 +44,9 @@ class ForceControlTick {
             estimator_.restart();
             set_cut();
         }
-        wide_band_.add(dt_s, sample, may_be_in_cut());
+        if (!wide_band_.add(dt_s, sample, may_be_in_cut())) {
+            forget_sections();
+        }
         estimator_.tell_immersion(immersion_by_force_drops());
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
                                                        sample.spindle_index_number, signals);
@@ -126,11 +128,15 @@ class ForceControlTick {
             width_share_ = Scalar(0.5F);
         }
         section_of_drops_mm2_ = section_mm2;
+        forget_sections();
+    }
+
+    void forget_sections() {
         section_sum_mm2_ = Scalar(0);
         sections_ = 0;
     }
 
-    /// Sections since the force drops were taken last.
+    /// Sections of the revolutions that the force drops' average holds.
     void follow_section() {
         section_sum_mm2_ += estimator_.estimate().section_mm2;
         ++sections_;

@@ -37,7 +37,7 @@ template <typename Scalar>
 class NoWideBand {
   public:
     explicit NoWideBand(const Parameters<Scalar>&) {}
-    void add(Scalar, const hal::DriveSample&, bool) {}
+    bool add(Scalar, const hal::DriveSample&, bool) { return false; }
     [[nodiscard]] static bool work_due() { return false; }
     void work() {}
     [[nodiscard]] const WideBandEstimate<Scalar>& estimate() const { return estimate_; }
@@ -70,10 +70,11 @@ class WideBandMonitor {
     [[nodiscard]] bool uses_depths() const { return uses_depths_; }
 
     /// One drive sample, dt_s after the last one. `in_cut`: the cutter is neither in air nor entering or leaving, as far
-    /// as anybody knows; else there is nothing to be averaged.
-    void add(Scalar dt_s, const hal::DriveSample& sample, bool in_cut) {
+    /// as anybody knows; else there is nothing to be averaged. True where the force drops' average goes on from the last
+    /// sample; false where there is none or it has begun anew.
+    bool add(Scalar dt_s, const hal::DriveSample& sample, bool in_cut) {
         if (!uses_force_drop_ && !uses_depths_) {
-            return;
+            return false;
         }
         const Forces forces = in_cut ? forces_.read(dt_s, sample) : Forces{};
         if (!forces.valid || forces.is_new_frame) {
@@ -81,12 +82,13 @@ class WideBandMonitor {
         }
         if (!forces.valid) {
             forces_.restart();
-            return;
+            return false;
         }
         is_clear_ = false;
         follow(dt_s, forces);
         collect(dt_s, forces);
         drop_outdated();
+        return uses_force_drop_ && !forces.is_new_frame;
     }
 
     [[nodiscard]] bool work_due() const { return force_drop_.complete() || depths_.complete(); }

@@ -8,11 +8,6 @@
 
 namespace millforce::firmware {
 
-template <typename Scalar>
-estimation::CutSide cut_side(const ToolParameters<Scalar>& tool) {
-    return static_cast<estimation::CutSide>(static_cast<unsigned char>(tool.side));
-}
-
 /// The tool's file holds a calibrated law.
 template <typename Scalar>
 bool has_force_drop_law(const ToolParameters<Scalar>& tool) {

@@ -13,8 +13,8 @@
 /// | 0…2 | F of the block in work, U24 | 0.01 mm/min: 0…167 772 mm/min; 0: not known |
 /// | 3 | the operator's own override, U8 | per cent |
 /// | 4 | bit 0: a rapid (G0) is in work; bit 1: the feed is held; bit 2: reset the controller's fault; bits 3…7 are 0 |
-/// | | 5, 6 | counter, U16, one more with each frame | a number that stands still is a dead CNC | | 7 | CRC-8 as in the
-/// override frame, over id low, id high, bytes 0…6 | |
+/// | 5, 6 | counter, U16, one more with each frame | a number that stands still is a dead CNC |
+/// | 7 | CRC-8 as in the override frame, over id low, id high, bytes 0…6 | |
 
 namespace millforce::program_status {
 
