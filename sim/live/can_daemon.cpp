@@ -11,9 +11,6 @@ namespace {
 
 using firmware::Condition;
 
-/// Between a frame's stamp and its place in the socket's queue lie microseconds, but milliseconds where this thread runs
-/// before the kernel's deferred work. What is missing by then is left out anyway; only `input_stale` comes so much later.
-constexpr std::uint32_t settle_us = 5'000;
 constexpr std::uint64_t second_us = 1'000'000;
 /// The override's sender finds out that ticks stay away (20 ms) and says so in its heartbeat.
 constexpr std::uint64_t farewell_us = 40'000;
@@ -23,7 +20,6 @@ firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
     settings.drives = bus.drives;
     settings.feed_override = bus.feed_override;
     settings.program = bus.program;
-    settings.settle_us = settle_us;
     return settings;
 }
 

@@ -46,7 +46,6 @@ class CandumpReplay {
     void note_rated_value(const hal::CanFrame& frame);
     void take_rated_values();
     [[nodiscard]] bool is_start(const hal::CanFrame& frame) const;
-    [[nodiscard]] std::unique_ptr<firmware::CanController> begun(firmware::TickListener& listener) const;
 
     Settings settings_;
     bool has_start_ = false;
