@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace CLI {
 class App;
+class Option;
 class Validator;
 }  // namespace CLI
 
@@ -29,6 +31,8 @@ void set_common_rules(CLI::App& app, const std::string& version);
 
 /// Checks that an option is a finite number within [low, high]. CLI::Range lets NaN pass.
 CLI::Validator number_from(double low, double high);
+/// --slow-motion N, of the commands on a bus.
+CLI::Option* add_slow_motion(CLI::App& command, std::uint32_t& slowness);
 
 /// The one line that says what is wrong with the command line: the message of CLI11, with the nearest name of an
 /// unknown command or option.

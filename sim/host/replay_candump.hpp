@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace millforce::sim {
@@ -11,11 +12,14 @@ struct ReplayCandumpOptions {
     std::string output;
     std::string interface;  ///< empty: the only one of the log
     double interval_s = 0.02;
+    std::string run_log;  ///< of `millforce run --log`, to compare with; empty: none
+    std::uint32_t slowness = 1;
 };
 
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.
 bool is_candump_log(const std::string& file);
 
+/// 1 where the run's log has other estimates.
 int replay_candump(const ReplayCandumpOptions& options);
 
 }  // namespace millforce::sim

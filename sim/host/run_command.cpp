@@ -24,6 +24,7 @@ struct RunOptions {
     std::string tool;
     std::string log;
     std::string record;
+    std::uint32_t slow_motion = 1;
 };
 
 MachineBus bus_of(const std::string& machine_file) {
@@ -69,8 +70,9 @@ int run_on_bus(const RunOptions& options) {
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, 20'000, isatty(STDOUT_FILENO) != 0});
-    const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal, !options.record.empty());
+        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), options.slow_motion});
     for (const std::string& note : become_real_time()) {
         fmt::print(stderr, "millforce: note: {}\n", note);
     }
@@ -106,6 +108,7 @@ void add_run(CLI::App& app, int& exit_code) {
     command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
     command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
         ->type_name("FILE.log");
+    add_slow_motion(*command, options->slow_motion);
     command->callback([options, &exit_code] { exit_code = run_on_bus(*options); });
 }
 

@@ -37,6 +37,7 @@ struct SimulateOptions {
     std::optional<double> current_noise_share;
     double hardest = hardest_material;
     std::string interface;
+    std::uint32_t slow_motion = 1;
 };
 
 constexpr const char* baseline = "constant";
@@ -100,7 +101,8 @@ void print_broken_bound(const RunFigures& figures) {
 }
 
 /// The controller is another process, behind the bus.
-std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const Scenario& scenario) {
+std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, std::uint32_t slowness,
+                                                  const Scenario& scenario) {
     const auto bus = read_machine_bus(scenario.machine_file);
     if (!bus) {
         throw InputError(
@@ -115,6 +117,7 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
     settings.sync_id = bus->drives.sync_id;
+    settings.slowness = slowness;
     return std::make_unique<PlantOnCan>(settings);
 }
 
@@ -125,7 +128,7 @@ int simulate_scenario(const SimulateOptions& options) {
     const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;
     if (!options.interface.empty()) {
-        const auto controller = controller_behind(options.interface, scenario);
+        const auto controller = controller_behind(options.interface, options.slow_motion, scenario);
         become_real_time();  // what is not allowed costs samples, and the controller tells how many
         results.push_back(run(scenario, "millforce", *controller, recording));
         leave_real_time();
@@ -181,11 +184,12 @@ void add_simulate(CLI::App& app, int& exit_code) {
                      "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
         ->check(number_from(1.0, 10.0))
         ->capture_default_str();
-    command
+    CLI::Option* bus = command
         ->add_option("--bus", options->interface,
                      "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
         ->type_name("IFACE")
         ->excludes("--controller");
+    add_slow_motion(*command, options->slow_motion)->needs(bus);
     command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
 }
 

@@ -9,6 +9,7 @@
 
 #include "files/nearest_name.hpp"
 #include "host/commands.hpp"
+#include "live/bus_clock.hpp"
 
 namespace millforce::sim {
 
@@ -98,6 +99,15 @@ CLI::Validator number_from(double low, double high) {
                    : fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
     };
     return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
+}
+
+CLI::Option* add_slow_motion(CLI::App& command, std::uint32_t& slowness) {
+    return command
+        .add_option("--slow-motion", slowness,
+                    "Time on the bus passes N times slower, all periods and time-outs; the same N for the controller, "
+                    "the plant and a replay")
+        ->type_name("N")
+        ->check(number_from(1.0, largest_slowness));
 }
 
 std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "loop/override_source.hpp"
-
 namespace millforce::sim {
 
 namespace {
@@ -26,11 +24,14 @@ firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
 }  // namespace
 
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
-                     const firmware::Parameters<float>& parameters, Journal& journal, bool records)
+                     const firmware::Parameters<float>& parameters, Journal& journal,
+                     const CanDaemonSettings& settings)
     : journal_(journal),
       override_id_(bus.feed_override.id),
+      entries_(run_log_interval_us),
       controller_(controller_settings(bus), parameters, this),
-      socket_(socket_settings(interface, controller_, records)) {}
+      socket_(socket_settings(interface, controller_, settings.records)),
+      clock_(settings.slowness, socket_.unix_offset_us()) {}
 
 socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records) {
@@ -51,21 +52,21 @@ void CanDaemon::run(const std::atomic<bool>& stop) {
 }
 
 void CanDaemon::step() {
-    const std::uint64_t before_us = socketcan::monotonic_us();
-    socket_.wait(controller_.next_event_us(before_us) - before_us);
-    const std::uint64_t now_us = socketcan::monotonic_us();
-    socket_.poll(now_us);
+    const std::uint64_t before_us = now_us();
+    socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
+    const std::uint64_t time_us = now_us();
+    socket_.poll(socketcan::monotonic_us());
     receive_all();
-    controller_.poll(now_us);
+    controller_.poll(time_us);
     send_all();
     controller_.work();
-    report(now_us);
+    report(time_us);
 }
 
 void CanDaemon::end(std::uint64_t duration_us) {
-    const std::uint64_t start_us = socketcan::monotonic_us();
+    const std::uint64_t start_us = now_us();
     controller_.stop(start_us);
-    for (std::uint64_t now_us = start_us; now_us < start_us + duration_us; now_us = socketcan::monotonic_us()) {
+    while (now_us() < start_us + duration_us) {
         step();
     }
 }
@@ -73,8 +74,9 @@ void CanDaemon::end(std::uint64_t duration_us) {
 void CanDaemon::receive_all() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
-        journal_.record(received.frame, unix_us(received.time_us));
-        controller_.on_frame(received.frame, received.time_us, received.is_own);
+        const std::int64_t unix_us = static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us();
+        journal_.record(received.frame, static_cast<std::uint64_t>(unix_us));
+        controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);
     }
 }
 
@@ -84,27 +86,16 @@ void CanDaemon::send_all() {
         const bool is_new = frame.id == override_id_ && controller_.tick_time_us() != measured_tick_us_;
         if (socket_.send(frame) && is_new) {
             measured_tick_us_ = controller_.tick_time_us();
-            const std::uint64_t now_us = socketcan::monotonic_us();
-            latency_.add(now_us > measured_tick_us_ ? now_us - measured_tick_us_ : 0);
+            const std::uint64_t sent_us = now_us();
+            latency_.add(clock_.real_us(sent_us > measured_tick_us_ ? sent_us - measured_tick_us_ : 0));
         }
     }
 }
 
-std::uint64_t CanDaemon::unix_us(std::uint64_t time_us) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(time_us) + socket_.unix_offset_us());
-}
-
 void CanDaemon::on_tick(const firmware::CanController& controller) {
-    if (controller.tick_time_us() < next_estimate_us_) {
-        return;
+    if (entries_.add(controller, newest_)) {
+        journal_.estimate(newest_);
     }
-    next_estimate_us_ = controller.tick_time_us() + estimate_interval_us_;
-    newest_ = {};
-    newest_.unix_us = unix_us(controller.tick_time_us());
-    describe_tick(controller.controller(), newest_.point);
-    newest_.override_ratio = controller.output().ratio;
-    newest_.hold = controller.output().hold;
-    journal_.estimate(newest_);
 }
 
 firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
@@ -146,7 +137,7 @@ void CanDaemon::report(std::uint64_t now_us) {
     has_told_ = true;
     told_ = now;
     StatusEntry entry;
-    entry.unix_us = unix_us(now_us);
+    entry.unix_us = now_us;
     entry.conditions = now;
     entry.link = socket_.health();
     entry.bus = controller_.drives().health();

@@ -23,6 +23,7 @@ class CandumpReplay {
         std::string interface;  ///< empty: the only one of the log
         MachineBus bus{};
         firmware::Parameters<float> parameters{};
+        std::uint32_t slowness = 1;  ///< of the run: see BusClock
     };
 
     /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that is not

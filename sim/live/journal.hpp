@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "firmware_can/can_controller.hpp"
+#include "live/estimate_entry.hpp"
 #include "live/spsc_ring.hpp"
-#include "report/run_result.hpp"
 #include "socketcan/can_socket.hpp"
 
 namespace millforce::sim {
@@ -19,16 +19,7 @@ struct JournalSettings {
     std::string interface;
     std::string record_file;  ///< candump log of every frame; empty: none
     std::string log_file;     ///< JSON lines; empty: none
-    std::uint32_t estimate_interval_us = 20'000;
     bool status_line = false;  ///< on standard output, once a second
-};
-
-/// The newest tick at the controller's border.
-struct EstimateEntry {
-    std::uint64_t unix_us = 0;
-    TracePoint point{};
-    float override_ratio = 0.0F;
-    bool hold = true;
 };
 
 /// How bus and drives are.

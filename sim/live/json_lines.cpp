@@ -37,7 +37,7 @@ std::string estimate_members(const EstimateEntry& entry) {
           std::pair{"peak_force_N", p.peak_force_N}, std::pair{"force_limit_N", p.force_limit_N}}) {
         text += fmt::format(R"(,"{}":{})", key, number_or_null(value));
     }
-    return text;
+    return text + fmt::format(R"(,"digest":"{:016x}")", entry.digest);
 }
 
 /// Whether a drive is why a condition is there.

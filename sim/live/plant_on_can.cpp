@@ -16,23 +16,24 @@ constexpr std::uint64_t longest_wait_us = 5'000;
 PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings)
     : settings_(settings),
       socket_(settings.interface),
+      clock_(settings.slowness, socket_.unix_offset_us()),
       machine_(settings.machine),
       cnc_(settings.cnc),
-      start_us_(socketcan::monotonic_us()),
+      start_us_(now_us()),
       plant_us_(start_us_),
       due_us_(start_us_) {}
 
 hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    const std::uint64_t now_us = socketcan::monotonic_us();
+    const std::uint64_t time_us = now_us();
     machine_.set(sample);
-    cnc_.set(program, now_us);
+    cnc_.set(program, time_us);
     if (sync_is_pending_) {
         sync_is_pending_ = false;
-        longest_delay_us_ = std::max(longest_delay_us_, now_us > due_us_ ? now_us - due_us_ : 0);
-        machine_.on_frame(sync_, now_us);
+        longest_delay_us_ = std::max(longest_delay_us_, clock_.real_us(time_us > due_us_ ? time_us - due_us_ : 0));
+        machine_.on_frame(sync_, time_us);
     }
-    machine_.poll(now_us);
-    cnc_.poll(now_us);
+    machine_.poll(time_us);
+    cnc_.poll(time_us);
     send_all();
     await_sync();
     const override_frame::ReceivedOverride got = cnc_.feed_override(due_us_);
@@ -43,20 +44,20 @@ hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::Pr
 /// Until the next SYNC, or until the plant has to go on without one. `due_us_` is the time of it.
 void PlantOnCan::await_sync() {
     for (;;) {
-        const std::uint64_t now_us = socketcan::monotonic_us();
-        socket_.poll(now_us);
+        const std::uint64_t time_us = now_us();
+        socket_.poll(socketcan::monotonic_us());
         if (receive_until_sync()) {
             return;
         }
-        machine_.poll(now_us);
-        cnc_.poll(now_us);
+        machine_.poll(time_us);
+        cnc_.poll(time_us);
         send_all();
-        if (now_us >= plant_us_ + longest_wait_us) {
-            due_us_ = now_us;
-            check_patience(now_us);
+        if (time_us >= plant_us_ + longest_wait_us) {
+            due_us_ = time_us;
+            check_patience(time_us);
             return;
         }
-        socket_.wait(plant_us_ + longest_wait_us - now_us);
+        socket_.wait(clock_.real_us(plant_us_ + longest_wait_us - time_us));
     }
 }
 
@@ -64,22 +65,23 @@ bool PlantOnCan::receive_until_sync() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
         const hal::CanFrame& frame = received.frame;
+        const std::uint64_t time_us = clock_.of_monotonic(received.time_us);
         if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
             sync_ = frame;
             sync_is_pending_ = true;
-            due_us_ = std::max(received.time_us, plant_us_);
+            due_us_ = std::max(time_us, plant_us_);
             ++syncs_;
             check_patience(due_us_);
             return true;
         }
-        machine_.on_frame(frame, received.time_us);
-        cnc_.on_frame(frame, received.time_us);
+        machine_.on_frame(frame, time_us);
+        cnc_.on_frame(frame, time_us);
     }
     return false;
 }
 
-void PlantOnCan::check_patience(std::uint64_t now_us) const {
-    if (!is_ready_ && now_us > start_us_ + settings_.patience_us) {
+void PlantOnCan::check_patience(std::uint64_t time_us) const {
+    if (!is_ready_ && clock_.real_us(time_us - start_us_) > settings_.patience_us) {
         throw InputError(fmt::format("{}: no feed override within {} s, expected 'millforce run' on the same interface",
                                      settings_.interface.interface.data(), settings_.patience_us / 1'000'000));
     }

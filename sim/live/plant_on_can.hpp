@@ -6,6 +6,7 @@
 
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
+#include "live/bus_clock.hpp"
 #include "loop/override_source.hpp"
 #include "socketcan/can_socket.hpp"
 
@@ -16,7 +17,8 @@ struct PlantOnCanSettings {
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
-    std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start
+    std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
+    std::uint32_t slowness = 1;              ///< slow motion: see BusClock
 };
 
 /// The simulated machine's side of a real CAN interface: its drives and its CNC, in real time, nothing shared with the
@@ -39,13 +41,15 @@ class PlantOnCan : public OverrideSource {
     [[nodiscard]] std::uint64_t syncs() const { return syncs_; }
 
   private:
+    [[nodiscard]] std::uint64_t now_us() const { return clock_.of_monotonic(socketcan::monotonic_us()); }
     void await_sync();
     bool receive_until_sync();
     void send_all();
-    void check_patience(std::uint64_t now_us) const;
+    void check_patience(std::uint64_t time_us) const;
 
     PlantOnCanSettings settings_;
     socketcan::CanSocket socket_;
+    BusClock clock_;
     MachineOnBus machine_;
     CncOnBus cnc_;
     hal::CanFrame sync_{};
