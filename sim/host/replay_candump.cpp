@@ -10,6 +10,7 @@
 
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/estimate_rows.hpp"

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "host/commands.hpp"
 #include "live/can_daemon.hpp"
@@ -67,6 +68,11 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 int run_on_bus(const RunOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     const MachineBus bus = bus_of(options.machine);
+    if (options.slow_motion != 1 && (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
+        throw InputError(fmt::format("--slow-motion: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
+                                     "machine that is on the bus alone",
+                                     options.machine));
+    }
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"

@@ -31,7 +31,10 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
       entries_(run_log_interval_us),
       controller_(controller_settings(bus), parameters, this),
       socket_(socket_settings(interface, controller_, settings.records)),
-      clock_(settings.slowness, socket_.unix_offset_us()) {}
+      clock_(settings.slowness, socket_.unix_offset_us()),
+      sync_id_(bus.drives.sync_id),
+      local_drives_(bus),
+      local_outputs_(bus.local) {}
 
 socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records) {
@@ -59,6 +62,8 @@ void CanDaemon::step() {
     receive_all();
     controller_.poll(time_us);
     send_all();
+    local_outputs_.poll(socketcan::monotonic_us());
+    controller_.hold_from_outside(local_outputs_.health().is_failed);
     controller_.work();
     report(time_us);
 }
@@ -76,12 +81,18 @@ void CanDaemon::receive_all() {
     while (socket_.receive(received)) {
         const std::int64_t unix_us = static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us();
         journal_.record(received.frame, static_cast<std::uint64_t>(unix_us));
+        if (received.frame.id == sync_id_ && !received.frame.extended && !received.frame.remote) {
+            local_drives_.on_sync(socketcan::monotonic_us());
+        }
         controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);
     }
 }
 
 void CanDaemon::send_all() {
     hal::CanFrame frame;
+    while (local_drives_.take_frame(frame)) {
+        socket_.send(frame);
+    }
     while (controller_.take_frame(frame)) {
         const bool is_new = frame.id == override_id_ && controller_.tick_time_us() != measured_tick_us_;
         if (socket_.send(frame) && is_new) {
@@ -93,6 +104,7 @@ void CanDaemon::send_all() {
 }
 
 void CanDaemon::on_tick(const firmware::CanController& controller) {
+    local_outputs_.update(controller.told(), socketcan::monotonic_us());
     if (entries_.add(controller, newest_)) {
         journal_.estimate(newest_);
     }
@@ -108,6 +120,8 @@ firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
     found.set(Condition::error_passive, link.state == LinkState::error_passive);
     found.set(Condition::bus_off, link.state == LinkState::bus_off);
     found.set(Condition::send_queue_full, link.send_queue_full);
+    found.set(Condition::local_input_failed, local_drives_.health().is_failed);
+    found.set(Condition::local_output_failed, local_outputs_.health().is_failed);
     if (const std::uint32_t lost = link.overruns + link.controller_overflows; lost != frames_lost_) {
         frames_lost_ = lost;
         frames_lost_us_ = now_us;
@@ -150,6 +164,8 @@ void CanDaemon::report(std::uint64_t now_us) {
     entry.ticks = controller_.ticks();
     entry.syncs_skipped = controller_.syncs_skipped();
     entry.newest = newest_;
+    entry.input = local_drives_.health();
+    entry.output = local_outputs_.health();
     if (is_news) {
         journal_.status(entry);
     }

@@ -53,6 +53,9 @@ class CanDaemon final : private firmware::TickListener {
     firmware::CanController controller_;
     socketcan::CanSocket socket_;
     BusClock clock_;
+    std::uint32_t sync_id_;
+    LocalDrives local_drives_;
+    LocalOutputs local_outputs_;
     LatencyHistogram latency_{};
     EstimateEntry newest_{};
     std::uint64_t measured_tick_us_ = 0;

@@ -10,6 +10,8 @@
 
 #include "firmware_can/can_controller.hpp"
 #include "live/estimate_entry.hpp"
+#include "live/local_drives.hpp"
+#include "live/local_outputs.hpp"
 #include "live/spsc_ring.hpp"
 #include "socketcan/can_socket.hpp"
 
@@ -35,6 +37,8 @@ struct StatusEntry {
     std::uint32_t ticks = 0;
     std::uint32_t syncs_skipped = 0;
     EstimateEntry newest{};
+    LocalInputHealth input{};
+    LocalOutputHealth output{};
 };
 
 /// What a run leaves behind, written by a thread of its own: the real-time thread hands over without waiting. What did

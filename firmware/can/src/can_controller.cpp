@@ -116,8 +116,8 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
         foreign_sync_us_ = time_us;
         return;
     }
-    if (is_own && !is_sync) {
-        return;
+    if (frame.id == settings_.feed_override.id || frame.id == own_heartbeat_id(settings_)) {
+        return;  // the time that passed is all that they tell
     }
     program_receiver_.on_frame(frame, time_us);
     bus_.on_frame(frame, time_us);
@@ -141,10 +141,14 @@ void CanController::watch_silence(std::uint64_t now_us) {
     }
     is_silent_ = now_us > heard_us_ + stale_us_;
     if (is_silent_ && has_begun_) {
-        hal::FeedOverride held = output_;
-        held.hold = true;
-        sender_.update(held, now_us);
+        sender_.update(told(), now_us);
     }
+}
+
+hal::FeedOverride CanController::told() const {
+    hal::FeedOverride told = output_;
+    told.hold = told.hold || is_silent_ || is_held_outside_;
+    return told;
 }
 
 /// Until it comes back: the first may have gone to an interface that was not there.
@@ -209,7 +213,7 @@ void CanController::work() {
 void CanController::finish(const hal::FeedOverride& output, std::uint64_t time_us) {
     output_ = output;
     tick_time_us_ = time_us;
-    sender_.update(output_, bus_time_us_);
+    sender_.update(told(), bus_time_us_);
     if (listener_ != nullptr) {
         listener_->on_tick(*this);
     }

@@ -1,4 +1,5 @@
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "sim/files/temporary_folder.hpp"
 

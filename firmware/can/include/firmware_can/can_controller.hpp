@@ -67,12 +67,14 @@ class CanController {
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
                   TickListener* listener = nullptr);
 
-    /// `is_own`: the echo of a frame that this controller sent.
+    /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
     void poll(std::uint64_t now_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
     /// The tick's work beside its steps. What is not done by then is done before the next sample: it is the same work.
     void work();
+    /// From the next tick on and as long as it is asked for the override says hold. The tick does not see it.
+    void hold_from_outside(bool is_held) { is_held_outside_ = is_held; }
     /// No more ticks nor SYNC: the override says hold at once, and the heartbeat `stopped` a little later.
     void stop(std::uint64_t now_us);
 
@@ -85,6 +87,8 @@ class CanController {
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
     [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
+    /// The output as the CNC is told it: with the holds that are none of the tick's.
+    [[nodiscard]] hal::FeedOverride told() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
@@ -128,6 +132,7 @@ class CanController {
     bool was_heard_ = false;      ///< a frame came since the last poll()
     std::uint64_t heard_us_ = 0;  ///< by the clock of poll()
     bool is_silent_ = false;
+    bool is_held_outside_ = false;
     std::uint64_t bus_time_us_ = 0;
     bool has_begun_ = false;  ///< a complete sample came
     std::uint64_t sync_time_us_ = 0;      ///< of the newest sample
