@@ -5,7 +5,6 @@
 
 namespace CLI {
 class App;
-class Option;
 class Validator;
 }  // namespace CLI
 
@@ -31,8 +30,13 @@ void set_common_rules(CLI::App& app, const std::string& version);
 
 /// Checks that an option is a finite number within [low, high]. CLI::Range lets NaN pass.
 CLI::Validator number_from(double low, double high);
-/// --slow-motion N, of the commands on a bus.
-CLI::Option* add_slow_motion(CLI::App& command, std::uint32_t& slowness);
+
+/// --slow-motion and --lock-step, of the commands on a bus.
+struct BusPace {
+    std::uint32_t slow_motion = 1;
+    bool lock_step = false;
+};
+void add_bus_pace(CLI::App& command, BusPace& pace);
 
 /// The one line that says what is wrong with the command line: the message of CLI11, with the nearest name of an
 /// unknown command or option.

@@ -31,7 +31,7 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
                         options.machine, options.log));
     }
     return {options.log, options.interface, *bus, read_parameters(options.machine, options.tool),
-            options.slowness};
+            {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us}};
 }
 
 double seconds_of(std::uint64_t microseconds) {

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "host/commands.hpp"
+
 namespace millforce::sim {
 
 struct ReplayCandumpOptions {
@@ -13,7 +15,7 @@ struct ReplayCandumpOptions {
     std::string interface;  ///< empty: the only one of the log
     double interval_s = 0.02;
     std::string run_log;  ///< of `millforce run --log`, to compare with; empty: none
-    std::uint32_t slowness = 1;
+    BusPace pace{};
 };
 
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.

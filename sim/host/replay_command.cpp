@@ -36,7 +36,7 @@ struct ReplayOptions {
     double interval_s = 0.02;
     std::string interface;
     std::string run_log;
-    std::uint32_t slow_motion = 1;
+    BusPace pace{};
 };
 
 /// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
@@ -185,8 +185,8 @@ int replay_table(const ReplayOptions& options) {
 
 int replay(const ReplayOptions& options) {
     if (!is_candump_log(options.log)) {
-        if (!options.run_log.empty() || options.slow_motion != 1) {
-            throw InputError(fmt::format("{}: is no candump log, expected one with --verify or --slow-motion", options.log));
+        if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
+            throw InputError(fmt::format("{}: is no candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
         }
         return replay_table(options);
     }
@@ -196,7 +196,7 @@ int replay(const ReplayOptions& options) {
     }
     return replay_candump(
         {options.log, options.machine, options.tool, options.output, options.interface, options.interval_s,
-         options.run_log, options.slow_motion});
+         options.run_log, options.pace});
 }
 
 }  // namespace
@@ -233,7 +233,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->add_option("--verify", options->run_log,
                      "Compare with the log of 'millforce run --log'; exit code 1 where one bit of one tick differs")
         ->type_name("RUN.jsonl");
-    add_slow_motion(*command, options->slow_motion);
+    add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

@@ -25,7 +25,7 @@ struct RunOptions {
     std::string tool;
     std::string log;
     std::string record;
-    std::uint32_t slow_motion = 1;
+    BusPace pace{};
 };
 
 MachineBus bus_of(const std::string& machine_file) {
@@ -68,17 +68,21 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 int run_on_bus(const RunOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     const MachineBus bus = bus_of(options.machine);
-    if (options.slow_motion != 1 && (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
-        throw InputError(fmt::format("--slow-motion: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
+    if ((options.pace.slow_motion != 1 || options.pace.lock_step) && (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
+        throw InputError(fmt::format("--slow-motion, --lock-step: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
                                      "machine that is on the bus alone",
                                      options.machine));
     }
+    if (options.pace.lock_step && !bus.drives.produces_sync) {
+        throw InputError(fmt::format("--lock-step: {}: bus.produces_sync = false, expected true", options.machine));
+    }
+    const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(
         JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
     const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
-                                                    CanDaemonSettings{!options.record.empty(), options.slow_motion});
+                                                    CanDaemonSettings{!options.record.empty(), time});
     for (const std::string& note : become_real_time()) {
         fmt::print(stderr, "millforce: note: {}\n", note);
     }
@@ -114,7 +118,7 @@ void add_run(CLI::App& app, int& exit_code) {
     command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
     command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
         ->type_name("FILE.log");
-    add_slow_motion(*command, options->slow_motion);
+    add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = run_on_bus(*options); });
 }
 

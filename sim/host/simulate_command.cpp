@@ -38,7 +38,7 @@ struct SimulateOptions {
     std::optional<double> current_noise_share;
     double hardest = hardest_material;
     std::string interface;
-    std::uint32_t slow_motion = 1;
+    BusPace pace{};
 };
 
 constexpr const char* baseline = "constant";
@@ -102,7 +102,7 @@ void print_broken_bound(const RunFigures& figures) {
 }
 
 /// The controller is another process, behind the bus.
-std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, std::uint32_t slowness,
+std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const BusPace& pace,
                                                   const Scenario& scenario) {
     const auto bus = read_machine_bus(scenario.machine_file);
     if (!bus) {
@@ -118,7 +118,7 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
     settings.sync_id = bus->drives.sync_id;
-    settings.slowness = slowness;
+    settings.time = {pace.slow_motion, pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us};
     return std::make_unique<PlantOnCan>(settings);
 }
 
@@ -129,7 +129,7 @@ int simulate_scenario(const SimulateOptions& options) {
     const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;
     if (!options.interface.empty()) {
-        const auto controller = controller_behind(options.interface, options.slow_motion, scenario);
+        const auto controller = controller_behind(options.interface, options.pace, scenario);
         become_real_time();  // what is not allowed costs samples, and the controller tells how many
         results.push_back(run(scenario, "millforce", *controller, recording));
         leave_real_time();
@@ -137,9 +137,12 @@ int simulate_scenario(const SimulateOptions& options) {
         results.push_back(
             run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
     }
-    const double ratio = safe_override_of(scenario, options.hardest);
-    results.push_back(
-        run(scenario, baseline, *controller_named(baseline, scenario, ratio), is_baseline ? recording : std::nullopt));
+    double ratio = 0.0;
+    if (options.interface.empty()) {
+        ratio = safe_override_of(scenario, options.hardest);
+        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
+                              is_baseline ? recording : std::nullopt));
+    }
     const ScenarioInfo info = info_of(scenario, ratio);
     fmt::print("{}", summary_table(info, results));
     write_report(out, info, results);
@@ -185,12 +188,12 @@ void add_simulate(CLI::App& app, int& exit_code) {
                      "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
         ->check(number_from(1.0, 10.0))
         ->capture_default_str();
-    CLI::Option* bus = command
+    command
         ->add_option("--bus", options->interface,
                      "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
         ->type_name("IFACE")
         ->excludes("--controller");
-    add_slow_motion(*command, options->slow_motion)->needs(bus);
+    add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
 }
 

@@ -101,13 +101,19 @@ CLI::Validator number_from(double low, double high) {
     return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
 }
 
-CLI::Option* add_slow_motion(CLI::App& command, std::uint32_t& slowness) {
-    return command
-        .add_option("--slow-motion", slowness,
-                    "Time on the bus passes N times slower, all periods and time-outs; the same N for the controller, "
-                    "the plant and a replay")
-        ->type_name("N")
-        ->check(number_from(1.0, largest_slowness));
+void add_bus_pace(CLI::App& command, BusPace& pace) {
+    CLI::Option* slow_motion =
+        command
+            .add_option("--slow-motion", pace.slow_motion,
+                        "Time on the bus passes N times slower, all periods and time-outs; the same for the "
+                        "controller, the plant and a replay")
+            ->type_name("N")
+            ->check(number_from(1.0, largest_slowness));
+    command
+        .add_flag("--lock-step", pace.lock_step,
+                  "Time on the bus passes with SYNC alone, which waits for the drives' answers: nothing is late "
+                  "however busy the computer is; the same for the controller, the plant and a replay")
+        ->excludes(slow_motion);
 }
 
 std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {

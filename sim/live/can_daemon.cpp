@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "cia402/objects.hpp"
+
 namespace millforce::sim {
 
 namespace {
@@ -31,8 +33,9 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
       entries_(run_log_interval_us),
       controller_(controller_settings(bus), parameters, this),
       socket_(socket_settings(interface, controller_, settings.records)),
-      clock_(settings.slowness, socket_.unix_offset_us()),
+      clock_(settings.time, socket_.unix_offset_us()),
       sync_id_(bus.drives.sync_id),
+      heartbeat_id_(cia402::cob_id::heartbeat + bus.feed_override.node_id),
       local_drives_(bus),
       local_outputs_(bus.local) {}
 
@@ -54,6 +57,26 @@ void CanDaemon::run(const std::atomic<bool>& stop) {
     end(farewell_us);
 }
 
+/// In lock-step the next SYNC is due when all drives have answered this one, or do not.
+std::uint64_t CanDaemon::now_us() const {
+    const BusTime& time = clock_.time();
+    const std::uint64_t passed_us = time.in_lock_step && has_cycle_ended() ? time.sync_period_us : 0;
+    return clock_.of_monotonic(socketcan::monotonic_us()) + passed_us;
+}
+
+bool CanDaemon::has_cycle_ended() const {
+    constexpr std::uint64_t start_patience_us = 5'000;
+    constexpr std::uint64_t patience_us = 1'000'000;
+    const std::uint64_t elapsed_us = socketcan::monotonic_us() - sync_heard_us_;
+    return elapsed_us > (controller_.ticks() == 0 ? start_patience_us : patience_us) ||
+           (controller_.ticks() > 0 && !controller_.drives().is_collecting());
+}
+
+bool CanDaemon::is_boot_up(const socketcan::ReceivedFrame& received) const {
+    const hal::CanFrame& frame = received.frame;
+    return received.is_own && frame.id == heartbeat_id_ && frame.length == 1 && frame.data[0] == 0;
+}
+
 void CanDaemon::step() {
     const std::uint64_t before_us = now_us();
     socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
@@ -69,9 +92,9 @@ void CanDaemon::step() {
 }
 
 void CanDaemon::end(std::uint64_t duration_us) {
-    const std::uint64_t start_us = now_us();
-    controller_.stop(start_us);
-    while (now_us() < start_us + duration_us) {
+    const std::uint64_t start_us = socketcan::monotonic_us();
+    controller_.stop(now_us());
+    while (socketcan::monotonic_us() < start_us + clock_.real_us(duration_us)) {
         step();
     }
 }
@@ -81,7 +104,12 @@ void CanDaemon::receive_all() {
     while (socket_.receive(received)) {
         const std::int64_t unix_us = static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us();
         journal_.record(received.frame, static_cast<std::uint64_t>(unix_us));
+        clock_.on_frame(received.frame);
+        if (is_boot_up(received)) {
+            clock_.begin();
+        }
         if (received.frame.id == sync_id_ && !received.frame.extended && !received.frame.remote) {
+            sync_heard_us_ = socketcan::monotonic_us();
             local_drives_.on_sync(socketcan::monotonic_us());
         }
         controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);

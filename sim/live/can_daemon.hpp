@@ -15,7 +15,7 @@ namespace millforce::sim {
 
 struct CanDaemonSettings {
     bool records = false;        ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
-    std::uint32_t slowness = 1;  ///< slow motion: see BusClock
+    BusTime time{};
 };
 
 /// The controller on a CAN interface: socket, CanController and journal in one loop, until `stop` is set. Then the
@@ -43,7 +43,9 @@ class CanDaemon final : private firmware::TickListener {
     void report(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
-    [[nodiscard]] std::uint64_t now_us() const { return clock_.of_monotonic(socketcan::monotonic_us()); }
+    [[nodiscard]] std::uint64_t now_us() const;
+    [[nodiscard]] bool has_cycle_ended() const;
+    [[nodiscard]] bool is_boot_up(const socketcan::ReceivedFrame& received) const;
     static socketcan::CanSocketSettings socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records);
 
@@ -54,6 +56,8 @@ class CanDaemon final : private firmware::TickListener {
     socketcan::CanSocket socket_;
     BusClock clock_;
     std::uint32_t sync_id_;
+    std::uint32_t heartbeat_id_;
+    std::uint64_t sync_heard_us_ = 0;  ///< on CLOCK_MONOTONIC
     LocalDrives local_drives_;
     LocalOutputs local_outputs_;
     LatencyHistogram latency_{};

@@ -8,7 +8,6 @@
 #include "candump/log_line.hpp"
 #include "cia402/objects.hpp"
 #include "files/input_error.hpp"
-#include "live/bus_clock.hpp"
 #include "live/bus_names.hpp"
 
 namespace millforce::sim {
@@ -177,7 +176,7 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
     settings.feed_override = settings_.bus.feed_override;
     settings.program = settings_.bus.program;
     settings.begins_at_once = !has_start_;
-    const BusClock clock(settings_.slowness);
+    BusClock clock(settings_.time);
     controller_ = std::make_unique<firmware::CanController>(settings, settings_.parameters, &listener);
     while (lines.next()) {
         const candump::LogLine& line = lines.line();
@@ -190,6 +189,10 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
             continue;
         }
         ++frames_;
+        clock.on_frame(line.frame);
+        if (is_start(line.frame)) {
+            clock.begin();
+        }
         controller_->on_frame(line.frame, clock.of_unix(line.time_us), is_start(line.frame));
         // What it would send was sent then.
         hal::CanFrame sent;

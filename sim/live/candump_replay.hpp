@@ -8,6 +8,7 @@
 
 #include "files/machine_bus.hpp"
 #include "firmware_can/can_controller.hpp"
+#include "live/bus_clock.hpp"
 
 namespace millforce::sim {
 
@@ -23,7 +24,7 @@ class CandumpReplay {
         std::string interface;  ///< empty: the only one of the log
         MachineBus bus{};
         firmware::Parameters<float> parameters{};
-        std::uint32_t slowness = 1;  ///< of the run: see BusClock
+        BusTime time{};  ///< of the run
     };
 
     /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that is not

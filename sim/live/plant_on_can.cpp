@@ -16,12 +16,12 @@ constexpr std::uint64_t longest_wait_us = 5'000;
 PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings)
     : settings_(settings),
       socket_(settings.interface),
-      clock_(settings.slowness, socket_.unix_offset_us()),
+      clock_(settings.time, socket_.unix_offset_us()),
       machine_(settings.machine),
       cnc_(settings.cnc),
-      start_us_(now_us()),
-      plant_us_(start_us_),
-      due_us_(start_us_) {}
+      heard_us_(socketcan::monotonic_us()),
+      plant_us_(now_us()),
+      due_us_(plant_us_) {}
 
 hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     const std::uint64_t time_us = now_us();
@@ -52,12 +52,15 @@ void PlantOnCan::await_sync() {
         machine_.poll(time_us);
         cnc_.poll(time_us);
         send_all();
-        if (time_us >= plant_us_ + longest_wait_us) {
+        if (settings_.time.in_lock_step) {
+            check_patience();
+        } else if (time_us >= plant_us_ + longest_wait_us) {
             due_us_ = time_us;
-            check_patience(time_us);
+            check_patience();
             return;
         }
-        socket_.wait(clock_.real_us(plant_us_ + longest_wait_us - time_us));
+        const std::uint64_t end_us = plant_us_ + longest_wait_us;
+        socket_.wait(clock_.real_us(end_us > time_us ? end_us - time_us : longest_wait_us));
     }
 }
 
@@ -65,13 +68,15 @@ bool PlantOnCan::receive_until_sync() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
         const hal::CanFrame& frame = received.frame;
+        clock_.on_frame(frame);
         const std::uint64_t time_us = clock_.of_monotonic(received.time_us);
         if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
             sync_ = frame;
             sync_is_pending_ = true;
             due_us_ = std::max(time_us, plant_us_);
             ++syncs_;
-            check_patience(due_us_);
+            check_patience();
+            heard_us_ = is_ready_ ? socketcan::monotonic_us() : heard_us_;
             return true;
         }
         machine_.on_frame(frame, time_us);
@@ -80,10 +85,13 @@ bool PlantOnCan::receive_until_sync() {
     return false;
 }
 
-void PlantOnCan::check_patience(std::uint64_t time_us) const {
-    if (!is_ready_ && clock_.real_us(time_us - start_us_) > settings_.patience_us) {
-        throw InputError(fmt::format("{}: no feed override within {} s, expected 'millforce run' on the same interface",
-                                     settings_.interface.interface.data(), settings_.patience_us / 1'000'000));
+/// Of a controller that is not there; in lock-step, of one that went away.
+void PlantOnCan::check_patience() const {
+    const bool waits = !is_ready_ || settings_.time.in_lock_step;
+    if (waits && socketcan::monotonic_us() > heard_us_ + settings_.patience_us) {
+        throw InputError(fmt::format("{}: no {} within {} s, expected 'millforce run' on the same interface",
+                                     settings_.interface.interface.data(), is_ready_ ? "SYNC" : "feed override",
+                                     settings_.patience_us / 1'000'000));
     }
 }
 

@@ -18,7 +18,7 @@ struct PlantOnCanSettings {
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
-    std::uint32_t slowness = 1;              ///< slow motion: see BusClock
+    BusTime time{};
 };
 
 /// The simulated machine's side of a real CAN interface: its drives and its CNC, in real time, nothing shared with the
@@ -45,7 +45,7 @@ class PlantOnCan : public OverrideSource {
     void await_sync();
     bool receive_until_sync();
     void send_all();
-    void check_patience(std::uint64_t time_us) const;
+    void check_patience() const;
 
     PlantOnCanSettings settings_;
     socketcan::CanSocket socket_;
@@ -54,7 +54,7 @@ class PlantOnCan : public OverrideSource {
     CncOnBus cnc_;
     hal::CanFrame sync_{};
     bool sync_is_pending_ = false;
-    std::uint64_t start_us_;
+    std::uint64_t heard_us_;  ///< on CLOCK_MONOTONIC: the last SYNC, or the start
     std::uint64_t plant_us_;  ///< where the plant stands, on the bus's clock
     std::uint64_t due_us_;    ///< where it is to stand at the next sample
     bool is_ready_ = false;

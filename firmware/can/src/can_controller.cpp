@@ -125,7 +125,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
 }
 
 void CanController::poll(std::uint64_t now_us) {
-    if (settings_.drives.produces_sync && !stopped_) {
+    if (settings_.drives.produces_sync && is_running_ && !stopped_) {
         sync_.poll(now_us);
     }
     watch_silence(now_us);
@@ -290,7 +290,7 @@ bool CanController::take_frame(hal::CanFrame& frame) {
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
     std::uint64_t next_us =
         now_us + std::min(settings_.feed_override.period_us, settings_.drives.sync_period_us);
-    if (settings_.drives.produces_sync && !stopped_) {
+    if (settings_.drives.produces_sync && is_running_ && !stopped_) {
         next_us = std::min(next_us, sync_.next_us());
     }
     return std::max(next_us, now_us);
