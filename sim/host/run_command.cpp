@@ -83,8 +83,10 @@ int run_on_bus(const RunOptions& options) {
         JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
     const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
                                                     CanDaemonSettings{!options.record.empty(), time});
-    for (const std::string& note : become_real_time()) {
-        fmt::print(stderr, "millforce: note: {}\n", note);
+    if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
+        for (const std::string& note : become_real_time()) {
+            fmt::print(stderr, "millforce: note: {}\n", note);
+        }
     }
     notify_service_manager("READY=1");
     daemon->run(stop);

@@ -130,7 +130,9 @@ int simulate_scenario(const SimulateOptions& options) {
     std::vector<RunResult> results;
     if (!options.interface.empty()) {
         const auto controller = controller_behind(options.interface, options.pace, scenario);
-        become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        if (!options.pace.lock_step) {
+            become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        }
         results.push_back(run(scenario, "millforce", *controller, recording));
         leave_real_time();
     } else if (!is_baseline) {
