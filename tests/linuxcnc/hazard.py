@@ -82,7 +82,7 @@ def act(case):
 def main():
     case = os.environ["MILLFORCE_CASE"]
     drive = Drive()
-    halcmd("setp", "millforce-plant.patience", "0.2")
+    halcmd("setp", "millforce-plant.patience", "1")
     drive.make_ready()
     with open("straight.ngc", encoding="ascii") as file:
         text = file.read().replace("M52 P1", PREAMBLE.get(case, "M52 P1"))
@@ -90,7 +90,7 @@ def main():
         file.write(text)
     drive.start("case.ngc")
     begun_mm = 0.2 if case in PREAMBLE and case != "m51_p0" else 6.0
-    drive.until("cutting", lambda: drive.stat.actual_position[0] > begun_mm, 30.0)
+    drive.until("cutting", lambda: drive.stat.actual_position[0] > begun_mm, 120.0)
     before_the_end = act(case)
     drive.say(case)
     wait_cycles(1500)
