@@ -82,7 +82,6 @@ def act(case):
 def main():
     case = os.environ["MILLFORCE_CASE"]
     drive = Drive()
-    halcmd("setp", "millforce-plant.patience", "1")
     drive.make_ready()
     with open("straight.ngc", encoding="ascii") as file:
         text = file.read().replace("M52 P1", PREAMBLE.get(case, "M52 P1"))
