@@ -34,7 +34,7 @@ pin out bit feed_inhibit "To motion.feed-inhibit";
 pin out bit machine_ok=1 "Into the emergency-stop chain: false where the machine moves on though it was told to stop; true again once it stands, with enable false";
 pin out bit ok "The controller lives and its override is a number from 0 on";
 pin out bit fault "Latched";
-pin out unsigned reason "Of the latched fault: 1 never heard, 2 heartbeat stands still, 3 not a number, 4 negative, 5 not obeyed";
+pin out unsigned reason "Of the latched fault: 1 never heard, 2 heartbeat stands still or begins anew, 3 not a number, 4 negative, 5 not obeyed";
 pin out unsigned faults "Number of faults since the start";
 param rw float timeout=0.1 "Without a new heartbeat for longer, in s, the controller is dead";
 param rw float max=1.0 "Largest override that is passed on";
@@ -42,7 +42,7 @@ param rw float idle=1.0 "Override while there is no controller and none is neede
 param rw float max_rise=10.0 "Largest rise per second. A fall is passed on at once: the machine's own acceleration limits it";
 param rw bit stop_on_fault=1 "True: a fault stops the feed. False: it goes on at fallback";
 param rw float fallback=0.1 "Override at a fault where stop-on-fault is false";
-param rw float follow_time=0.3 "Faster than requested-velocity x out for longer, in s, is not obeyed";
+param rw float follow_time=0.1 "Faster than requested-velocity x out and not slowing down for longer, in s: not obeyed";
 param rw float stop_time=0.5 "Told to stop and still moving after so long, in s: machine-ok falls";
 variable rtapi_u32 last_heartbeat;
 variable int heard;
@@ -50,6 +50,7 @@ variable int was_reset;
 variable int was_held;
 variable real_t age_s;
 variable real_t disobeyed_s;
+variable real_t slowest;
 variable real_t moving_s;
 variable real_t last_out=1.0;
 function _ fp "Before motion-controller, so that the override acts in the same cycle";
@@ -65,12 +66,14 @@ FUNCTION(_) {
     const double dt_s = fperiod;
     const double asked = override;  /* read once: another processor may write it meanwhile */
     const rtapi_u32 beat = heartbeat;
-    int alive, sound, why = NONE, stopping;
+    int alive, sound, began_anew = 0, why = NONE, stopping;
     double target;
 
     if (!heard && beat == last_heartbeat) {
         age_s = 0.0;
     } else if (beat != last_heartbeat) {
+        /* It counts again from the start: a controller that knows nothing of the cut that is under way. */
+        began_anew = heard && (rtapi_s32)(beat - last_heartbeat) < 0;
         heard = 1;
         age_s = 0.0;
     } else {
@@ -82,11 +85,17 @@ FUNCTION(_) {
 
     if (!alive && (enable || was_held)) {  /* it died while it held the feed: that stays so */
         why = heard ? HEARTBEAT : NEVER_HEARD;
+    } else if (began_anew && enable) {
+        why = HEARTBEAT;
     } else if (alive && !sound) {
         why = is_number(asked) ? NEGATIVE : NOT_A_NUMBER;
     }
-    /* Without M52 P1 the machine runs as programmed, whatever stands on the pin. */
+    /* Without M52 P1 the machine runs as programmed, whatever stands on the pin; with it, it slows down. */
     if (enable && requested_velocity > 0.0 && current_velocity > requested_velocity * last_out * 1.02 + 0.02) {
+        if (disobeyed_s == 0.0 || current_velocity < 0.98 * slowest) {
+            slowest = current_velocity;
+            disobeyed_s = 0.0;
+        }
         disobeyed_s += dt_s;
         if (disobeyed_s > follow_time) why = NOT_OBEYED;
     } else {

@@ -30,6 +30,7 @@ using namespace millforce::local_link;
 constexpr const char* component_name = "millforce";
 constexpr long wait_ns = 250'000;  // the HAL stream wakes nobody: it is looked at four times per millisecond
 constexpr std::uint64_t connect_every_us = 100'000;
+constexpr int most_unanswered = 128;  // half of what a socket holds: neither side ever finds it full
 
 volatile sig_atomic_t stop_asked = 0;
 
@@ -170,23 +171,28 @@ class Bridge {
             close(socket_);
         }
         socket_ = -1;
+        unanswered_ = 0;
         *pins_.connected = false;
     }
 
-    /// A controller that does not read loses samples: this program never waits for it.
+    /// What the controller is late with stays in the stream, and what the stream does not hold millforce_sample counts:
+    /// this program never waits. Without a controller samples are dropped.
     void forward_samples() {
         std::array<hal_stream_data, MILLFORCE_FIELDS> row{};
         unsigned number = 0;
-        while (hal_stream_readable(&stream_) && hal_stream_read(&stream_, row.data(), &number) == 0) {
+        while (unanswered_ < most_unanswered && hal_stream_readable(&stream_) &&
+               hal_stream_read(&stream_, row.data(), &number) == 0) {
             if (socket_ < 0) {
                 continue;
             }
             const SampleBytes bytes = encode(message_of(row));
-            if (send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) {
-                *pins_.dropped = *pins_.dropped + 1;
-                if (errno != EAGAIN) {
-                    disconnect();
-                }
+            if (send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) {
+                ++unanswered_;
+                continue;
+            }
+            *pins_.dropped = *pins_.dropped + 1;
+            if (errno != EAGAIN) {
+                disconnect();
             }
         }
     }
@@ -218,6 +224,7 @@ class Bridge {
             disconnect();
             return;
         }
+        --unanswered_;
         set_pins(pins_, message);
     }
 
@@ -225,6 +232,7 @@ class Bridge {
     hal_stream_t& stream_;
     const Pins& pins_;
     int socket_ = -1;
+    int unanswered_ = 0;
     std::uint64_t next_connect_us_ = 0;
 };
 

@@ -41,7 +41,7 @@ pin out bit alive "The plant answers";
 pin out unsigned cycle;
 pin out unsigned unanswered "Cycles that went on without the controller's answer, though it was connected";
 param rw bit lockstep=1;
-param rw float patience=1.0 "s";
+param rw float patience=60.0 "s";
 variable int is_given_up;
 option singleton yes;
 option extra_setup yes;
@@ -66,7 +66,7 @@ static int plant = -1;
 
 EXTRA_SETUP() {
     struct sockaddr_un address;
-    struct timeval longest = {10, 0};
+    struct timeval longest = {60, 0};
     (void)__comp_inst;
     (void)prefix;
     (void)extra_arg;

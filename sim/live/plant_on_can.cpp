@@ -13,13 +13,13 @@ namespace {
 constexpr std::uint64_t longest_wait_us = 5'000;
 }
 
-PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings)
+PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<CanPort> port)
     : settings_(settings),
-      socket_(settings.interface),
-      clock_(settings.time, socket_.unix_offset_us()),
+      port_(std::move(port)),
+      clock_(settings.time),
       machine_(settings.machine),
       cnc_(settings.cnc),
-      heard_us_(socketcan::monotonic_us()),
+      heard_us_(port_->now_us()),
       plant_us_(now_us()),
       due_us_(plant_us_) {}
 
@@ -45,7 +45,7 @@ hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::Pr
 void PlantOnCan::await_sync() {
     for (;;) {
         const std::uint64_t time_us = now_us();
-        socket_.poll(socketcan::monotonic_us());
+        port_->poll(port_->now_us());
         if (receive_until_sync()) {
             return;
         }
@@ -60,23 +60,23 @@ void PlantOnCan::await_sync() {
             return;
         }
         const std::uint64_t end_us = plant_us_ + longest_wait_us;
-        socket_.wait(clock_.real_us(end_us > time_us ? end_us - time_us : longest_wait_us));
+        port_->wait(clock_.real_us(end_us > time_us ? end_us - time_us : longest_wait_us));
     }
 }
 
 bool PlantOnCan::receive_until_sync() {
-    socketcan::ReceivedFrame received;
-    while (socket_.receive(received)) {
-        const hal::CanFrame& frame = received.frame;
+    hal::CanFrame frame;
+    std::uint64_t stamp_us = 0;
+    while (port_->receive(frame, stamp_us)) {
         clock_.on_frame(frame);
-        const std::uint64_t time_us = clock_.of_monotonic(received.time_us);
+        const std::uint64_t time_us = clock_.of_monotonic(stamp_us);
         if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
             sync_ = frame;
             sync_is_pending_ = true;
             due_us_ = std::max(time_us, plant_us_);
             ++syncs_;
             check_patience();
-            heard_us_ = is_ready_ ? socketcan::monotonic_us() : heard_us_;
+            heard_us_ = is_ready_ ? port_->now_us() : heard_us_;
             return true;
         }
         machine_.on_frame(frame, time_us);
@@ -88,19 +88,19 @@ bool PlantOnCan::receive_until_sync() {
 /// Of a controller that is not there; in lock-step, of one that went away.
 void PlantOnCan::check_patience() const {
     const bool waits = !is_ready_ || settings_.time.in_lock_step;
-    if (waits && socketcan::monotonic_us() > heard_us_ + settings_.patience_us) {
+    if (waits && port_->now_us() > heard_us_ + settings_.patience_us) {
         throw InputError(fmt::format("{}: no {} within {} s, expected 'millforce run' on the same interface",
-                                     settings_.interface.interface.data(), is_ready_ ? "SYNC" : "feed override",
+                                     settings_.interface, is_ready_ ? "SYNC" : "feed override",
                                      settings_.patience_us / 1'000'000));
     }
 }
 
 void PlantOnCan::send_all() {
     for (const hal::CanFrame& frame : machine_.take_frames()) {
-        socket_.send(frame);
+        port_->send(frame);
     }
     for (const hal::CanFrame& frame : cnc_.take_frames()) {
-        socket_.send(frame);
+        port_->send(frame);
     }
 }
 

@@ -1,19 +1,19 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <string>
 
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
 #include "live/bus_clock.hpp"
+#include "live/can_port.hpp"
 #include "loop/override_source.hpp"
-#include "socketcan/can_socket.hpp"
 
 namespace millforce::sim {
 
 struct PlantOnCanSettings {
-    socketcan::CanSocketSettings interface {};
+    std::string interface;  ///< for messages
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
@@ -29,7 +29,7 @@ struct PlantOnCanSettings {
 /// Throws InputError where no controller is heard within the patience.
 class PlantOnCan : public OverrideSource {
   public:
-    explicit PlantOnCan(const PlantOnCanSettings& settings);
+    PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<CanPort> port);
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(TracePoint&) const override {}  // the estimates are the controller's own
@@ -41,20 +41,20 @@ class PlantOnCan : public OverrideSource {
     [[nodiscard]] std::uint64_t syncs() const { return syncs_; }
 
   private:
-    [[nodiscard]] std::uint64_t now_us() const { return clock_.of_monotonic(socketcan::monotonic_us()); }
+    [[nodiscard]] std::uint64_t now_us() const { return clock_.of_monotonic(port_->now_us()); }
     void await_sync();
     bool receive_until_sync();
     void send_all();
     void check_patience() const;
 
     PlantOnCanSettings settings_;
-    socketcan::CanSocket socket_;
+    std::unique_ptr<CanPort> port_;
     BusClock clock_;
     MachineOnBus machine_;
     CncOnBus cnc_;
     hal::CanFrame sync_{};
     bool sync_is_pending_ = false;
-    std::uint64_t heard_us_;  ///< on CLOCK_MONOTONIC: the last SYNC, or the start
+    std::uint64_t heard_us_;  ///< by the port's clock: the last SYNC, or the start
     std::uint64_t plant_us_;  ///< where the plant stands, on the bus's clock
     std::uint64_t due_us_;    ///< where it is to stand at the next sample
     bool is_ready_ = false;

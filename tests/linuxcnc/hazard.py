@@ -14,7 +14,7 @@ from drive import Drive
 PREAMBLE = {"m52_missing": "M52 P0", "m51_p0": "M52 P1\nM51 P0", "m52_and_m51_missing": "M52 P0\nM51 P0"}
 INJECTED = {"nan": "nan", "infinite": "inf", "negative": "-0.5", "zero": "0", "above_one": "5"}
 # The program goes on to its end; elsewhere it is aborted.
-ENDS = ("zero", "above_one", "reset", "fall_back", "response")
+ENDS = ("zero", "above_one", "reset", "fall_back", "response", "controller_restarted", "controller_late")
 
 
 def halcmd(*words):
@@ -46,14 +46,50 @@ def inject(value):
     halcmd("sets", "millforce-override", value)
 
 
+def go_on(pid):
+    os.kill(pid, signal.SIGCONT)
+    set_patience(60)
+
+
 def press_reset():
     for level in ("1", "0"):
         halcmd("sets", "millforce-reset", level)
         wait_cycles(50)
 
 
+def set_patience(seconds):
+    """Where the controller is about to be hung the simulated machine must not wait for it."""
+    halcmd("setp", "millforce-plant.patience", str(seconds))
+
+
+def kill_controller():
+    os.kill(controller(), signal.SIGKILL)
+
+
+def start_controller():
+    """As somebody would by hand: the socket of the dead one is still there."""
+    names = os.environ
+    with open("controller.log", "a", encoding="utf-8") as log:
+        process = subprocess.Popen([names["millforce"], "serve", "controller.sock", "--machine", names["machine"],
+                                    "--tool", names["tool"]], stdout=log, stderr=log)
+    with open("controller.pid", "w", encoding="ascii") as file:
+        file.write(str(process.pid))
+
+
+def is_connected():
+    return subprocess.run(["halcmd", "getp", "millforce.connected"], capture_output=True, text=True,
+                          check=True).stdout.strip() == "TRUE"
+
+
+def wait_connected(drive):
+    drive.until("connected", is_connected, 120.0)
+    wait_cycles(200)
+
+
 def act(case):
     """Returns what is to be done before the end."""
+    if case in ("client_killed", "m51_p0", "fall_back", "client_hung", "controller_hung", "reset"):
+        set_patience(0.2)
     if case in INJECTED:
         inject(INJECTED[case])
     elif case in ("client_killed", "m51_p0"):
@@ -62,7 +98,10 @@ def act(case):
         halcmd("setp", "millforce-guard.0.stop-on-fault", "0")
         os.kill(client(), signal.SIGKILL)
     elif case == "controller_killed":
-        os.kill(controller(), signal.SIGKILL)
+        kill_controller()
+    elif case == "controller_restarted":
+        kill_controller()
+        start_controller()
     elif case == "client_hung":
         pid = client()
         os.kill(pid, signal.SIGSTOP)
@@ -70,7 +109,7 @@ def act(case):
     elif case in ("controller_hung", "reset"):
         pid = controller()
         os.kill(pid, signal.SIGSTOP)
-        return lambda: os.kill(pid, signal.SIGCONT)
+        return lambda: go_on(pid)
     elif case == "response":
         halcmd("setp", "millforce-guard.0.max-rise", "1000")
         for value in ("0.2", "0.8", "0.3", "0.6"):
@@ -82,26 +121,40 @@ def act(case):
 def main():
     case = os.environ["MILLFORCE_CASE"]
     drive = Drive()
-    halcmd("setp", "millforce-plant.patience", "0.2")
     drive.make_ready()
     with open("straight.ngc", encoding="ascii") as file:
         text = file.read().replace("M52 P1", PREAMBLE.get(case, "M52 P1"))
     with open("case.ngc", "w", encoding="ascii") as file:
         file.write(text)
+    if case == "controller_late":
+        kill_controller()
+        drive.until("no controller", lambda: not is_connected(), 120.0)
+        wait_cycles(200)
     drive.start("case.ngc")
+    if case == "controller_late":
+        wait_cycles(1000)
+        press_reset()
+        start_controller()
+        wait_connected(drive)
+        press_reset()
+        drive.await_end(300.0)
+        return 1 if drive.errors else 0
     begun_mm = 0.2 if case in PREAMBLE and case != "m51_p0" else 6.0
-    drive.until("cutting", lambda: drive.stat.actual_position[0] > begun_mm, 30.0)
+    drive.until("cutting", lambda: drive.stat.actual_position[0] > begun_mm, 120.0)
     before_the_end = act(case)
     drive.say(case)
     wait_cycles(1500)
     if case == "zero":
         halcmd("sets", "millforce-override", "0.4")
     before_the_end()
+    if case == "controller_restarted":
+        wait_connected(drive)
+        press_reset()
     if case == "reset":
         wait_cycles(300)
         press_reset()
     if case in ENDS:
-        drive.await_end(60.0)
+        drive.await_end(300.0)
         return 1 if drive.errors else 0
     drive.poll()
     drive.command.abort()

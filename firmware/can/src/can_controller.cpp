@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "cia402/objects.hpp"
 
@@ -72,9 +73,14 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
 /// Everything that frames changed is forgotten: a replay knows nothing from before the boot-up.
 void CanController::begin() {
     is_running_ = true;
-    bus_ = cia402::DriveBus(listening_for_sync(settings_.drives));
+    // In their places: some kB each would not fit the stack of a small processor.
+    std::destroy_at(&bus_);
+    std::construct_at(&bus_, listening_for_sync(settings_.drives));
     program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
-    tick_ = ForceControlTick<float>(parameters_);
+    if (has_begun_) {
+        std::destroy_at(&tick_);
+        std::construct_at(&tick_, parameters_);
+    }
     bus_time_us_ = 0;
     has_begun_ = false;
     sample_ = {};

@@ -117,6 +117,9 @@ GpioChipSettings two_lines(std::uint32_t active_low = 0) {
 
 TEST_GROUP(GpioChip){void setup() override{kernel = {};
 }
+void teardown() override {
+    kernel = {};
+}
 }
 ;
 

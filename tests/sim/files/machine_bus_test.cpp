@@ -190,7 +190,7 @@ TEST(LocalIoFile, what_is_missing_or_told_twice_is_named_with_its_table_and_key)
                     local_error("heartbeat_timeout_ms = 500", "tpdo4 = [\"0x6077:16\"]").c_str());
     STRCMP_CONTAINS("iio.x: expected neither write_mapping",
                     local_error("heartbeat_timeout_ms = 500", "write_mapping = true").c_str());
-    STRCMP_CONTAINS("did you mean A_per_V?", local_error("A_per_V = 10", "A_per_v = 10").c_str());
+    STRCMP_CONTAINS("did you mean largest_A?", local_error("A_per_V = 10", "A_per_V = 10\nlargest_a = 9").c_str());
     STRCMP_CONTAINS("override_voltage.channel",
                     local_error("iio:device1\"\nchannel = \"voltage0\"", "iio:device1\"").c_str());
 }

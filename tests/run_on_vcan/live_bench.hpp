@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus_peers.hpp"
+#include "vcan/bus_peers.hpp"
 #include "host/program.hpp"
 
 /// `millforce run` and `millforce simulate --bus` as two processes on vcan0.
