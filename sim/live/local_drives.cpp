@@ -130,6 +130,9 @@ LocalInputHealth LocalDrives::health() const {
         return {};
     }
     if (const iio::AdcHealth& adc = adc_->health(); adc.state != iio::AdcState::running) {
+        if (adc.state == iio::AdcState::absent && adc.fault.error == iio::IioError::none) {
+            return {};  // not looked for yet: no SYNC
+        }
         const bool has_file = adc.state != iio::AdcState::silent;
         return {true, word(adc.state), has_file ? adc.fault : iio::Fault{}};
     }
