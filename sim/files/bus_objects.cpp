@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 
 #include "files/input_error.hpp"
@@ -82,52 +82,6 @@ cia402::ObjectAddress read_address(TomlFile::Table& table, const std::string& ke
     return *address;
 }
 
-std::uint32_t microseconds_of(float milliseconds) {
-    return static_cast<std::uint32_t>(std::lround(milliseconds * 1e3F));
-}
-std::uint32_t whole(float value) {
-    return static_cast<std::uint32_t>(std::lround(value));
-}
-bool is_set(float value) {
-    return value > 0.5F;
-}
-
-cia402::DriveSettings drive_settings(const firmware::BusDriveParameters<float>& p, float rated_current_A,
-                                     const DriveObjects& objects) {
-    cia402::DriveSettings drive;
-    drive.node_id = static_cast<std::uint8_t>(whole(p.node_id));
-    drive.pdos = objects.pdos;
-    for (std::size_t k = 0; k < drive.pdos.size(); ++k) {
-        cia402::PdoMapping& pdo = drive.pdos[k];
-        const auto usual_id = static_cast<std::uint32_t>(0x180U + 0x100U * k + drive.node_id);
-        const std::uint32_t id = p.tpdo_id[k] > 0.0F ? whole(p.tpdo_id[k]) : usual_id;
-        pdo.id = pdo.object_count > 0 ? id : 0;
-        pdo.transmission_type = static_cast<std::uint8_t>(is_set(p.tpdo_every[k]) ? whole(p.tpdo_every[k]) : 254U);
-    }
-    drive.current_source = static_cast<cia402::CurrentSource>(whole(p.current_source));
-    drive.current_basis = static_cast<cia402::CurrentBasis>(whole(p.current_basis));
-    drive.current_reversed = is_set(p.current_reversed);
-    drive.rated_current_A = rated_current_A;
-    drive.rated_torque_Nm = p.rated_torque_Nm;
-    drive.torque_constant_Nm_per_A = p.torque_constant_Nm_per_A;
-    drive.largest_share_of_rated = p.largest_share_of_rated;
-    drive.velocity_source = static_cast<cia402::VelocitySource>(whole(p.velocity_source));
-    drive.velocity_mm_s_per_unit = p.velocity_mm_s_per_unit;
-    drive.position_mm_per_unit = p.position_mm_per_unit;
-    drive.largest_velocity_mm_s = p.largest_velocity_mm_s;
-    drive.count_object = objects.count;
-    drive.index_count_object = objects.index_count;
-    drive.index_number_object = objects.index_number;
-    drive.count_modulus = whole(p.count_modulus);
-    drive.largest_count_step = whole(p.largest_count_step);
-    drive.count_reversed = is_set(p.count_reversed);
-    drive.heartbeat_timeout_us = microseconds_of(p.heartbeat_timeout_ms);
-    drive.heartbeat_period_ms = static_cast<std::uint16_t>(whole(p.heartbeat_period_ms));
-    drive.write_mapping = is_set(p.write_mapping);
-    drive.stale_us = microseconds_of(p.stale_ms);
-    return drive;
-}
-
 /// What is wrong, and what was expected.
 const char* explanation(SettingsError error) {
     switch (error) {
@@ -200,30 +154,13 @@ DriveObjects read_drive_objects(TomlFile::Table& table) {
 
 std::optional<MachineBus> machine_bus(const std::string& file, const firmware::MachineParameters<float>& machine,
                                       const BusObjects& objects) {
-    const firmware::BusParameters<float>& p = machine.bus;
-    MachineBus bus;
-    bool has_drive = false;
-    for (std::size_t k = 0; k < objects.size(); ++k) {
-        const float rated_A = k == 0 ? machine.spindle_rated_current_A : machine.axis_rated_current_A[k - 1];
-        bus.drives.drives[k] = drive_settings(p.drives[k], rated_A, objects[k]);
-        has_drive = has_drive || bus.drives.drives[k].node_id != 0;
-    }
-    if (!has_drive) {
+    const firmware::CanControllerSettings settings = firmware::can_controller_settings(machine, objects);
+    const auto is_used = [](const cia402::DriveSettings& drive) { return drive.node_id != 0; };
+    if (std::ranges::none_of(settings.drives.drives, is_used)) {
         return std::nullopt;
     }
-    bus.drives.is_master = is_set(p.role);
-    bus.drives.produces_sync = is_set(p.produces_sync);
-    bus.drives.sync_id = whole(p.sync_id);
-    bus.drives.sync_period_us = microseconds_of(p.sync_period_ms);
-    bus.drives.collect_us = microseconds_of(p.collect_time_ms);
-    check_bus(file, bus.drives);
-    bus.feed_override.id = whole(p.override_id);
-    bus.feed_override.node_id = static_cast<std::uint8_t>(whole(p.override_node_id));
-    bus.feed_override.period_us = microseconds_of(p.override_period_ms);
-    bus.feed_override.heartbeat_period_us = microseconds_of(p.override_heartbeat_ms);
-    bus.program.id = whole(p.program_status_id);
-    bus.program.timeout_us = microseconds_of(p.program_status_timeout_ms);
-    return bus;
+    check_bus(file, settings.drives);
+    return MachineBus{settings.drives, settings.feed_override, settings.program};
 }
 
 }  // namespace millforce::sim

@@ -5,11 +5,14 @@
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -90,6 +93,26 @@ void print_cost(const char* unit, const TickCost& cost) {
     fmt::print("{:<22}{:>12}{:>12}{:>12}{:>12.0f}\n", unit, cost.plain, cost.with_estimate, cost.worst, cost.mean);
 }
 
+/// The figures of the images, from the tree that this program was built in; nothing where it was installed elsewhere.
+void print_target_figures() {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    for (; !folder.empty() && folder != folder.root_path(); folder = folder.parent_path()) {
+        const std::filesystem::path script = folder / "toolchains" / "target-figures";
+        if (std::filesystem::exists(script, error)) {
+            fmt::print("\n");
+            std::fflush(stdout);
+            const pid_t child = fork();
+            if (child == 0) {
+                execl(script.c_str(), script.c_str(), nullptr);
+                _exit(127);
+            }
+            waitpid(child, nullptr, 0);
+            return;
+        }
+    }
+}
+
 int bench(const std::string& path) {
     const Scenario scenario = read_scenario(path);
     MillforceController controller(scenario.parameters);
@@ -113,6 +136,7 @@ int bench(const std::string& path) {
             "tests/run counts them with valgrind\n");
     }
     fmt::print("\nRAM of the tick: {} bytes\n", sizeof(firmware::ForceControlTick<float>));
+    print_target_figures();
     return 0;
 }
 

@@ -108,14 +108,16 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
                         scenario.machine_file));
     }
     PlantOnCanSettings settings;
-    if (!settings.interface.set_interface(interface)) {
+    socketcan::CanSocketSettings socket;
+    if (!socket.set_interface(interface)) {
         throw InputError(
             fmt::format("--bus: '{}', expected a CAN interface of at most 15 characters, e.g. vcan0", interface));
     }
+    settings.interface = interface;
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
     settings.sync_id = bus->drives.sync_id;
-    return std::make_unique<PlantOnCan>(settings);
+    return std::make_unique<PlantOnCan>(settings, std::make_unique<SocketPort>(socket));
 }
 
 int simulate_scenario(const SimulateOptions& options) {

@@ -13,17 +13,17 @@ namespace {
 constexpr std::uint64_t longest_wait_us = 5'000;
 }
 
-PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings)
+PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<CanPort> port)
     : settings_(settings),
-      socket_(settings.interface),
+      port_(std::move(port)),
       machine_(settings.machine),
       cnc_(settings.cnc),
-      start_us_(socketcan::monotonic_us()),
+      start_us_(port_->now_us()),
       plant_us_(start_us_),
       due_us_(start_us_) {}
 
 hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    const std::uint64_t now_us = socketcan::monotonic_us();
+    const std::uint64_t now_us = port_->now_us();
     machine_.set(sample);
     cnc_.set(program, now_us);
     if (sync_is_pending_) {
@@ -43,8 +43,8 @@ hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::Pr
 /// Until the next SYNC, or until the plant has to go on without one. `due_us_` is the time of it.
 void PlantOnCan::await_sync() {
     for (;;) {
-        const std::uint64_t now_us = socketcan::monotonic_us();
-        socket_.poll(now_us);
+        const std::uint64_t now_us = port_->now_us();
+        port_->poll(now_us);
         if (receive_until_sync()) {
             return;
         }
@@ -56,24 +56,24 @@ void PlantOnCan::await_sync() {
             check_patience(now_us);
             return;
         }
-        socket_.wait(plant_us_ + longest_wait_us - now_us);
+        port_->wait(plant_us_ + longest_wait_us - now_us);
     }
 }
 
 bool PlantOnCan::receive_until_sync() {
-    socketcan::ReceivedFrame received;
-    while (socket_.receive(received)) {
-        const hal::CanFrame& frame = received.frame;
+    hal::CanFrame frame;
+    std::uint64_t time_us = 0;
+    while (port_->receive(frame, time_us)) {
         if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
             sync_ = frame;
             sync_is_pending_ = true;
-            due_us_ = std::max(received.time_us, plant_us_);
+            due_us_ = std::max(time_us, plant_us_);
             ++syncs_;
             check_patience(due_us_);
             return true;
         }
-        machine_.on_frame(frame, received.time_us);
-        cnc_.on_frame(frame, received.time_us);
+        machine_.on_frame(frame, time_us);
+        cnc_.on_frame(frame, time_us);
     }
     return false;
 }
@@ -81,16 +81,16 @@ bool PlantOnCan::receive_until_sync() {
 void PlantOnCan::check_patience(std::uint64_t now_us) const {
     if (!is_ready_ && now_us > start_us_ + settings_.patience_us) {
         throw InputError(fmt::format("{}: no feed override within {} s, expected 'millforce run' on the same interface",
-                                     settings_.interface.interface.data(), settings_.patience_us / 1'000'000));
+                                     settings_.interface, settings_.patience_us / 1'000'000));
     }
 }
 
 void PlantOnCan::send_all() {
     for (const hal::CanFrame& frame : machine_.take_frames()) {
-        socket_.send(frame);
+        port_->send(frame);
     }
     for (const hal::CanFrame& frame : cnc_.take_frames()) {
-        socket_.send(frame);
+        port_->send(frame);
     }
 }
 

@@ -1,18 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <string>
 
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
+#include "live/can_port.hpp"
 #include "loop/override_source.hpp"
-#include "socketcan/can_socket.hpp"
 
 namespace millforce::sim {
 
 struct PlantOnCanSettings {
-    socketcan::CanSocketSettings interface {};
+    std::string interface;  ///< for messages
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
@@ -27,7 +27,7 @@ struct PlantOnCanSettings {
 /// Throws InputError where no controller is heard within the patience.
 class PlantOnCan : public OverrideSource {
   public:
-    explicit PlantOnCan(const PlantOnCanSettings& settings);
+    PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<CanPort> port);
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(TracePoint&) const override {}  // the estimates are the controller's own
@@ -45,7 +45,7 @@ class PlantOnCan : public OverrideSource {
     void check_patience(std::uint64_t now_us) const;
 
     PlantOnCanSettings settings_;
-    socketcan::CanSocket socket_;
+    std::unique_ptr<CanPort> port_;
     MachineOnBus machine_;
     CncOnBus cnc_;
     hal::CanFrame sync_{};

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 #include "estimation/fixed_point.hpp"
 #include "firmware/tick.hpp"
 #include "target/lock_step.hpp"

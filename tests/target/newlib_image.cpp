@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 #include "target/semihosting.hpp"
 
 int main(int argc, char** argv);

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 
 namespace millforce::target {
 
@@ -28,7 +28,11 @@ std::uint32_t address_of(const void* object) { return reinterpret_cast<std::uint
 std::int32_t semihosting(std::uint32_t operation, const void* argument) {
     register std::uint32_t r0 asm("r0") = operation;
     register const void* r1 asm("r1") = argument;
+#if defined(__thumb__)
     asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+#else
+    asm volatile("svc 0x123456" : "+r"(r0) : "r"(r1) : "memory", "lr");
+#endif
     return static_cast<std::int32_t>(r0);
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 #include "target/semihosting.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 #include "estimation/fixed_point.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"

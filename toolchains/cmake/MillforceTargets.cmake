@@ -51,4 +51,7 @@ function(millforce_core target)
     target_link_libraries(${target} PUBLIC ${ARG_LINKS})
     millforce_target_warnings(${target})
     add_dependencies(${target} core_rules)
+    if(CMAKE_CROSSCOMPILING)
+        set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)  # only what an image or a test links
+    endif()
 endfunction()

@@ -144,13 +144,14 @@ class FeedController {
         path_speed_mm_s_ = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
         update_state(input);
         watch_turns(input);
-        Limit limit = Limit::none;
-        const Scalar wanted = wanted_ratio(input, limit);
-        approach(wanted, input);
+        if (basis_.has_changed(basis_of(input)) || input.cut.fresh || turned_now_) {
+            wanted_ = wanted_ratio(input, limit_);
+        }
+        approach(wanted_, input);
         ControlOutput<Scalar> output;
         output.state = state_;
         output.fault = fault_;
-        output.limit = limit;
+        output.limit = limit_;
         output.fading = trend_.fading();
         output.hold = state_ == CutState::fault || input.feed_hold;
         output.ratio = ratio_;
@@ -304,21 +305,56 @@ class FeedController {
         }
     }
 
+    void follow_tooth_period(Scalar spindle_speed_rad_s) {
+        if (spindle_speed_rad_s == basis_.spindle_speed_rad_s) {
+            return;
+        }
+        constexpr Scalar turn_rad = static_cast<Scalar>(6.28318530717958648L);
+        const Scalar teeth_rad_s = spindle_speed_rad_s * parameters_.teeth;
+        tooth_period_s_ = teeth_rad_s > Scalar(0) ? turn_rad / teeth_rad_s : Scalar(0);
+    }
+
     void watch_turns(const ControlInput<Scalar>& input) {
         const Scalar way_mm = path_speed_mm_s_ * dt_s_;
         way_since_estimate_mm_ += way_mm;
-        constexpr Scalar turn_rad = static_cast<Scalar>(6.28318530717958648L);
-        const Scalar teeth_rad_s = input.cut.spindle_speed_rad_s * parameters_.teeth;
+        follow_tooth_period(input.cut.spindle_speed_rad_s);
         const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s,
                                           path_speed_mm_s_, ratio_ * input.programmed_feed_mm_s,
-                                          input.programmed_feed_mm_s,
-                                          teeth_rad_s > Scalar(0) ? turn_rad / teeth_rad_s : Scalar(0)});
+                                          input.programmed_feed_mm_s, tooth_period_s_});
         const Scalar left_mm = turn_travel_left_mm_ - way_mm;
         turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
         turned_now_ = turned;
         if (turned && state_ == CutState::exit) {
             go_to(CutState::air);  // what was cut before says nothing about what lies in the new direction
         }
+    }
+
+    /// All that the wanted override depends on between two estimates. It is not worked out anew while this stays: a ceiling
+    /// at the present override stays where the override was when it was set, since nothing rises beyond it.
+    struct Basis {
+        Scalar programmed_feed_mm_s{-1};
+        Scalar operator_override{-1};
+        Scalar spindle_speed_rad_s{-1};
+        std::uint32_t flags = 0;
+
+        /// Takes the new one. What is no number has always changed.
+        bool has_changed(const Basis& now) {
+            const bool same = flags == now.flags && programmed_feed_mm_s == now.programmed_feed_mm_s &&
+                              operator_override == now.operator_override &&
+                              spindle_speed_rad_s == now.spindle_speed_rad_s;
+            *this = now;
+            return !same;
+        }
+    };
+
+    [[nodiscard]] Basis basis_of(const ControlInput<Scalar>& input) const {
+        const auto bit = [](bool value, unsigned place) { return static_cast<std::uint32_t>(value) << place; };
+        const bool is_behind_turn = turn_travel_left_mm_ > Scalar(0);
+        const std::uint32_t flags = static_cast<std::uint32_t>(state_) | bit(input.rapid, 8) | bit(input.plunging, 9) |
+                                    bit(input.cut.force_valid, 10) | bit(input.cut.tooth_force_valid, 11) |
+                                    bit(input.surface.valid, 12) | bit(input.surface.in_range, 13) |
+                                    bit(is_behind_turn, 14) | bit(true, 15);
+        return {input.programmed_feed_mm_s, input.operator_override, input.cut.spindle_speed_rad_s, flags};
     }
 
     [[nodiscard]] Scalar ratio_of_feed_per_tooth(Scalar feed_per_tooth_mm, const ControlInput<Scalar>& input) const {
@@ -544,6 +580,10 @@ class FeedController {
     bool turned_now_ = false;
     Scalar turn_travel_left_mm_{0};
     Scalar turn_demand_{0};
+    Scalar tooth_period_s_{0};
+    Basis basis_{};
+    Scalar wanted_{0};
+    Limit limit_ = Limit::none;
 };
 
 }  // namespace millforce::control

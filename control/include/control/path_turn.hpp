@@ -57,23 +57,33 @@ class PathTurn {
 
     bool has_turned(const Motion& m) {
         constexpr Scalar memory_mm = static_cast<Scalar>(0.5L);
-        constexpr Scalar cos2_of_turn = static_cast<Scalar>(0.75L);
         const Scalar v2 = m.velocity_x_mm_s * m.velocity_x_mm_s + m.velocity_y_mm_s * m.velocity_y_mm_s;
         if (!(v2 > static_cast<Scalar>(0.25L)) || !(m.path_speed_mm_s > Scalar(0))) {
             return false;
         }
         // v weighted by the way gone: only its direction is used, so |v| may stay in it.
-        const Scalar way_mm = m.path_speed_mm_s * m.dt_s;
-        const Scalar share = way_mm / (way_mm + memory_mm);
+        const Scalar off_x = m.velocity_x_mm_s - mean_x_;
+        const Scalar off_y = m.velocity_y_mm_s - mean_y_;
+        // Within |v| sin 30° of the mean: no turn, and what is usual.
+        const bool is_near = off_x * off_x + off_y * off_y < static_cast<Scalar>(0.2499L) * v2;
+        const bool known = is_near || mean_x_ * mean_x_ + mean_y_ * mean_y_ > Scalar(0);
+        const bool turned = !is_near && known && is_beyond_30_degrees(m, v2);
+        Scalar taken{1};
+        if (known && !turned) {
+            const Scalar way_mm = m.path_speed_mm_s * m.dt_s;
+            taken = way_mm / (way_mm + memory_mm);
+        }
+        mean_x_ += off_x * taken;
+        mean_y_ += off_y * taken;
+        return turned;
+    }
+
+    [[nodiscard]] bool is_beyond_30_degrees(const Motion& m, Scalar v2) const {
+        constexpr Scalar cos2_of_turn = static_cast<Scalar>(0.75L);
         const Scalar along = m.velocity_x_mm_s * mean_x_ + m.velocity_y_mm_s * mean_y_;
         const Scalar mean2 = mean_x_ * mean_x_ + mean_y_ * mean_y_;
-        const bool known = mean2 > Scalar(0);
         // along² < cos² v² mean², without a fourth power: that of a rapid is beyond the range of fixed point.
-        const bool turned = known && (along < Scalar(0) || along * (along / mean2) < cos2_of_turn * v2);
-        const Scalar taken = turned || !known ? Scalar(1) : share;
-        mean_x_ += (m.velocity_x_mm_s - mean_x_) * taken;
-        mean_y_ += (m.velocity_y_mm_s - mean_y_) * taken;
-        return turned;
+        return along < Scalar(0) || along * (along / mean2) < cos2_of_turn * v2;
     }
 
     bool has_slowed(const Motion& m) {

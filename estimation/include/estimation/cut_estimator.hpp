@@ -1,10 +1,10 @@
 #pragma once
 
 #include "estimation/encoder_angle.hpp"
+#include "estimation/engagement_peaks.hpp"
 #include "estimation/engagement_solver.hpp"
 #include "estimation/feed_drive.hpp"
 #include "estimation/force_memory.hpp"
-#include "estimation/peak_factors.hpp"
 #include "estimation/spindle_drive.hpp"
 #include "estimation/synchronous_average.hpp"
 
@@ -91,27 +91,18 @@ class CutEstimator {
           encoder_(settings.encoder_counts_per_rev),
           average_({static_cast<int>(settings.teeth), settings.min_samples}),
           spindle_(spindle),
-          axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])} {
-        EngagementSolverSettings<Scalar> solver;
-        solver.teeth = settings.teeth;
-        solver.centre_offset_in_radii = settings.centre_offset_in_radii;
-        solver.law_relative_sd = settings.law_relative_sd;
-        solver.declared_depth_mm = settings.declared_depth_mm;
-        solver_ = EngagementSolver<Scalar>(law, solver, settings.side);
-        surge_ = place_of(settings.surge_immersion);
-        turn_ = place_of(settings.turn_immersion);
-        slot_ = place_of(Scalar(2));
-        last_ = place_of(settings.assumed_immersion);
-        down_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::down : settings.side));
-        up_table_.build(law, peak_settings(settings.side == CutSide::unknown ? CutSide::up : settings.side));
-    }
+          axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
+          solver_(law, solver_settings(settings), settings.side),
+          peaks_(law, {peak_settings(settings.side), settings.largest_depth_mm, settings.assumed_immersion,
+                       settings.surge_immersion, settings.turn_immersion}) {}
 
     /// Adds one sample. Returns true when estimate() is new: a tooth period ended.
     ///
     /// With solver_values_per_step each call does one piece of work at most, so that none is long: the forces at the end of
     /// a tooth period, the peaks with the engagement that is known then (the estimate is new), some values of the solver,
-    /// and the peaks anew when it is done. The solver is then taken up once a revolution, or as soon as the forces have
-    /// left those that it was given last.
+    /// when it is done the tables at the new engagement, and the peaks anew. The solver is then taken up once a revolution,
+    /// or as soon as the forces have left those that it was given last. (Where tooth periods end so fast that their peaks
+    /// are still waiting at the next end, two pieces are done there.)
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
              const DriveSignals<Scalar>& signals) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
@@ -130,9 +121,14 @@ class CutEstimator {
         if (!in_portions()) {
             predict_drifts();
         }
-        const bool was_waiting = peaks_due_;
+        const bool was_waiting = peaks_due_ && !has_peaks_;
+        has_peaks_ = false;
         update();
-        return was_waiting ? work_on() : !peaks_due_;
+        if (was_waiting) {
+            read_engagement();
+            return work_on();
+        }
+        return !peaks_due_;
     }
 
     /// An immersion that another method tells of the present cut, for the estimates to come; not valid: none.
@@ -147,6 +143,7 @@ class CutEstimator {
         search_ = {};
         search_due_ = false;
         peaks_due_ = false;
+        engagement_is_new_ = true;
     }
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
@@ -190,7 +187,7 @@ class CutEstimator {
     };
     [[nodiscard]] TotalForce total_force() const {
         const PeakFactors<Scalar> factors =
-            peak_factors(law_, peak_settings(last_side_), last_.radial_immersion, shown_depth_mm());
+            peak_factors(law_, peak_settings(peaks_.side()), peaks_.now().radial_immersion, peaks_.depth_mm());
         const Scalar peak_per_tooth = factors.threshold_factor();
         return {estimate_.worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
     }
@@ -210,6 +207,15 @@ class CutEstimator {
         since_prediction_s_ = Scalar(0);
     }
 
+    [[nodiscard]] static EngagementSolverSettings<Scalar> solver_settings(const CutEstimatorSettings<Scalar>& settings) {
+        EngagementSolverSettings<Scalar> solver;
+        solver.teeth = settings.teeth;
+        solver.centre_offset_in_radii = settings.centre_offset_in_radii;
+        solver.law_relative_sd = settings.law_relative_sd;
+        solver.declared_depth_mm = settings.declared_depth_mm;
+        return solver;
+    }
+
     [[nodiscard]] PeakFactorSettings<Scalar> peak_settings(CutSide side) const {
         PeakFactorSettings<Scalar> peak;
         peak.teeth = settings_.teeth;
@@ -219,21 +225,6 @@ class CutEstimator {
         peak.side = side;
         peak.centre_offset_in_radii = settings_.centre_offset_in_radii;
         return peak;
-    }
-
-    /// A cut's width, as immersion and as the angle that goes with it.
-    struct Place {
-        Scalar theta_rad{0};
-        Scalar radial_immersion{0};
-    };
-    [[nodiscard]] static Place place_of(Scalar radial_immersion) {
-        using elementary::acos;
-        return {acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion};
-    }
-
-    [[nodiscard]] Scalar tooth_factor(CutSide side, const Place& cut, Scalar depth_mm) const {
-        const ToothPeakTable<Scalar>& table = side == CutSide::up ? up_table_ : down_table_;
-        return table.at_angle(cut.theta_rad, cut.radial_immersion, depth_mm);
     }
 
     [[nodiscard]] static Signals packed(const DriveSignals<Scalar>& signals) {
@@ -294,8 +285,14 @@ class CutEstimator {
 
     /// The next piece of work. True where the estimate is new by it.
     bool work_on() {
+        if (engagement_is_new_) {
+            read_engagement();
+            peaks_due_ = peaks_due_ || estimate_.window_s > Scalar(0);
+            return false;
+        }
         if (peaks_due_) {
             peaks_due_ = false;
+            has_peaks_ = true;
             estimate_.engagement = engagement_;
             estimate_peaks();
             return true;
@@ -308,10 +305,17 @@ class CutEstimator {
             return false;
         }
         if (search_.done()) {
-            take_engagement(search_.estimate());
-            peaks_due_ = true;
+            engagement_ = search_.estimate();
+            engagement_is_new_ = true;
         }
         return false;
+    }
+
+    void read_engagement() {
+        if (engagement_is_new_) {
+            peaks_.take(engagement_, solver_, estimate_.feed_per_tooth_mm);
+            engagement_is_new_ = false;
+        }
     }
 
     void estimate_feed() {
@@ -354,7 +358,10 @@ class CutEstimator {
         blended.radial_immersion = told_immersion_;
         peaks_due_ = true;
         if (!in_portions()) {
-            take_engagement(solver_.solve(blended, estimate_.feed_per_tooth_mm, settings_.side));
+            solver_.solve(search_, blended, estimate_.feed_per_tooth_mm, settings_.side);
+            engagement_ = search_.estimate();
+            engagement_is_new_ = true;
+            read_engagement();
             work_on();
             return;
         }
@@ -365,31 +372,12 @@ class CutEstimator {
         }
     }
 
-    void take_engagement(const EngagementEstimate<Scalar>& found) {
-        engagement_ = found;
-        if (found.immersion_valid) {
-            last_ = {found.engagement_rad, found.radial_immersion};
-            last_side_ = found.side;
-            last_depth_mm_ = found.depth_valid ? found.axial_depth_mm : last_depth_mm_;
-        }
-    }
-
-    [[nodiscard]] Scalar shown_depth_mm() const {
-        const EngagementEstimate<Scalar>& e = estimate_.engagement;
-        if (e.immersion_valid && e.axial_depth_mm > Scalar(0)) {
-            return e.axial_depth_mm;  // however doubtful: it is the one that goes with the immersion
-        }
-        return last_depth_mm_ > Scalar(0) ? last_depth_mm_ : settings_.largest_depth_mm;
-    }
-
     /// The peaks are worked out with the immersion that is known, else the last one, else the assumed one.
     void estimate_peaks() {
         using std::sqrt;
-        const Scalar depth_mm = shown_depth_mm();
-        const Scalar factor = tooth_factor(last_side_, last_, depth_mm);
-        const auto& table = solver_.table(last_side_);
+        const auto& table = solver_.table(peaks_.side());
         const auto feed = table.feed(estimate_.feed_per_tooth_mm);
-        const auto model = table.at(last_.theta_rad, feed);
+        const auto model = table.forces(peaks_.here_node(), feed);
         const bool has_model = model.tangential_N > Scalar(0) && estimate_.feed_per_tooth_mm > Scalar(0);
         estimate_.cutting_share = has_model ? model.cutting_tangential_N / model.tangential_N : Scalar(1);
         estimate_.feed_exponent = Scalar(1) + law_.p_s;
@@ -399,15 +387,20 @@ class CutEstimator {
         }
         const Scalar newest_N = follow_growth();
         if (has_model) {
-            const Scalar width_per_F_mm_N = last_.radial_immersion * settings_.cutter_radius_mm / model.tangential_N;
+            const Scalar width_per_F_mm_N =
+                peaks_.now().radial_immersion * settings_.cutter_radius_mm / model.tangential_N;
             estimate_.section_mm2 = estimate_.tangential_N.value * width_per_F_mm_N;
             estimate_.section_noise_mm2 = sqrt(estimate_.tangential_N.noise) * width_per_F_mm_N;
         }
-        estimate_tooth_force(newest_N, factor, depth_mm, has_model ? table.ln_K_s_variance(model) : Scalar(0));
+        estimate_tooth_force(newest_N);
         if (has_model) {
-            const Scalar now_N = model.tangential_N * factor;
-            estimate_.surge = change_to(surge_, table.at(surge_.theta_rad, feed), depth_mm, now_N);
-            estimate_.turn = change_to(turn_, table.at(turn_.theta_rad, feed), depth_mm, now_N);
+            const Scalar now_N = model.tangential_N * peaks_.factors().now;
+            if (peaks_.surge_is_wider()) {
+                estimate_.surge = change_to(table.forces(peaks_.surge_node(), feed), peaks_.factors().surge, now_N);
+            }
+            if (peaks_.turn_is_wider()) {
+                estimate_.turn = change_to(table.forces(peaks_.turn_node(), feed), peaks_.factors().turn, now_N);
+            }
         }
     }
 
@@ -426,39 +419,31 @@ class CutEstimator {
         return estimate_.newest_tangential_N;
     }
 
-    void estimate_tooth_force(Scalar newest_N, Scalar factor, Scalar depth_mm, Scalar ln_K_s_variance) {
-        using std::sqrt;
+    void estimate_tooth_force(Scalar newest_N) {
         const EngagementEstimate<Scalar>& e = estimate_.engagement;
+        const typename EngagementPeaks<Scalar>::Factors& factors = peaks_.factors();
         const Measurement<Scalar>& window = estimate_.tangential_N;
         const Scalar runout = runout_factor();
-        estimate_.worst_tooth_force_N = newest_N * factor * runout;
-        estimate_.least_tooth_force_N = newest_N * tooth_factor(last_side_, slot_, depth_mm);
+        estimate_.worst_tooth_force_N = newest_N * factors.now * runout;
+        estimate_.least_tooth_force_N = newest_N * factors.slot;
         const auto bound_by = [&](Scalar bound) {
-            const Scalar ratio = runout * (bound > factor ? bound : factor);
+            const Scalar ratio = runout * (bound > factors.now ? bound : factors.now);
             estimate_.tooth_force_N = {true, newest_N * ratio, square(ratio) * window.variance, Scalar(0)};
             estimate_.tooth_force_is_bound = true;
         };
-        const Place low{e.engagement_low_rad, e.radial_immersion_low};
         if (e.immersion_valid) {
-            const Place high{e.engagement_high_rad, e.radial_immersion_high};
-            const bool has_depth = e.axial_depth_mm > Scalar(0);
-            const Scalar factor_low = tooth_factor(e.side, low, has_depth ? e.depth_at_low_mm : depth_mm);
-            const Scalar factor_high = tooth_factor(e.side, high, has_depth ? e.depth_at_high_mm : depth_mm);
-            const Scalar factor_sd = (factor_low - factor_high) / static_cast<Scalar>(3.92L);
-            // An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
-            const Scalar shallower_mm = depth_mm * (Scalar(1) - sqrt(ln_K_s_variance));
-            const Scalar factor_by_K_s = tooth_factor(e.side, last_, shallower_mm) - factor;
+            const Scalar factor_sd = (factors.at_low - factors.at_high) * static_cast<Scalar>(1.0L / 3.92L);
             estimate_.tooth_force_N = {true, estimate_.worst_tooth_force_N,
-                                       square(runout) * (square(factor) * window.variance +
-                                                         square(newest_N) * (square(factor_sd) + square(factor_by_K_s))),
+                                       square(runout) * (square(factors.now) * window.variance +
+                                                         square(newest_N) * (square(factor_sd) + square(factors.by_K_s))),
                                        Scalar(0)};
         } else if (e.solved && e.depth_at_high_mm > Scalar(0)) {
             // No estimate of the immersion, but a bound: the narrowest cut and the smallest depth that the forces allow
             // load one tooth most. Where even that is far from the limit, the force is known well enough.
-            bound_by(tooth_factor(e.side, low, e.depth_at_high_mm));
+            bound_by(factors.bound);
         } else if (!e.solved && !estimate_.x_N.valid && !estimate_.y_N.valid) {
             // Axes too slow to show a force would stay so for ever without a bound: the narrowest and shallowest cut.
-            bound_by(tooth_factor(last_side_, Place{}, Scalar(0)));
+            bound_by(factors.narrowest);
         }
     }
 
@@ -474,15 +459,10 @@ class CutEstimator {
         return exp(last_exponent_ * log(chip));
     }
 
-    [[nodiscard]] typename CutEstimate<Scalar>::Change change_to(
-        const Place& then, const typename EngagementSolver<Scalar>::Table::Forces& forces_then, Scalar depth_mm,
-        Scalar tooth_N_per_mm_now) const {
-        typename CutEstimate<Scalar>::Change change;
-        if (then.radial_immersion > last_.radial_immersion) {
-            change.cutting_share = forces_then.cutting_tangential_N / forces_then.tangential_N;
-            change.ratio = forces_then.tangential_N * tooth_factor(last_side_, then, depth_mm) / tooth_N_per_mm_now;
-        }
-        return change;
+    [[nodiscard]] static typename CutEstimate<Scalar>::Change change_to(
+        const typename EngagementSolver<Scalar>::Table::Forces& forces_then, Scalar factor, Scalar tooth_N_per_mm_now) {
+        return {forces_then.tangential_N * factor / tooth_N_per_mm_now,
+                forces_then.cutting_tangential_N / forces_then.tangential_N};
     }
 
     CutEstimatorSettings<Scalar> settings_{};
@@ -497,8 +477,9 @@ class CutEstimator {
     AverageForceMeasurement<Scalar> asked_{};      // what it is to be given next
     bool search_due_ = false;
     bool peaks_due_ = false;
-    ToothPeakTable<Scalar> down_table_{};
-    ToothPeakTable<Scalar> up_table_{};
+    bool has_peaks_ = false;          // of this tooth period's forces
+    bool engagement_is_new_ = true;   // peaks_ has not seen it yet
+    EngagementPeaks<Scalar> peaks_{};
 
     typename Averager::Window window_{};
     typename Averager::Window air_window_{};
@@ -512,12 +493,6 @@ class CutEstimator {
     Scalar since_prediction_s_{0};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
-    Place surge_{};
-    Place turn_{};
-    Place slot_{};
-    Place last_{};
-    Scalar last_depth_mm_{0};
-    CutSide last_side_ = CutSide::unknown;
 };
 
 }  // namespace millforce::estimation

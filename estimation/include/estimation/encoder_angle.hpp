@@ -31,7 +31,8 @@ struct EncoderReading {
 template <typename Scalar>
 class EncoderAngle {
   public:
-    explicit EncoderAngle(std::uint32_t counts_per_rev = 4096) : counts_per_rev_(counts_per_rev) {}
+    explicit EncoderAngle(std::uint32_t counts_per_rev = 4096)
+        : counts_per_rev_(counts_per_rev), rev_per_count_(Scalar(1) / static_cast<Scalar>(counts_per_rev)) {}
 
     void reset() { started_ = false; }
 
@@ -52,7 +53,7 @@ class EncoderAngle {
             last_count_ = count;
         } else if (turned > 0) {
             reading.event = EncoderEvent::forward;
-            reading.turned_rev = static_cast<Scalar>(turned) / static_cast<Scalar>(counts_per_rev_);
+            reading.turned_rev = static_cast<Scalar>(turned) * rev_per_count_;
             last_count_ = count;
         } else if (turned >= -1) {
             reading.event = EncoderEvent::standstill;
@@ -97,10 +98,11 @@ class EncoderAngle {
     }
 
     [[nodiscard]] Scalar angle_rev(std::uint32_t count) const {
-        return static_cast<Scalar>(modulo(count - zero_count_)) / static_cast<Scalar>(counts_per_rev_);
+        return static_cast<Scalar>(modulo(count - zero_count_)) * rev_per_count_;
     }
 
     std::uint32_t counts_per_rev_;
+    Scalar rev_per_count_;
     std::uint32_t last_count_ = 0;
     std::uint32_t zero_count_ = 0;
     std::uint8_t last_index_number_ = 0;

@@ -164,10 +164,16 @@ class EngagementSolver {
     [[nodiscard]] EngagementEstimate<Scalar> solve(const AverageForceMeasurement<Scalar>& forces,
                                                    Scalar feed_per_tooth_mm, CutSide side) const {
         Search search;
+        solve(search, forces, feed_per_tooth_mm, side);
+        return search.estimate();
+    }
+
+    /// The same in a memory that is there already.
+    void solve(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
+               CutSide side) const {
         begin(search, forces, feed_per_tooth_mm, side);
         while (!advance(search, Nodes)) {
         }
-        return search.estimate();
     }
 
     /// The forces of a side; unknown is taken for down.

@@ -42,6 +42,10 @@ class EngagementTable {
         Scalar ln_t_in_references{0};    ///< ln(t_a/t_ref); 0 where there is no t_ref
     };
 
+    /// What the table holds of one engagement, whatever the feed.
+    enum Entry : std::size_t { a_t, a_x, b_x, a_y, b_y, e_t, e_x, e_y, ln_sine, entries };
+    using Node = std::array<Scalar, entries>;
+
     EngagementTable() = default;
 
     void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
@@ -78,7 +82,10 @@ class EngagementTable {
     [[nodiscard]] Forces at_node(std::size_t k, const Feed& feed) const { return forces(nodes_[k], feed); }
 
     /// θ outside of the table is taken at its end.
-    [[nodiscard]] Forces at(Scalar theta_rad, const Feed& feed) const {
+    [[nodiscard]] Forces at(Scalar theta_rad, const Feed& feed) const { return forces(between(theta_rad), feed); }
+
+    /// What the table holds of an engagement, for forces().
+    [[nodiscard]] Node between(Scalar theta_rad) const {
         const Scalar place = clamp((theta_rad - first_rad) / step_rad_, Scalar(0), Scalar(Nodes - 1));
         const int nearest = static_cast<int>(place + Scalar(0.5F));
         const int middle = nearest < 1 ? 1 : (nearest > Nodes - 2 ? Nodes - 2 : nearest);
@@ -92,13 +99,23 @@ class EngagementTable {
         for (std::size_t j = 0; j < node.size(); ++j) {
             node[j] = before * nodes_[m - 1][j] + here * nodes_[m][j] + behind * nodes_[m + 1][j];
         }
-        return forces(node, feed);
+        return node;
+    }
+
+    [[nodiscard]] Forces forces(const Node& n, const Feed& feed) const {
+        const Scalar Gr = feed.G_N_per_mm * feed.r;
+        Forces f;
+        f.cutting_tangential_N = feed.G_N_per_mm * n[a_t];
+        f.tangential_N = f.cutting_tangential_N + n[e_t];
+        f.feed_per_ln_r_1_N = Gr * n[b_x];
+        f.normal_per_ln_r_1_N = Gr * n[b_y];
+        f.feed_N = feed.G_N_per_mm * n[a_x] + f.feed_per_ln_r_1_N + n[e_x];
+        f.normal_N = feed.G_N_per_mm * n[a_y] + f.normal_per_ln_r_1_N + n[e_y];
+        f.ln_t_in_references = feed.ln_f_in_references + n[ln_sine];
+        return f;
     }
 
   private:
-    enum Entry : std::size_t { a_t, a_x, b_x, a_y, b_y, e_t, e_x, e_y, ln_sine, entries };
-    using Node = std::array<Scalar, entries>;
-
     [[nodiscard]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
         using elementary::cos;
         using elementary::exp;
@@ -122,19 +139,6 @@ class EngagementTable {
         node[e_y] = E_r * i.d - E_t * i.c;
         node[ln_sine] = law_.reference_chip_thickness_mm > Scalar(0) ? ln_m : Scalar(0);
         return node;
-    }
-
-    [[nodiscard]] Forces forces(const Node& n, const Feed& feed) const {
-        const Scalar Gr = feed.G_N_per_mm * feed.r;
-        Forces f;
-        f.cutting_tangential_N = feed.G_N_per_mm * n[a_t];
-        f.tangential_N = f.cutting_tangential_N + n[e_t];
-        f.feed_per_ln_r_1_N = Gr * n[b_x];
-        f.normal_per_ln_r_1_N = Gr * n[b_y];
-        f.feed_N = feed.G_N_per_mm * n[a_x] + f.feed_per_ln_r_1_N + n[e_x];
-        f.normal_N = feed.G_N_per_mm * n[a_y] + f.normal_per_ln_r_1_N + n[e_y];
-        f.ln_t_in_references = feed.ln_f_in_references + n[ln_sine];
-        return f;
     }
 
     std::array<Node, static_cast<std::size_t>(Nodes)> nodes_{};

@@ -120,7 +120,7 @@ class FeedDrive {
         const Scalar friction_A = signed_friction_A(average);
         const Scalar cut_A = average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
         const Scalar force = parameters_.K_x4_N_per_A * cut_A +
-                             parameters_.K_x5_N_m_per_min / velocity_m_per_min(average) - inertial_force_N(average);
+                             force_by_speed_N(average) - inertial_force_N(average);
         const Scalar friction_variance =
             square(friction_A) * friction_scale_.variance(direction(average)) + square(parameters_.friction_ripple_A);
         const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
@@ -141,7 +141,7 @@ class FeedDrive {
         }
         const Scalar other_A = parameters_.gravity_A +
                                (inertial_force_N(average) -
-                                parameters_.K_x5_N_m_per_min / velocity_m_per_min(average)) /
+                                force_by_speed_N(average)) /
                                    parameters_.K_x4_N_per_A;
         friction_scale_.correct(direction(average), {true, (average.current_A - other_A) / friction_A,
                                                      current_variance_A2(average) / square(friction_A)});
@@ -181,6 +181,11 @@ class FeedDrive {
         const Scalar w = velocity_m_per_min(average);
         return w > Scalar(0) ? parameters_.positive.at(w) + parameters_.K_x3_A
                              : -(parameters_.negative.at(-w) + parameters_.K_x3_A);
+    }
+    /// K_x5/w; most drives have none.
+    [[nodiscard]] Scalar force_by_speed_N(const Average& average) const {
+        const Scalar K_x5 = parameters_.K_x5_N_m_per_min;
+        return K_x5 == Scalar(0) ? Scalar(0) : K_x5 / velocity_m_per_min(average);
     }
     [[nodiscard]] Scalar inertial_force_N(const Average& average) const {
         return parameters_.mass_kg * average.acceleration_mm_s2 * static_cast<Scalar>(0.001L);

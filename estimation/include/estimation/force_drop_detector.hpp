@@ -275,7 +275,9 @@ class ForceDropDetector {
             squares_y += y * y;
         }
         const auto factors = gram.ldlt();
-        const Pairs c = factors.solve(moments);
+        Pairs c;  // by columns: Eigen's solve for several at once holds a way to the heap
+        c.col(0) = factors.solve(moments.col(0));
+        c.col(1) = factors.solve(moments.col(1));
         const Vector4 inverse_row = factors.solve(Vector4::Unit(2));
         fit.step_x_N += c(2, 0);
         fit.step_y_N += c(2, 1);

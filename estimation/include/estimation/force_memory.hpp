@@ -33,9 +33,10 @@ class ForceMemory {
         carry(carried);
         feed_mm_s_ = feed_mm_s;
         AverageForceMeasurement<Scalar> mixed = now;
-        mix(mixed.tangential_N, held_.tangential_N);
-        mix(mixed.x_N, held_.x_N);
-        mix(mixed.y_N, held_.y_N);
+        const Scalar share = Scalar(1) / (revolutions_ + Scalar(1));
+        mix(mixed.tangential_N, held_.tangential_N, share);
+        mix(mixed.x_N, held_.x_N, share);
+        mix(mixed.y_N, held_.y_N, share);
         if (is_new_revolution) {
             const Scalar most = static_cast<Scalar>(longest_revolutions);
             remember(mixed, feed_mm_s, revolutions_ + Scalar(1) < most ? revolutions_ + Scalar(1) : most);
@@ -49,12 +50,12 @@ class ForceMemory {
     static constexpr int longest_revolutions = 8;
     static constexpr Scalar agreement = static_cast<Scalar>(3);
 
-    [[nodiscard]] bool agrees(const Measurement<Scalar>& now, const Measurement<Scalar>& held, Scalar carried) const {
+    [[nodiscard]] static bool agrees(const Measurement<Scalar>& now, const Measurement<Scalar>& held, Scalar carried,
+                              Scalar allowed_per_noise) {
         if (now.valid != held.valid) {
             return false;
         }
-        const Scalar noise = now.noise * (Scalar(1) + Scalar(1) / revolutions_);
-        return !now.valid || square(now.value - held.value * carried) <= square(agreement) * noise;
+        return !now.valid || square(now.value - held.value * carried) <= allowed_per_noise * now.noise;
     }
 
     [[nodiscard]] static Scalar carried_by(Scalar from_feed, Scalar to_feed, Scalar exponent) {
@@ -65,8 +66,9 @@ class ForceMemory {
 
     [[nodiscard]] bool is_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar carried) const {
         const Scalar along = now.feed_direction_x * held_.feed_direction_x + now.feed_direction_y * held_.feed_direction_y;
-        return along > static_cast<Scalar>(0.998L) && agrees(now.tangential_N, held_.tangential_N, carried) &&
-               agrees(now.x_N, held_.x_N, carried) && agrees(now.y_N, held_.y_N, carried);
+        const Scalar allowed = square(agreement) * (Scalar(1) + Scalar(1) / revolutions_);
+        return along > static_cast<Scalar>(0.998L) && agrees(now.tangential_N, held_.tangential_N, carried, allowed) &&
+               agrees(now.x_N, held_.x_N, carried, allowed) && agrees(now.y_N, held_.y_N, carried, allowed);
     }
 
     void carry(Scalar carried) {
@@ -75,8 +77,7 @@ class ForceMemory {
         held_.y_N.value *= carried;
     }
 
-    void mix(Measurement<Scalar>& now, const Measurement<Scalar>& held) const {
-        const Scalar share = Scalar(1) / (revolutions_ + Scalar(1));
+    static void mix(Measurement<Scalar>& now, const Measurement<Scalar>& held, Scalar share) {
         now.value = held.value + (now.value - held.value) * share;
         now.variance -= now.noise * (Scalar(1) - share);
     }

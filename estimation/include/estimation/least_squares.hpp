@@ -209,7 +209,9 @@ LeastSquaresSolution<Scalar, N> LeastSquares<Scalar, N>::solve(Scalar condition_
     solution.residual_rms = rows_ > 0 ? sqrt(unexplained / static_cast<Scalar>(rows_)) : nan;
     solution.residual_sd = free_rows > 0 ? sqrt(unexplained / static_cast<Scalar>(free_rows)) : nan;
     const Matrix scaled_root = scale.asDiagonal() * root;
-    solution.covariance = scaled_root * scaled_root.transpose() * (solution.residual_sd * solution.residual_sd);
+    // Lazy: the usual product of matrices this large holds a way to the heap.
+    solution.covariance = scaled_root.lazyProduct(scaled_root.transpose());
+    solution.covariance *= solution.residual_sd * solution.residual_sd;
     for (int j = 0; j < N; ++j) {
         if (!solution.determined(j)) {
             solution.covariance.row(j).setConstant(nan);

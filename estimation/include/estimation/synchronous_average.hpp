@@ -41,7 +41,8 @@ class SynchronousAverage {
         int revolutions = 0;                    ///< 0: not enough has been seen since the last start
     };
 
-    explicit SynchronousAverage(const Settings& settings = {}) : settings_(settings) {}
+    explicit SynchronousAverage(const Settings& settings = {})
+        : settings_(settings), pitch_rev_(Scalar(1) / Scalar(settings.teeth)) {}
 
     void restart() {
         periods_seen_ = 0;
@@ -56,9 +57,8 @@ class SynchronousAverage {
         if (has_previous_ && gap_is_too_long(dt_s, turned_rev)) {
             restart();
         }
-        const Scalar pitch_rev = Scalar(1) / Scalar(settings_.teeth);
         if (!has_previous_) {
-            to_boundary_rev_ = pitch_rev - offset_in_pitch(angle_rev, pitch_rev);
+            to_boundary_rev_ = pitch_rev_ - offset_in_pitch(angle_rev);
             remember(signals, present);
             return 0;
         }
@@ -72,9 +72,9 @@ class SynchronousAverage {
             used_share += share;
             remaining_rev -= step_rev;
             completed += close_period();
-            to_boundary_rev_ = pitch_rev;
+            to_boundary_rev_ = pitch_rev_;
         }
-        to_boundary_rev_ = distance_to_boundary(angle_rev, pitch_rev, to_boundary_rev_ - remaining_rev);
+        to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - remaining_rev);
         accumulate(used_share, Scalar(1), dt_s, turned_rev, signals, present);
         remember(signals, present);
         return completed;
@@ -113,25 +113,26 @@ class SynchronousAverage {
             return true;
         }
         // A sample interval that was twice the last one is a missed sample; it may hide at most half a tooth.
-        const bool missed = previous_dt_s_ > Scalar(0) && dt_s > Scalar(1.5F) * previous_dt_s_;
-        const Scalar half_pitch_rev = Scalar(0.5F) / Scalar(settings_.teeth);
-        const Scalar usual_rev = missed ? turned_rev * previous_dt_s_ / dt_s : turned_rev;
-        return missed && turned_rev - usual_rev > half_pitch_rev;
+        if (!(previous_dt_s_ > Scalar(0)) || !(dt_s > Scalar(1.5F) * previous_dt_s_)) {
+            return false;
+        }
+        return turned_rev - turned_rev * previous_dt_s_ / dt_s > Scalar(0.5F) * pitch_rev_;
     }
 
     /// From the angle to the next tooth boundary. Rounding may put the angle on the wrong side of a boundary; the
     /// distance expected from counting on tells which one is meant. May be negative: the boundary has just passed.
-    [[nodiscard]] static Scalar distance_to_boundary(Scalar angle_rev, Scalar pitch_rev, Scalar expected_rev) {
-        const Scalar distance = pitch_rev - offset_in_pitch(angle_rev, pitch_rev);
-        if (distance - expected_rev > Scalar(0.5F) * pitch_rev) {
-            return distance - pitch_rev;
+    [[nodiscard]] Scalar distance_to_boundary(Scalar angle_rev, Scalar expected_rev) const {
+        const Scalar distance = pitch_rev_ - offset_in_pitch(angle_rev);
+        const Scalar half_pitch_rev = Scalar(0.5F) * pitch_rev_;
+        if (distance - expected_rev > half_pitch_rev) {
+            return distance - pitch_rev_;
         }
-        return expected_rev - distance > Scalar(0.5F) * pitch_rev ? distance + pitch_rev : distance;
+        return expected_rev - distance > half_pitch_rev ? distance + pitch_rev_ : distance;
     }
 
-    [[nodiscard]] static Scalar offset_in_pitch(Scalar angle_rev, Scalar pitch_rev) {
-        const auto whole = static_cast<int>(angle_rev / pitch_rev);
-        const Scalar offset = angle_rev - Scalar(whole) * pitch_rev;
+    [[nodiscard]] Scalar offset_in_pitch(Scalar angle_rev) const {
+        const auto whole = static_cast<int>(angle_rev * Scalar(settings_.teeth));
+        const Scalar offset = angle_rev - Scalar(whole) * pitch_rev_;
         return offset < Scalar(0) ? Scalar(0) : offset;
     }
 
@@ -148,9 +149,19 @@ class SynchronousAverage {
         if (width <= Scalar(0)) {
             return;
         }
-        const Scalar middle = Scalar(0.5F) * (from + to);
-        sum_ += (previous_signals_ + (signals - previous_signals_) * middle) * (width * turned_rev);
-        turned_rev_ += width * turned_rev;
+        const Scalar part_rev = width * turned_rev;
+        if (from == Scalar(0) && to == Scalar(1)) {
+            const Scalar half_rev = Scalar(0.5F) * part_rev;  // a whole interval, which is usual
+            for (int k = 0; k < Channels; ++k) {
+                sum_[k] += (previous_signals_[k] + signals[k]) * half_rev;
+            }
+        } else {
+            const Scalar middle = Scalar(0.5F) * (from + to);
+            for (int k = 0; k < Channels; ++k) {
+                sum_[k] += (previous_signals_[k] + (signals[k] - previous_signals_[k]) * middle) * part_rev;
+            }
+        }
+        turned_rev_ += part_rev;
         duration_s_ += width * dt_s;
         samples_ += width;
         present_ &= present & previous_present_;
@@ -161,7 +172,7 @@ class SynchronousAverage {
         int completed = 0;
         if (period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0)) {
             Average& period = periods_[periods_seen_ % MaxPeriods];
-            period.mean = sum_ / turned_rev_;
+            period.mean = sum_ * (Scalar(1) / turned_rev_);
             period.present = present_;
             period.duration_s = duration_s_;
             period.samples = samples_;
@@ -204,15 +215,15 @@ class SynchronousAverage {
                 older_duration_s += period.duration_s;
             }
         }
-        window.mean /= Scalar(count);
-        const Scalar turned_rad = Scalar(count) * two_pi / Scalar(settings_.teeth);
-        const Scalar half_rad = Scalar(half) * two_pi / Scalar(settings_.teeth);
-        window.spindle_speed_rad_s = turned_rad / window.duration_s;
+        window.mean *= Scalar(1) / Scalar(count);
+        const Scalar pitch_rad = two_pi * pitch_rev_;
+        const Scalar half_rad = Scalar(half) * pitch_rad;
+        window.spindle_speed_rad_s = Scalar(count) * pitch_rad / window.duration_s;
         const Scalar apart_s = window.duration_s - Scalar(0.5F) * (newer_duration_s + older_duration_s);
         if (apart_s > Scalar(0)) {
             window.spindle_acceleration_rad_s2 =
                 (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
-            window.slope_per_s = (newer - older) / (Scalar(half) * apart_s);
+            window.slope_per_s = (newer - older) * (Scalar(1) / (Scalar(half) * apart_s));
         }
     }
 
@@ -228,6 +239,7 @@ class SynchronousAverage {
     static constexpr Scalar two_pi = static_cast<Scalar>(6.28318530717958647692L);
 
     Settings settings_;
+    Scalar pitch_rev_;
     Average periods_[static_cast<std::size_t>(MaxPeriods)];
     std::uint32_t periods_seen_ = 0;  // kept in [0, 2·MaxPeriods): the ring's place, and whether it is full
 

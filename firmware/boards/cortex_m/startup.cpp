@@ -1,27 +1,22 @@
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 
 #include <cstddef>
 
 extern "C" {
-extern std::uint32_t _data_load, _data_start, _data_end, _bss_start, _bss_end;
 extern std::uint32_t _stack_bottom, _stack_limit, _stack_top;
 using Routine = void (*)();
-extern const Routine __preinit_array_start[], __preinit_array_end[], __init_array_start[], __init_array_end[];
 [[noreturn]] void Reset_Handler();
 void Fault_Handler();
 [[noreturn]] void record_fault(const std::uint32_t* frame);
 
 // A board's interrupts; what it does not define ends as a fault.
 [[gnu::weak, gnu::nothrow, gnu::alias("Fault_Handler")]] void SysTick_Handler();
-extern void* const __dso_handle;
-void* const __dso_handle = nullptr;
 }
 
 namespace {
 
 using millforce::board::FaultRecord;
 
-constexpr std::uint32_t paint = 0xA5A5'5A5AU;
 constexpr std::size_t fault_stack_words = 96;
 alignas(8) std::uint32_t fault_stack[fault_stack_words];
 
@@ -60,61 +55,14 @@ void guard_stack() {
     asm volatile("dsb\n isb" ::: "memory");
 }
 
-void prepare_memory() {
-    const std::uint32_t* from = &_data_load;
-    for (std::uint32_t* to = &_data_start; to < &_data_end; ++to) {
-        *to = *from++;
-    }
-    for (std::uint32_t* to = &_bss_start; to < &_bss_end; ++to) {
-        *to = 0;
-    }
-}
-
-void call(const Routine* from, const Routine* to) {
-    for (; from != to; ++from) {
-        (*from)();
-    }
-}
-
 bool is_in_stack(const std::uint32_t* frame) { return frame >= &_stack_limit && frame + 8 <= &_stack_top; }
 
 }  // namespace
 
-namespace millforce::board {
-
-void paint_stack() {
-    std::uint32_t here = 0;
-    asm volatile("mov %0, sp" : "=r"(here));
-    constexpr std::uint32_t own_frame = 64;
-    for (std::uint32_t* word = &_stack_limit; reinterpret_cast<std::uint32_t>(word) < here - own_frame; ++word) {
-        *word = paint;
-    }
-}
-
-std::uint32_t stack_size_bytes() {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&_stack_top) -
-                                      reinterpret_cast<std::uintptr_t>(&_stack_limit));
-}
-
-std::uint32_t untouched_stack_bytes() {
-    const std::uint32_t* word = &_stack_limit;
-    while (word < &_stack_top && *word == paint) {
-        ++word;
-    }
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(word) -
-                                      reinterpret_cast<std::uintptr_t>(&_stack_limit));
-}
-
-}  // namespace millforce::board
-
 void Reset_Handler() {
     enable_fpu();
     guard_stack();
-    prepare_memory();
-    millforce::board::paint_stack();
-    call(__preinit_array_start, __preinit_array_end);
-    call(__init_array_start, __init_array_end);
-    millforce::board::run_image();
+    millforce::board::start_program();
 }
 
 /// The stack may be what failed: the handler goes on with one of its own.

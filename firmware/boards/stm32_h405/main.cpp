@@ -1,6 +1,6 @@
 // The controller of an STM32F405: composition root, and what happens when the processor itself fails.
 
-#include "cortex_m/processor.hpp"
+#include "common/processor.hpp"
 #include "stm32/clock.hpp"
 #include "stm32/parameter_flash.hpp"
 #include "stm32/timers.hpp"

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
 #include "estimation/roughness.hpp"
@@ -167,7 +170,11 @@ class ForceControlTick {
         return forward ? static_cast<Scalar>(elapsed_us) * static_cast<Scalar>(1e-6L) : Scalar(0);
     }
 
-    [[nodiscard]] static bool is_finite(float value) { return value - value == 0.0F; }
+    /// By the bits: without a floating-point unit every operation on a float is a library call.
+    [[nodiscard]] static bool is_finite(float value) {
+        constexpr std::uint32_t exponent = 0x7F80'0000U;
+        return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;
+    }
 
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
         estimation::DriveSignals<Scalar> signals;

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// What every Cortex-M image begins with: vector table, start of the C++ world, a stack that cannot overflow unseen,
-/// and faults that end in one place. startup.cpp implements it; the board gives memory.ld.
+/// What every image begins with: exception vectors, start of the C++ world, a stack that cannot overflow unseen, and
+/// faults that end in one place. `cortex_m` and `cortex_r` implement it; the board gives memory.ld.
 ///
 /// The stack lies at the bottom of RAM, its lowest 256 bytes denied by the MPU: an overflow is a fault, not a corrupted
 /// variable. (Without an MPU it runs off the RAM, which is a bus fault as well.)
@@ -12,12 +12,14 @@ namespace millforce::board {
 
 /// What a processor fault leaves behind.
 struct FaultRecord {
-    std::uint32_t exception;       ///< number: 2 NMI, 3 hard fault, 4 memory, 5 bus, 6 usage, 16… an interrupt without handler
+    /// Cortex-M: 2 NMI, 3 hard fault, 4 memory, 5 bus, 6 usage, 16… an interrupt without handler. Cortex-R, the place
+    /// in the vectors: 1 undefined instruction, 2 supervisor call, 3 prefetch abort, 4 data abort, 6 IRQ, 7 FIQ.
+    std::uint32_t exception;
     std::uint32_t program_counter; ///< of the faulting instruction; 0 where the stack could not be read
     std::uint32_t link_register;
     std::uint32_t stack_pointer;   ///< before the exception
-    std::uint32_t status;          ///< CFSR, Armv7-M Architecture Reference Manual B3.2.15
-    std::uint32_t address;         ///< MMFAR or BFAR, where `status` says that it is valid
+    std::uint32_t status;          ///< CFSR, Armv7-M Architecture Reference Manual B3.2.15; IFSR or DFSR, Armv7-R B6.1
+    std::uint32_t address;         ///< MMFAR or BFAR, where `status` says that it is valid; IFAR or DFAR
 };
 
 /// Given by the image: what to do on a fault. Runs on a stack of its own, with interrupts masked.
@@ -25,6 +27,9 @@ extern "C" [[noreturn]] void on_processor_fault(const FaultRecord& record);
 
 /// Given by the image: the program. Must not return.
 extern "C" [[noreturn]] void run_image();
+
+/// Called by the processor's start, once it has a stack: memory, constructors, run_image().
+[[noreturn]] void start_program();
 
 /// Paints the stack below the caller; done at the start, and again by who measures one part of a program.
 void paint_stack();

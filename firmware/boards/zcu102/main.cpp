@@ -1,0 +1,66 @@
+// The controller on the first Cortex-R5F of a ZCU102, drives and CNC on its CAN 0: composition root.
+
+#include "common/processor.hpp"
+#include "firmware/parameter_block.hpp"
+#include "zcu102/bus_controller.hpp"
+
+extern "C" {
+extern const std::uint8_t _parameters[];  // firmware/boards/zcu102/memory.ld
+}
+
+namespace {
+
+using namespace millforce;
+
+/// Of the processor's cycle counter: 500 on the chip; the emulator's counts nanoseconds.
+constexpr std::uint32_t cycles_per_us = MILLFORCE_CYCLES_PER_US;
+
+/// PMCR, PMCNTENSET: Armv7-R Architecture Reference Manual C12
+void start_cycle_counter() {
+    constexpr std::uint32_t enable = 1;
+    constexpr std::uint32_t cycle_counter = 1U << 31U;
+    asm volatile("mcr p15, 0, %0, c9, c12, 0\n mcr p15, 0, %1, c9, c12, 1" : : "r"(enable), "r"(cycle_counter));
+}
+
+/// 64 bits out of the counter's 32; at least once in its round of 4 s.
+std::uint64_t now_us() {
+    static std::uint64_t us = 0;
+    static std::uint32_t counted = 0;
+    std::uint32_t cycles = 0;
+    asm volatile("mrc p15, 0, %0, c9, c13, 0" : "=r"(cycles));
+    const std::uint32_t elapsed_us = (cycles - counted) / cycles_per_us;
+    us += elapsed_us;
+    counted += elapsed_us * cycles_per_us;
+    return us;
+}
+
+/// Silence: a CNC that hears nothing holds the feed.
+[[noreturn]] void stay_silent() {
+    for (;;) {
+        asm volatile("wfi");
+    }
+}
+
+}  // namespace
+
+void millforce::board::run_image() {
+    start_cycle_counter();
+    static firmware::Parameters<float> parameters;
+    if (firmware::decode(std::span(_parameters, firmware::block_bytes), parameters) != firmware::BlockError::none) {
+        stay_silent();
+    }
+    const firmware::CanControllerSettings settings =
+        firmware::can_controller_settings(parameters.machine, zcu102::bus_objects);
+    if (cia402::check(settings.drives) != cia402::SettingsError::none) {
+        stay_silent();
+    }
+    auto& registers = *reinterpret_cast<zynqmp::CanRegisters*>(zynqmp::address::can0);
+    static zcu102::BusController controller(registers, settings, parameters);
+    controller.start(zynqmp::kbit_1000);
+    for (;;) {
+        controller.poll(now_us());
+        asm volatile("yield");  // an emulator of several processors on one goes on to the next
+    }
+}
+
+void millforce::board::on_processor_fault(const FaultRecord&) { stay_silent(); }
