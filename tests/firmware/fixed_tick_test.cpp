@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 
 #include "estimation/fixed_point.hpp"
@@ -10,7 +11,8 @@
 
 // The tick in fixed point beside the tick in float, on the same samples, over the operating range: tools from 3 to 80 mm
 // and 1 to 8 teeth, soft and hard materials, 300 to 24 000 rpm, any immersion, side and direction of feed. Each new
-// estimate of the engagement is an operating point.
+// estimate of the engagement is an operating point. MILLFORCE_FIXED_TOOLS names another number of tools than 10, of 150
+// points each, MILLFORCE_FIXED_SEED another seed: the tier `published` goes through 10⁵ points.
 
 using namespace millforce;
 using estimation::CutSide;
@@ -200,6 +202,11 @@ void compare(const firmware::ForceControlTick<float>& a, const firmware::ForceCo
     }
 }
 
+unsigned number_from_environment(const char* name, unsigned usual) {
+    const char* text = std::getenv(name);
+    return text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : usual;
+}
+
 constexpr int samples_per_cut = 120;
 
 /// Mills with one tool until so many operating points are seen. Both ticks see the same machine, which follows float.
@@ -238,9 +245,9 @@ void mill(Draw& draw, int points, Agreement& agreement) {
 TEST_GROUP(FixedTick) {};
 
 TEST(FixedTick, agrees_with_float_over_the_operating_range) {
-    Draw draw(20261121);
+    Draw draw(number_from_environment("MILLFORCE_FIXED_SEED", 20261121));
     Agreement agreement;
-    constexpr int tools = 10;
+    const int tools = static_cast<int>(number_from_environment("MILLFORCE_FIXED_TOOLS", 10));
     constexpr int points_per_tool = 150;
     for (int tool = 0; tool < tools; ++tool) {
         mill<estimation::Fixed>(draw, points_per_tool, agreement);

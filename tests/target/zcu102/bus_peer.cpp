@@ -93,7 +93,8 @@ std::uint64_t now_us() {
     return count * 1'000'000U / frequency_hz;
 }
 
-/// The registers are looked at every few microseconds only: each look costs the emulator more than the waiting.
+/// The registers are looked at every 3 µs or so: each look costs the emulator more than the waiting, but what the drives
+/// latch late is noise in the spindle's acceleration.
 void let_time_pass() {
     for (unsigned k = 0; k < 300; ++k) {
         asm volatile("" ::: "memory");
