@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 #include "firmware_can/bus_settings.hpp"
 #include "firmware_can/can_controller.hpp"
