@@ -30,6 +30,7 @@ param rw float counts_per_rev=0.0 "Not 0: spindle-revs is used, and this is enco
 param rw float mm_per_unit=1.0 "Of requested-velocity: 25.4 on a machine in inches";
 param rw unsigned present=31 "What is wired: 1 spindle position + 2 spindle current + 4 x + 8 y + 16 z";
 variable rtapi_s64 time_ns;
+variable real_t last_requested;
 variable int stream_id;
 option singleton yes;
 option extra_setup yes;
@@ -62,6 +63,9 @@ FUNCTION(_) {
         double counts = spindle_revs * counts_per_rev;
         count = (long)counts - (counts < (long)counts);
     }
+    /* motion tells the velocity of a block one cycle before its kind: a rapid's must not be taken for an F. */
+    const double feed = requested_velocity < last_requested ? requested_velocity : last_requested;
+    last_requested = requested_velocity;
     time_ns += period;
     cycle++;
     field[MILLFORCE_CYCLE].u = cycle;
@@ -78,7 +82,7 @@ FUNCTION(_) {
     field[MILLFORCE_X_VELOCITY].f = x_velocity;
     field[MILLFORCE_Y_VELOCITY].f = y_velocity;
     field[MILLFORCE_Z_VELOCITY].f = z_velocity;
-    field[MILLFORCE_FEED].f = requested_velocity * mm_per_unit;
+    field[MILLFORCE_FEED].f = feed * mm_per_unit;
     field[MILLFORCE_OPERATOR_LIMIT].f = operator_limit;
     if (hal_stream_write(&stream, field) < 0) overruns++;
 }

@@ -17,6 +17,6 @@ DriveObjects read_drive_objects(TomlFile::Table& table);
 
 /// The settings of the bus; nothing where no drive has a node id. Throws InputError where they do not fit together.
 std::optional<MachineBus> machine_bus(const std::string& file, const firmware::MachineParameters<float>& machine,
-                                      const BusObjects& objects);
+                                      const BusObjects& objects, const LocalIoKeys& local);
 
 }  // namespace millforce::sim

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "files/local_io.hpp"
 #include "files/parameter_choices.hpp"
 #include "files/parameter_files.hpp"
 
@@ -73,6 +74,39 @@ void document_objects(std::string& text) {
     }
 }
 
+std::string heading_of_local(const std::string& table) {
+    return table == "iio.drive" ? "[iio.spindle], [iio.x], [iio.y], [iio.z]" : "[" + table + "]";
+}
+
+std::string default_of(const LocalNumberRow& row) {
+    if (std::isnan(row.default_value)) {
+        return "required";
+    }
+    return row.choices != nullptr ? words_of(row.choices)[static_cast<std::size_t>(row.default_value)]
+                                  : fmt::format("{:g}", row.default_value);
+}
+
+void document_local_io(std::string& text) {
+    text += "\n### Inputs and outputs of this computer, for `millforce run` on Linux\n";
+    for (const char* table : {"iio", "iio.drive", "override_voltage", "feed_hold_line"}) {
+        text += fmt::format("\n### {}\n\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n",
+                            heading_of_local(table));
+        for (const LocalTextRow& row : local_texts) {
+            if (std::string_view(row.table) == table) {
+                text += fmt::format("| `{}` |  | none | `{}` | {} |\n", row.key, row.form, row.sentence);
+            }
+        }
+        for (const LocalNumberRow& row : local_numbers) {
+            if (std::string_view(row.table) == table) {
+                text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, default_of(row),
+                                    row.choices != nullptr ? joined_words(row.choices)
+                                                           : fmt::format("{:g} … {:g}", row.minimum, row.maximum),
+                                    row.sentence);
+            }
+        }
+    }
+}
+
 void document_information(std::string& text) {
     text +=
         "\n## Keys for information\n\nA calibration writes them for the reader of its file; the controller does not "
@@ -97,6 +131,7 @@ std::string parameter_documentation() {
         "either file.\n\n## machine.toml\n";
     document_file(firmware::ParameterFile::machine, text);
     document_objects(text);
+    document_local_io(text);
     text += "\n## tool.toml\n";
     document_file(firmware::ParameterFile::tool, text);
     document_information(text);

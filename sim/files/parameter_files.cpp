@@ -10,6 +10,8 @@
 
 #include "files/bus_objects.hpp"
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
+#include "files/local_io_reader.hpp"
 #include "files/parameter_choices.hpp"
 #include "files/toml_reader.hpp"
 
@@ -122,22 +124,29 @@ class TableReader {
     std::map<std::string, TomlFile::Table> tables_;
 };
 
-BusObjects read_file(ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
+struct MachineFileParts {
+    BusObjects objects{};
+    LocalIoKeys local{};
+};
+
+MachineFileParts read_file(ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
     TomlFile toml = TomlFile::open(path);
     TomlFile::Table root = toml.root();
     root.text("name", "");  // free text: it belongs to the file, but to no algorithm
     root.text("description", "");
     TableReader<float> reader(file, root, parameters);
     reader.read();
-    BusObjects objects;
+    MachineFileParts parts;
     if (file == ParameterFile::machine) {
-        for (std::size_t drive = 0; drive < objects.size(); ++drive) {
-            objects[drive] = read_drive_objects(reader.table(firmware::drive_tables[drive]));
+        for (std::size_t drive = 0; drive < parts.objects.size(); ++drive) {
+            parts.objects[drive] = read_drive_objects(reader.table(firmware::drive_tables[drive]));
         }
+        parts.local =
+            read_local_io([&](const std::string& name) -> TomlFile::Table& { return reader.table(name); });
     }
     reader.reject_unknown_keys();
     root.reject_unknown_keys();
-    return objects;
+    return parts;
 }
 
 /// A limit of R_a without a prediction of it would hold the feed where contact found it, and tell nobody why.
@@ -170,8 +179,8 @@ firmware::MachineParameters<float> read_machine_parameters(const std::string& ma
 
 std::optional<MachineBus> read_machine_bus(const std::string& machine_path) {
     firmware::Parameters<float> parameters;
-    const BusObjects objects = read_file(ParameterFile::machine, machine_path, parameters);
-    return machine_bus(machine_path, parameters.machine, objects);
+    const MachineFileParts parts = read_file(ParameterFile::machine, machine_path, parameters);
+    return machine_bus(machine_path, parameters.machine, parts.objects, parts.local);
 }
 
 CuttingTable read_cutting_table(const std::string& tool_path) {

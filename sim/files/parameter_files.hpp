@@ -3,10 +3,11 @@
 #include <optional>
 #include <string>
 
-#include "files/machine_bus.hpp"
 #include "firmware/parameter_table.hpp"
 
 namespace millforce::sim {
+
+struct MachineBus;
 
 /// Reads machine.toml and tool.toml by the parameter tables: every key has its range and default there; an unknown key
 /// is an error that names the nearest known one, a missing required key is named. Standard errors (KEY_se) and what a

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace CLI {
@@ -29,6 +30,13 @@ void set_common_rules(CLI::App& app, const std::string& version);
 
 /// Checks that an option is a finite number within [low, high]. CLI::Range lets NaN pass.
 CLI::Validator number_from(double low, double high);
+
+/// --slow-motion and --lock-step, of the commands on a bus.
+struct BusPace {
+    std::uint32_t slow_motion = 1;
+    bool lock_step = false;
+};
+void add_bus_pace(CLI::App& command, BusPace& pace);
 
 /// The one line that says what is wrong with the command line: the message of CLI11, with the nearest name of an
 /// unknown command or option.

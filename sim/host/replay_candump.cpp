@@ -10,9 +10,11 @@
 
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/estimate_rows.hpp"
+#include "host/run_check.hpp"
 #include "live/candump_replay.hpp"
 #include "loop/override_source.hpp"
 
@@ -28,7 +30,8 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
                         "the candump log {}",
                         options.machine, options.log));
     }
-    return {options.log, options.interface, *bus, read_parameters(options.machine, options.tool)};
+    return {options.log, options.interface, *bus, read_parameters(options.machine, options.tool),
+            {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us}};
 }
 
 double seconds_of(std::uint64_t microseconds) {
@@ -78,11 +81,19 @@ int replay_candump(const ReplayCandumpOptions& options) {
     roughness.write_header(out);
     out << '\n';
     Progress progress("replaying");
+    std::optional<RunCheck> check;
+    if (!options.run_log.empty()) {
+        check.emplace(options.run_log);
+    }
+    TickEntries entries(run_log_interval_us);
     const auto interval_us = static_cast<std::uint64_t>(std::llround(options.interval_s * 1e6));
     std::uint64_t next_row_us = 0;
     std::size_t rows = 0;
     replay.run(
         [&](const firmware::CanController& controller) {
+            if (EstimateEntry entry; check && entries.add(controller, entry)) {
+                check->add(entry);
+            }
             if (controller.tick_time_us() < next_row_us) {
                 return;
             }
@@ -101,13 +112,17 @@ int replay_candump(const ReplayCandumpOptions& options) {
                         "[bus] tables",
                         options.log, replay.frames()));
     }
+    const int exit_code = check && !check->is_same() ? 1 : 0;
+    if (check) {
+        fmt::print(exit_code == 0 && file ? stdout : stderr, "{}", check->summary());
+    }
     if (!file) {
         std::cout << held_back.str();
-        return 0;
+        return exit_code;
     }
     file->commit();
     fmt::print("{}: {} rows; {}{}", options.output, rows, summary_of(replay), roughness.summary());
-    return 0;
+    return exit_code;
 }
 
 }  // namespace millforce::sim

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+
+#include "host/commands.hpp"
 
 namespace millforce::sim {
 
@@ -11,11 +14,14 @@ struct ReplayCandumpOptions {
     std::string output;
     std::string interface;  ///< empty: the only one of the log
     double interval_s = 0.02;
+    std::string run_log;  ///< of `millforce run --log`, to compare with; empty: none
+    BusPace pace{};
 };
 
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.
 bool is_candump_log(const std::string& file);
 
+/// 1 where the run's log has other estimates.
 int replay_candump(const ReplayCandumpOptions& options);
 
 }  // namespace millforce::sim

@@ -35,6 +35,8 @@ struct ReplayOptions {
     std::optional<double> programmed_feed_mm_min;
     double interval_s = 0.02;
     std::string interface;
+    std::string run_log;
+    BusPace pace{};
 };
 
 /// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
@@ -183,6 +185,9 @@ int replay_table(const ReplayOptions& options) {
 
 int replay(const ReplayOptions& options) {
     if (!is_candump_log(options.log)) {
+        if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
+            throw InputError(fmt::format("{}: is no candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
+        }
         return replay_table(options);
     }
     if (options.programmed_feed_mm_min) {
@@ -190,7 +195,8 @@ int replay(const ReplayOptions& options) {
                                      options.log));
     }
     return replay_candump(
-        {options.log, options.machine, options.tool, options.output, options.interface, options.interval_s});
+        {options.log, options.machine, options.tool, options.output, options.interface, options.interval_s,
+         options.run_log, options.pace});
 }
 
 }  // namespace
@@ -223,6 +229,11 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--interface", options->interface, "Of a candump log with several: the one to replay")
         ->type_name("IFACE");
+    command
+        ->add_option("--verify", options->run_log,
+                     "Compare with the log of 'millforce run --log'; exit code 1 where one bit of one tick differs")
+        ->type_name("RUN.jsonl");
+    add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "host/commands.hpp"
 #include "live/can_daemon.hpp"
@@ -24,6 +25,7 @@ struct RunOptions {
     std::string tool;
     std::string log;
     std::string record;
+    BusPace pace{};
 };
 
 MachineBus bus_of(const std::string& machine_file) {
@@ -66,13 +68,25 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 int run_on_bus(const RunOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     const MachineBus bus = bus_of(options.machine);
+    if ((options.pace.slow_motion != 1 || options.pace.lock_step) && (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
+        throw InputError(fmt::format("--slow-motion, --lock-step: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
+                                     "machine that is on the bus alone",
+                                     options.machine));
+    }
+    if (options.pace.lock_step && !bus.drives.produces_sync) {
+        throw InputError(fmt::format("--lock-step: {}: bus.produces_sync = false, expected true", options.machine));
+    }
+    const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, 20'000, isatty(STDOUT_FILENO) != 0});
-    const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal, !options.record.empty());
-    for (const std::string& note : become_real_time()) {
-        fmt::print(stderr, "millforce: note: {}\n", note);
+        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), time});
+    if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
+        for (const std::string& note : become_real_time()) {
+            fmt::print(stderr, "millforce: note: {}\n", note);
+        }
     }
     notify_service_manager("READY=1");
     daemon->run(stop);
@@ -106,6 +120,7 @@ void add_run(CLI::App& app, int& exit_code) {
     command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
     command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
         ->type_name("FILE.log");
+    add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = run_on_bus(*options); });
 }
 

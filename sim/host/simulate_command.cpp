@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"
@@ -37,6 +38,7 @@ struct SimulateOptions {
     std::optional<double> current_noise_share;
     double hardest = hardest_material;
     std::string interface;
+    BusPace pace{};
 };
 
 constexpr const char* baseline = "constant";
@@ -100,7 +102,8 @@ void print_broken_bound(const RunFigures& figures) {
 }
 
 /// The controller is another process, behind the bus.
-std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const Scenario& scenario) {
+std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const BusPace& pace,
+                                                  const Scenario& scenario) {
     const auto bus = read_machine_bus(scenario.machine_file);
     if (!bus) {
         throw InputError(
@@ -117,6 +120,7 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
     settings.sync_id = bus->drives.sync_id;
+    settings.time = {pace.slow_motion, pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us};
     return std::make_unique<PlantOnCan>(settings, std::make_unique<SocketPort>(socket));
 }
 
@@ -127,17 +131,22 @@ int simulate_scenario(const SimulateOptions& options) {
     const bool is_baseline = options.controller == baseline;
     std::vector<RunResult> results;
     if (!options.interface.empty()) {
-        const auto controller = controller_behind(options.interface, scenario);
-        become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        const auto controller = controller_behind(options.interface, options.pace, scenario);
+        if (!options.pace.lock_step) {
+            become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        }
         results.push_back(run(scenario, "millforce", *controller, recording));
         leave_real_time();
     } else if (!is_baseline) {
         results.push_back(
             run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
     }
-    const double ratio = safe_override_of(scenario, options.hardest);
-    results.push_back(
-        run(scenario, baseline, *controller_named(baseline, scenario, ratio), is_baseline ? recording : std::nullopt));
+    double ratio = 0.0;
+    if (options.interface.empty()) {
+        ratio = safe_override_of(scenario, options.hardest);
+        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
+                              is_baseline ? recording : std::nullopt));
+    }
     const ScenarioInfo info = info_of(scenario, ratio);
     fmt::print("{}", summary_table(info, results));
     write_report(out, info, results);
@@ -188,6 +197,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
                      "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
         ->type_name("IFACE")
         ->excludes("--controller");
+    add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
 }
 

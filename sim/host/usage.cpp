@@ -9,6 +9,7 @@
 
 #include "files/nearest_name.hpp"
 #include "host/commands.hpp"
+#include "live/bus_clock.hpp"
 
 namespace millforce::sim {
 
@@ -98,6 +99,21 @@ CLI::Validator number_from(double low, double high) {
                    : fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
     };
     return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
+}
+
+void add_bus_pace(CLI::App& command, BusPace& pace) {
+    CLI::Option* slow_motion =
+        command
+            .add_option("--slow-motion", pace.slow_motion,
+                        "Time on the bus passes N times slower, all periods and time-outs; the same for the "
+                        "controller, the plant and a replay")
+            ->type_name("N")
+            ->check(number_from(1.0, largest_slowness));
+    command
+        .add_flag("--lock-step", pace.lock_step,
+                  "Time on the bus passes with SYNC alone, which waits for the drives' answers: nothing is late "
+                  "however busy the computer is; the same for the controller, the plant and a replay")
+        ->excludes(slow_motion);
 }
 
 std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {

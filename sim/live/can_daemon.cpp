@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "loop/override_source.hpp"
+#include "cia402/objects.hpp"
 
 namespace millforce::sim {
 
@@ -11,9 +11,6 @@ namespace {
 
 using firmware::Condition;
 
-/// Between a frame's stamp and its place in the socket's queue lie microseconds, but milliseconds where this thread runs
-/// before the kernel's deferred work. What is missing by then is left out anyway; only `input_stale` comes so much later.
-constexpr std::uint32_t settle_us = 5'000;
 constexpr std::uint64_t second_us = 1'000'000;
 /// The override's sender finds out that ticks stay away (20 ms) and says so in its heartbeat.
 constexpr std::uint64_t farewell_us = 40'000;
@@ -23,18 +20,24 @@ firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
     settings.drives = bus.drives;
     settings.feed_override = bus.feed_override;
     settings.program = bus.program;
-    settings.settle_us = settle_us;
     return settings;
 }
 
 }  // namespace
 
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
-                     const firmware::Parameters<float>& parameters, Journal& journal, bool records)
+                     const firmware::Parameters<float>& parameters, Journal& journal,
+                     const CanDaemonSettings& settings)
     : journal_(journal),
       override_id_(bus.feed_override.id),
+      entries_(run_log_interval_us),
       controller_(controller_settings(bus), parameters, this),
-      socket_(socket_settings(interface, controller_, records)) {}
+      socket_(socket_settings(interface, controller_, settings.records)),
+      clock_(settings.time, socket_.unix_offset_us()),
+      sync_id_(bus.drives.sync_id),
+      heartbeat_id_(cia402::cob_id::heartbeat + bus.feed_override.node_id),
+      local_drives_(bus),
+      local_outputs_(bus.local) {}
 
 socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records) {
@@ -54,22 +57,44 @@ void CanDaemon::run(const std::atomic<bool>& stop) {
     end(farewell_us);
 }
 
+/// In lock-step the next SYNC is due when all drives have answered this one, or do not.
+std::uint64_t CanDaemon::now_us() const {
+    const BusTime& time = clock_.time();
+    const std::uint64_t passed_us = time.in_lock_step && has_cycle_ended() ? time.sync_period_us : 0;
+    return clock_.of_monotonic(socketcan::monotonic_us()) + passed_us;
+}
+
+bool CanDaemon::has_cycle_ended() const {
+    constexpr std::uint64_t start_patience_us = 5'000;
+    constexpr std::uint64_t patience_us = 1'000'000;
+    const std::uint64_t elapsed_us = socketcan::monotonic_us() - sync_heard_us_;
+    return elapsed_us > (controller_.ticks() == 0 ? start_patience_us : patience_us) ||
+           (controller_.ticks() > 0 && !controller_.drives().is_collecting());
+}
+
+bool CanDaemon::is_boot_up(const socketcan::ReceivedFrame& received) const {
+    const hal::CanFrame& frame = received.frame;
+    return received.is_own && frame.id == heartbeat_id_ && frame.length == 1 && frame.data[0] == 0;
+}
+
 void CanDaemon::step() {
-    const std::uint64_t before_us = socketcan::monotonic_us();
-    socket_.wait(controller_.next_event_us(before_us) - before_us);
-    const std::uint64_t now_us = socketcan::monotonic_us();
-    socket_.poll(now_us);
+    const std::uint64_t before_us = now_us();
+    socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
+    const std::uint64_t time_us = now_us();
+    socket_.poll(socketcan::monotonic_us());
     receive_all();
-    controller_.poll(now_us);
+    controller_.poll(time_us);
     send_all();
+    local_outputs_.poll(socketcan::monotonic_us());
+    controller_.hold_from_outside(local_outputs_.health().is_failed);
     controller_.work();
-    report(now_us);
+    report(time_us);
 }
 
 void CanDaemon::end(std::uint64_t duration_us) {
     const std::uint64_t start_us = socketcan::monotonic_us();
-    controller_.stop(start_us);
-    for (std::uint64_t now_us = start_us; now_us < start_us + duration_us; now_us = socketcan::monotonic_us()) {
+    controller_.stop(now_us());
+    while (socketcan::monotonic_us() < start_us + clock_.real_us(duration_us)) {
         step();
     }
 }
@@ -77,38 +102,40 @@ void CanDaemon::end(std::uint64_t duration_us) {
 void CanDaemon::receive_all() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
-        journal_.record(received.frame, unix_us(received.time_us));
-        controller_.on_frame(received.frame, received.time_us, received.is_own);
+        const std::int64_t unix_us = static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us();
+        journal_.record(received.frame, static_cast<std::uint64_t>(unix_us));
+        clock_.on_frame(received.frame);
+        if (is_boot_up(received)) {
+            clock_.begin();
+        }
+        if (received.frame.id == sync_id_ && !received.frame.extended && !received.frame.remote) {
+            sync_heard_us_ = socketcan::monotonic_us();
+            local_drives_.on_sync(socketcan::monotonic_us());
+        }
+        controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);
     }
 }
 
 void CanDaemon::send_all() {
     hal::CanFrame frame;
+    while (local_drives_.take_frame(frame)) {
+        socket_.send(frame);
+    }
     while (controller_.take_frame(frame)) {
         const bool is_new = frame.id == override_id_ && controller_.tick_time_us() != measured_tick_us_;
         if (socket_.send(frame) && is_new) {
             measured_tick_us_ = controller_.tick_time_us();
-            const std::uint64_t now_us = socketcan::monotonic_us();
-            latency_.add(now_us > measured_tick_us_ ? now_us - measured_tick_us_ : 0);
+            const std::uint64_t sent_us = now_us();
+            latency_.add(clock_.real_us(sent_us > measured_tick_us_ ? sent_us - measured_tick_us_ : 0));
         }
     }
 }
 
-std::uint64_t CanDaemon::unix_us(std::uint64_t time_us) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(time_us) + socket_.unix_offset_us());
-}
-
 void CanDaemon::on_tick(const firmware::CanController& controller) {
-    if (controller.tick_time_us() < next_estimate_us_) {
-        return;
+    local_outputs_.update(controller.told(), socketcan::monotonic_us());
+    if (entries_.add(controller, newest_)) {
+        journal_.estimate(newest_);
     }
-    next_estimate_us_ = controller.tick_time_us() + estimate_interval_us_;
-    newest_ = {};
-    newest_.unix_us = unix_us(controller.tick_time_us());
-    describe_tick(controller.controller(), newest_.point);
-    newest_.override_ratio = controller.output().ratio;
-    newest_.hold = controller.output().hold;
-    journal_.estimate(newest_);
 }
 
 firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
@@ -121,6 +148,8 @@ firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
     found.set(Condition::error_passive, link.state == LinkState::error_passive);
     found.set(Condition::bus_off, link.state == LinkState::bus_off);
     found.set(Condition::send_queue_full, link.send_queue_full);
+    found.set(Condition::local_input_failed, local_drives_.health().is_failed);
+    found.set(Condition::local_output_failed, local_outputs_.health().is_failed);
     if (const std::uint32_t lost = link.overruns + link.controller_overflows; lost != frames_lost_) {
         frames_lost_ = lost;
         frames_lost_us_ = now_us;
@@ -150,7 +179,7 @@ void CanDaemon::report(std::uint64_t now_us) {
     has_told_ = true;
     told_ = now;
     StatusEntry entry;
-    entry.unix_us = unix_us(now_us);
+    entry.unix_us = now_us;
     entry.conditions = now;
     entry.link = socket_.health();
     entry.bus = controller_.drives().health();
@@ -163,6 +192,8 @@ void CanDaemon::report(std::uint64_t now_us) {
     entry.ticks = controller_.ticks();
     entry.syncs_skipped = controller_.syncs_skipped();
     entry.newest = newest_;
+    entry.input = local_drives_.health();
+    entry.output = local_outputs_.health();
     if (is_news) {
         journal_.status(entry);
     }

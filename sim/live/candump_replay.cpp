@@ -166,21 +166,18 @@ void CandumpReplay::take_rated_values() {
     }
 }
 
-std::unique_ptr<firmware::CanController> CandumpReplay::begun(firmware::TickListener& listener) const {
+void CandumpReplay::run(const std::function<void(const firmware::CanController&)>& on_tick,
+                        const std::function<void(double share)>& progress) {
+    Listener listener(on_tick, ticks_);
+    CandumpLines lines(settings_.log);
     firmware::CanControllerSettings settings;
     settings.drives = settings_.bus.drives;
     settings.drives.produces_sync = false;  // every SYNC of the log counts
     settings.feed_override = settings_.bus.feed_override;
     settings.program = settings_.bus.program;
-    return std::make_unique<firmware::CanController>(settings, settings_.parameters, &listener);
-}
-
-void CandumpReplay::run(const std::function<void(const firmware::CanController&)>& on_tick,
-                        const std::function<void(double share)>& progress) {
-    Listener listener(on_tick, ticks_);
-    CandumpLines lines(settings_.log);
-    bool is_running = !has_start_;
-    controller_ = begun(listener);
+    settings.begins_at_once = !has_start_;
+    BusClock clock(settings_.time);
+    controller_ = std::make_unique<firmware::CanController>(settings, settings_.parameters, &listener);
     while (lines.next()) {
         const candump::LogLine& line = lines.line();
         const bool is_asked = settings_.interface.empty() || line.interface == settings_.interface;
@@ -191,15 +188,12 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
             ++not_used_;
             continue;
         }
-        if (is_start(line.frame)) {
-            controller_ = begun(listener);
-            is_running = true;
-        }
-        if (!is_running) {
-            continue;
-        }
         ++frames_;
-        controller_->on_frame(line.frame, line.time_us, false);
+        clock.on_frame(line.frame);
+        if (is_start(line.frame)) {
+            clock.begin();
+        }
+        controller_->on_frame(line.frame, clock.of_unix(line.time_us), is_start(line.frame));
         // What it would send was sent then.
         hal::CanFrame sent;
         while (controller_->take_frame(sent)) {

@@ -8,6 +8,7 @@
 
 #include "files/machine_bus.hpp"
 #include "firmware_can/can_controller.hpp"
+#include "live/bus_clock.hpp"
 
 namespace millforce::sim {
 
@@ -23,6 +24,7 @@ class CandumpReplay {
         std::string interface;  ///< empty: the only one of the log
         MachineBus bus{};
         firmware::Parameters<float> parameters{};
+        BusTime time{};  ///< of the run
     };
 
     /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that is not
@@ -46,7 +48,6 @@ class CandumpReplay {
     void note_rated_value(const hal::CanFrame& frame);
     void take_rated_values();
     [[nodiscard]] bool is_start(const hal::CanFrame& frame) const;
-    [[nodiscard]] std::unique_ptr<firmware::CanController> begun(firmware::TickListener& listener) const;
 
     Settings settings_;
     bool has_start_ = false;

@@ -9,8 +9,10 @@
 #include <thread>
 
 #include "firmware_can/can_controller.hpp"
+#include "live/estimate_entry.hpp"
+#include "live/local_drives.hpp"
+#include "live/local_outputs.hpp"
 #include "live/spsc_ring.hpp"
-#include "report/run_result.hpp"
 #include "socketcan/can_socket.hpp"
 
 namespace millforce::sim {
@@ -19,16 +21,7 @@ struct JournalSettings {
     std::string interface;
     std::string record_file;  ///< candump log of every frame; empty: none
     std::string log_file;     ///< JSON lines; empty: none
-    std::uint32_t estimate_interval_us = 20'000;
     bool status_line = false;  ///< on standard output, once a second
-};
-
-/// The newest tick at the controller's border.
-struct EstimateEntry {
-    std::uint64_t unix_us = 0;
-    TracePoint point{};
-    float override_ratio = 0.0F;
-    bool hold = true;
 };
 
 /// How bus and drives are.
@@ -44,6 +37,8 @@ struct StatusEntry {
     std::uint32_t ticks = 0;
     std::uint32_t syncs_skipped = 0;
     EstimateEntry newest{};
+    LocalInputHealth input{};
+    LocalOutputHealth output{};
 };
 
 /// What a run leaves behind, written by a thread of its own: the real-time thread hands over without waiting. What did

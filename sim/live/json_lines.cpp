@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <utility>
 
 #include "control/cut_state.hpp"
@@ -37,7 +38,7 @@ std::string estimate_members(const EstimateEntry& entry) {
           std::pair{"peak_force_N", p.peak_force_N}, std::pair{"force_limit_N", p.force_limit_N}}) {
         text += fmt::format(R"(,"{}":{})", key, number_or_null(value));
     }
-    return text;
+    return text + fmt::format(R"(,"digest":"{:016x}")", entry.digest);
 }
 
 /// Whether a drive is why a condition is there.
@@ -125,6 +126,36 @@ std::string json_line(const StatusEntry& entry) {
         entry.bus.samples_incomplete, rejects_json(entry.rejects));
 }
 
+namespace {
+
+std::string file_fault(const iio::Fault& fault, int error) {
+    const int number = fault.number != 0 ? fault.number : error;
+    std::string text = fault.file.view().empty() ? "" : fmt::format(": {}", fault.file.view());
+    if (fault.error != iio::IioError::none) {
+        text += fmt::format(": {}", iio::name_of(fault.error));
+    }
+    return text + (number != 0 ? fmt::format(" ({})", std::strerror(number)) : "");
+}
+
+/// Whose fault a condition is, in brackets.
+std::string culprit(const StatusEntry& entry, Condition condition) {
+    if (condition == Condition::local_input_failed) {
+        return entry.input.what + file_fault(entry.input.fault, 0);
+    }
+    if (condition == Condition::local_output_failed) {
+        return entry.output.what + file_fault(entry.output.fault, entry.output.error);
+    }
+    std::string drives;
+    for (std::size_t place = 0; place < entry.drives.size(); ++place) {
+        if (entry.is_used[place] && causes(entry.drives[place], condition)) {
+            drives += (drives.empty() ? "" : ", ") + std::string(drive_names[place]);
+        }
+    }
+    return drives;
+}
+
+}  // namespace
+
 std::string condition_list(const StatusEntry& entry) {
     std::string text;
     for (std::size_t k = 0; k < firmware::condition_count; ++k) {
@@ -132,12 +163,7 @@ std::string condition_list(const StatusEntry& entry) {
         if (!entry.conditions.has(condition)) {
             continue;
         }
-        std::string drives;
-        for (std::size_t place = 0; place < entry.drives.size(); ++place) {
-            if (entry.is_used[place] && causes(entry.drives[place], condition)) {
-                drives += (drives.empty() ? "" : ", ") + std::string(drive_names[place]);
-            }
-        }
+        const std::string drives = culprit(entry, condition);
         text += (text.empty() ? "" : ", ") + std::string(firmware::name(condition)) +
                 (drives.empty() ? "" : " (" + drives + ")");
     }

@@ -17,23 +17,24 @@ constexpr std::uint64_t longest_wait_us = 5'000;
 PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<CanPort> port)
     : settings_(settings),
       port_(std::move(port)),
+      clock_(settings.time),
       machine_(settings.machine),
       cnc_(settings.cnc),
-      start_us_(port_->now_us()),
-      plant_us_(start_us_),
-      due_us_(start_us_) {}
+      heard_us_(port_->now_us()),
+      plant_us_(now_us()),
+      due_us_(plant_us_) {}
 
 hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    const std::uint64_t now_us = port_->now_us();
+    const std::uint64_t time_us = now_us();
     machine_.set(sample);
-    cnc_.set(program, now_us);
+    cnc_.set(program, time_us);
     if (sync_is_pending_) {
         sync_is_pending_ = false;
-        longest_delay_us_ = std::max(longest_delay_us_, now_us > due_us_ ? now_us - due_us_ : 0);
-        machine_.on_frame(sync_, now_us);
+        longest_delay_us_ = std::max(longest_delay_us_, clock_.real_us(time_us > due_us_ ? time_us - due_us_ : 0));
+        machine_.on_frame(sync_, time_us);
     }
-    machine_.poll(now_us);
-    cnc_.poll(now_us);
+    machine_.poll(time_us);
+    cnc_.poll(time_us);
     send_all();
     await_sync();
     const override_frame::ReceivedOverride got = cnc_.feed_override(due_us_);
@@ -44,33 +45,39 @@ hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::Pr
 /// Until the next SYNC, or until the plant has to go on without one. `due_us_` is the time of it.
 void PlantOnCan::await_sync() {
     for (;;) {
-        const std::uint64_t now_us = port_->now_us();
-        port_->poll(now_us);
+        const std::uint64_t time_us = now_us();
+        port_->poll(port_->now_us());
         if (receive_until_sync()) {
             return;
         }
-        machine_.poll(now_us);
-        cnc_.poll(now_us);
+        machine_.poll(time_us);
+        cnc_.poll(time_us);
         send_all();
-        if (now_us >= plant_us_ + longest_wait_us) {
-            due_us_ = now_us;
-            check_patience(now_us);
+        if (settings_.time.in_lock_step) {
+            check_patience();
+        } else if (time_us >= plant_us_ + longest_wait_us) {
+            due_us_ = time_us;
+            check_patience();
             return;
         }
-        port_->wait(plant_us_ + longest_wait_us - now_us);
+        const std::uint64_t end_us = plant_us_ + longest_wait_us;
+        port_->wait(clock_.real_us(end_us > time_us ? end_us - time_us : longest_wait_us));
     }
 }
 
 bool PlantOnCan::receive_until_sync() {
     hal::CanFrame frame;
-    std::uint64_t time_us = 0;
-    while (port_->receive(frame, time_us)) {
+    std::uint64_t stamp_us = 0;
+    while (port_->receive(frame, stamp_us)) {
+        clock_.on_frame(frame);
+        const std::uint64_t time_us = clock_.of_monotonic(stamp_us);
         if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
             sync_ = frame;
             sync_is_pending_ = true;
             due_us_ = std::max(time_us, plant_us_);
             ++syncs_;
-            check_patience(due_us_);
+            check_patience();
+            heard_us_ = is_ready_ ? port_->now_us() : heard_us_;
             return true;
         }
         machine_.on_frame(frame, time_us);
@@ -79,10 +86,13 @@ bool PlantOnCan::receive_until_sync() {
     return false;
 }
 
-void PlantOnCan::check_patience(std::uint64_t now_us) const {
-    if (!is_ready_ && now_us > start_us_ + settings_.patience_us) {
-        throw InputError(fmt::format("{}: no feed override within {} s, expected 'millforce run' on the same interface",
-                                     settings_.interface, settings_.patience_us / 1'000'000));
+/// Of a controller that is not there; in lock-step, of one that went away.
+void PlantOnCan::check_patience() const {
+    const bool waits = !is_ready_ || settings_.time.in_lock_step;
+    if (waits && port_->now_us() > heard_us_ + settings_.patience_us) {
+        throw InputError(fmt::format("{}: no {} within {} s, expected 'millforce run' on the same interface",
+                                     settings_.interface, is_ready_ ? "SYNC" : "feed override",
+                                     settings_.patience_us / 1'000'000));
     }
 }
 

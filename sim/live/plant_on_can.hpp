@@ -6,6 +6,7 @@
 
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
+#include "live/bus_clock.hpp"
 #include "live/can_port.hpp"
 #include "loop/override_source.hpp"
 
@@ -16,7 +17,8 @@ struct PlantOnCanSettings {
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
     std::uint32_t sync_id = 0x080;
-    std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start
+    std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
+    BusTime time{};
 };
 
 /// The simulated machine's side of a real CAN interface: its drives and its CNC, in real time, nothing shared with the
@@ -39,18 +41,20 @@ class PlantOnCan : public OverrideSource {
     [[nodiscard]] std::uint64_t syncs() const { return syncs_; }
 
   private:
+    [[nodiscard]] std::uint64_t now_us() const { return clock_.of_monotonic(port_->now_us()); }
     void await_sync();
     bool receive_until_sync();
     void send_all();
-    void check_patience(std::uint64_t now_us) const;
+    void check_patience() const;
 
     PlantOnCanSettings settings_;
     std::unique_ptr<CanPort> port_;
+    BusClock clock_;
     MachineOnBus machine_;
     CncOnBus cnc_;
     hal::CanFrame sync_{};
     bool sync_is_pending_ = false;
-    std::uint64_t start_us_;
+    std::uint64_t heard_us_;  ///< by the port's clock: the last SYNC, or the start
     std::uint64_t plant_us_;  ///< where the plant stands, on the bus's clock
     std::uint64_t due_us_;    ///< where it is to stand at the next sample
     bool is_ready_ = false;

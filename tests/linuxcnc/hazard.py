@@ -99,6 +99,8 @@ def act(case):
         os.kill(client(), signal.SIGKILL)
     elif case == "controller_killed":
         kill_controller()
+    elif case == "heartbeat_back":
+        subprocess.run(["halcmd", "-f"], input="unlinkp millforce.heartbeat\nsets millforce-heartbeat 1\n", text=True, check=True)
     elif case == "controller_restarted":
         kill_controller()
         start_controller()

@@ -19,8 +19,10 @@ double peak_over_limit(const LiveFolder& folder) {
 /// The replay's rows but for the last ones, which see the bus after the run had ended.
 void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::string& log) {
     const test::Ended replay = test::run_millforce({"replay", log, "--machine", folder.file("machine.toml"), "--tool",
-                                                    folder.file("tool.toml"), "-o", folder.file("replay.csv")});
+                                                    folder.file("tool.toml"), "-o", folder.file("replay.csv"), "--verify",
+                                                    folder.file("run.jsonl")});
     STRCMP_EQUAL("", replay.error.c_str());
+    LONGS_EQUAL(0, replay.exit_code);  // every tick, by its digest
     const std::vector<std::string> run = estimates_of(folder.text("run.jsonl"));
     const std::vector<std::string> again = rows_of(folder.text("replay.csv"));
     CHECK(run.size() > 100);
@@ -64,6 +66,40 @@ TEST(RunOnVcan, a_part_is_milled_by_two_processes_and_what_candump_recorded_repl
     CHECK(over_bus < in_process + 0.15);
     replays_to_the_estimates_of_the_run(folder, folder.file("run.log"));
     replays_to_the_estimates_of_the_run(folder, recorded);
+}
+
+TEST(RunOnVcan, in_lock_step_a_part_at_1_kHz_has_the_figures_of_one_process_and_every_tick_replays_whatever_the_load) {
+    const LiveFolder folder;
+    folder.write("machine.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml"));
+    const std::string recorded = folder.file("candump.log");
+    Child candump("candump -L vcan0 >" + recorded);
+    sleep_ms(200);
+    std::vector<std::string> run = folder.run_words();
+    run.emplace_back("--lock-step");
+    std::vector<std::string> mill = folder.plant_words();
+    mill.emplace_back("--lock-step");
+    test::Program controller(run);
+    test::Program plant(mill);
+    plant.wait();
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    sleep_ms(300);
+    candump.send_signal(SIGTERM);
+    candump.wait();
+    STRCMP_EQUAL("", plant.error().c_str());
+    LONGS_EQUAL(0, plant.exit_code());
+    CHECK(has(controller.out(), " 0 not sent, 0 lost"));
+    const double over_bus = peak_over_limit(folder);
+    LONGS_EQUAL(0,
+                test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
+    DOUBLES_EQUAL(peak_over_limit(folder), over_bus, 0.03);
+    for (const std::string& log : {folder.file("run.log"), recorded}) {
+        const test::Ended replay = test::run_millforce(
+            {"replay", log, "--machine", folder.file("machine.toml"), "--tool", folder.file("tool.toml"), "--lock-step",
+             "--verify", folder.file("run.jsonl"), "-o", folder.file("replay.csv")});
+        STRCMP_EQUAL("", replay.error.c_str());
+        LONGS_EQUAL(0, replay.exit_code);
+    }
 }
 
 TEST(RunOnVcan, sigterm_ends_with_hold_a_stopped_heartbeat_and_complete_files) {
@@ -120,8 +156,9 @@ TEST(RunOnVcan, an_interface_that_goes_down_is_told_and_waited_for) {
     CHECK(folder.logged("\"type\":\"estimate\""));
     LONGS_EQUAL(0, shell("ip link set vcan0 down"));
     CHECK(folder.logged("\"interface_down\""));
-    CHECK(folder.logged("\"fault\":\"stale_input\""));
+    CHECK(folder.logged("\"input_stale\""));
     LONGS_EQUAL(0, shell("ip link set vcan0 up"));
+    CHECK(folder.logged("\"fault\":\"stale_input\""));
     controller.interrupt(SIGTERM);
     controller.wait();
     LONGS_EQUAL(0, controller.exit_code());

@@ -28,7 +28,23 @@ gpio_v2_line_attribute levels_attribute(std::uint32_t levels) {
     return attribute;
 }
 
+int open_chip(const char* file) {
+    return ::open(file, O_RDWR | O_CLOEXEC);
+}
+int call_chip(int descriptor, unsigned long request, void* argument) {
+    return ::ioctl(descriptor, request, argument);
+}
+void close_chip(int descriptor) {
+    ::close(descriptor);
+}
+
+constexpr ChipCalls calls_of_linux{open_chip, call_chip, close_chip};
+
 }  // namespace
+
+const ChipCalls& linux_calls() {
+    return calls_of_linux;
+}
 
 bool GpioChipSettings::set_chip(std::string_view name) {
     if (name.empty() || name.size() >= chip.size()) {
@@ -45,7 +61,7 @@ bool GpioChip::open(std::uint32_t levels) {
         last_error_ = EINVAL;
         return false;
     }
-    const int chip = ::open(settings_.chip.data(), O_RDWR | O_CLOEXEC);
+    const int chip = calls_.open(settings_.chip.data());
     if (chip < 0) {
         last_error_ = errno;
         return false;
@@ -61,16 +77,16 @@ bool GpioChip::open(std::uint32_t levels) {
             flags_attribute(GPIO_V2_LINE_FLAG_OUTPUT | GPIO_V2_LINE_FLAG_ACTIVE_LOW),
             settings_.active_low & all_lines()};
     }
-    const bool is_taken = ioctl(chip, GPIO_V2_GET_LINE_IOCTL, &request) == 0;
+    const bool is_taken = calls_.ioctl(chip, GPIO_V2_GET_LINE_IOCTL, &request) == 0;
     last_error_ = is_taken ? 0 : errno;
-    ::close(chip);
+    calls_.close(chip);
     lines_ = is_taken ? request.fd : -1;
     return is_taken;
 }
 
 bool GpioChip::set(std::uint32_t levels) {
     gpio_v2_line_values values{levels, all_lines()};
-    if (lines_ >= 0 && ioctl(lines_, GPIO_V2_LINE_SET_VALUES_IOCTL, &values) == 0) {
+    if (lines_ >= 0 && calls_.ioctl(lines_, GPIO_V2_LINE_SET_VALUES_IOCTL, &values) == 0) {
         return true;
     }
     last_error_ = lines_ >= 0 ? errno : ENODEV;
@@ -80,7 +96,7 @@ bool GpioChip::set(std::uint32_t levels) {
 
 void GpioChip::close() {
     if (lines_ >= 0) {
-        ::close(lines_);
+        calls_.close(lines_);
     }
     lines_ = -1;
 }

@@ -1,5 +1,6 @@
 #include "receive_control.hpp"
 
+#include <cstdlib>
 #include <cstring>
 
 #include "socketcan/can_socket.hpp"
@@ -9,6 +10,8 @@ namespace millforce::socketcan {
 namespace {
 
 constexpr std::int64_t longest_age_us = 1'000'000;
+/// The clock was set where the offset changed by more; no measurement is that wrong.
+constexpr std::int64_t clock_was_set_us = 500'000;
 constexpr int offset_tries = 100;
 constexpr std::int64_t good_gap_us = 10;
 
@@ -65,6 +68,8 @@ std::int64_t StampClock::unix_offset_us() {
     return offset_us_;
 }
 
+/// A stamp that does not fit tells that the clock was set, or that this program did not run for long: only a measurement
+/// tells which, and a kept offset is better than one that is a few µs off.
 std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t now_us) {
     const auto near_us = static_cast<std::int64_t>(now_us);
     const auto is_plausible = [&](std::int64_t time_us) {
@@ -72,7 +77,9 @@ std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t no
     };
     std::int64_t time_us = microseconds(stamp) - unix_offset_us();
     if (!is_plausible(time_us)) {
+        const std::int64_t kept_us = offset_us_;
         measure();
+        offset_us_ = std::abs(offset_us_ - kept_us) < clock_was_set_us ? kept_us : offset_us_;
         time_us = microseconds(stamp) - offset_us_;
     }
     const bool is_past = time_us > 0 && time_us <= near_us + longest_age_us;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+
+#include "cia402/objects.hpp"
 
 namespace millforce::firmware {
 
@@ -24,6 +27,10 @@ std::uint8_t complete_sample(const cia402::BusSettings& settings) {
     return present;
 }
 
+std::uint32_t own_heartbeat_id(const CanControllerSettings& settings) {
+    return cia402::cob_id::heartbeat + settings.feed_override.node_id;
+}
+
 std::uint64_t microseconds(float seconds) {
     return static_cast<std::uint64_t>(seconds * 1e6F);
 }
@@ -36,6 +43,7 @@ float seconds(std::uint64_t microseconds) {
 constexpr std::uint64_t silent_after_periods = 5;
 /// The fault has long been latched then: a log with a gap of hours is not ticked through.
 constexpr std::uint64_t longest_silence_us = 10'000'000;
+constexpr std::uint64_t boot_up_period_us = 200'000;
 constexpr float at_rest_mm_s = 0.5F;
 constexpr std::uint64_t shown_for_us = 1'000'000;
 
@@ -44,6 +52,7 @@ constexpr std::uint64_t shown_for_us = 1'000'000;
 CanController::CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
                              TickListener* listener)
     : settings_(settings),
+      parameters_(parameters),
       complete_(complete_sample(settings.drives)),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
@@ -52,10 +61,40 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
       program_receiver_(settings.program),
       sender_(settings.feed_override),
       tick_(parameters),
-      listener_(listener) {}
+      listener_(listener),
+      is_running_(settings.begins_at_once) {
+    std::array<hal::CanFilter, filter_capacity> used{};
+    const std::size_t count = filters(used);
+    for (std::size_t k = 0; k < count; ++k) {
+        used_ids_.set(used[k].id & hal::largest_standard_can_id);
+    }
+}
 
-/// What is due before a frame's time is done before the frame is looked at: so it does not matter how often poll()
-/// comes.
+/// Everything that frames changed is forgotten: a replay knows nothing from before the boot-up.
+void CanController::begin() {
+    is_running_ = true;
+    // In their places: some kB each would not fit the stack of a small processor.
+    std::destroy_at(&bus_);
+    std::construct_at(&bus_, listening_for_sync(settings_.drives));
+    program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
+    if (has_begun_) {
+        std::destroy_at(&tick_);
+        std::construct_at(&tick_, parameters_);
+    }
+    bus_time_us_ = 0;
+    has_begun_ = false;
+    sample_ = {};
+    program_ = {};
+}
+
+bool CanController::is_used(const hal::CanFrame& frame) const {
+    return !frame.extended && !frame.remote && frame.id <= hal::largest_standard_can_id && used_ids_.test(frame.id);
+}
+
+bool CanController::is_boot_up(const hal::CanFrame& frame) const {
+    return frame.id == own_heartbeat_id(settings_) && frame.length == 1 && frame.data[0] == 0;
+}
+
 void CanController::advance_to(std::uint64_t time_us) {
     bus_time_us_ = std::max(bus_time_us_, time_us);
     bus_.poll(bus_time_us_);
@@ -63,15 +102,28 @@ void CanController::advance_to(std::uint64_t time_us) {
 }
 
 void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own) {
+    if (!is_used(frame)) {
+        if (!is_own) {
+            bus_.on_frame(frame, time_us);  // counts it as rejected, and does no more
+        }
+        return;
+    }
+    was_heard_ = true;
+    if (is_own && is_boot_up(frame)) {
+        begin();
+    }
+    if (!is_running_) {
+        return;
+    }
     advance_to(time_us);
-    const bool is_sync = frame.id == settings_.drives.sync_id && !frame.extended && !frame.remote;
+    const bool is_sync = frame.id == settings_.drives.sync_id;
     if (is_sync && settings_.drives.produces_sync && !is_own) {
         foreign_syncs_ += foreign_syncs_ < UINT32_MAX ? 1U : 0U;
         foreign_sync_us_ = time_us;
         return;
     }
-    if (is_own && !is_sync) {
-        return;
+    if (frame.id == settings_.feed_override.id || frame.id == own_heartbeat_id(settings_)) {
+        return;  // the time that passed is all that they tell
     }
     program_receiver_.on_frame(frame, time_us);
     bus_.on_frame(frame, time_us);
@@ -79,12 +131,41 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
 }
 
 void CanController::poll(std::uint64_t now_us) {
-    advance_to(now_us > settings_.settle_us ? now_us - settings_.settle_us : 0);
-    if (settings_.drives.produces_sync && !stopped_) {
+    if (settings_.drives.produces_sync && is_running_ && !stopped_) {
         sync_.poll(now_us);
     }
+    watch_silence(now_us);
     sender_.poll(now_us);
+    repeat_boot_up(now_us);
     judge(now_us);
+}
+
+void CanController::watch_silence(std::uint64_t now_us) {
+    if (was_heard_ || heard_us_ == 0) {
+        was_heard_ = false;
+        heard_us_ = now_us;
+    }
+    is_silent_ = now_us > heard_us_ + stale_us_;
+    if (is_silent_ && has_begun_) {
+        sender_.update(told(), now_us);
+    }
+}
+
+hal::FeedOverride CanController::told() const {
+    hal::FeedOverride told = output_;
+    told.hold = told.hold || is_silent_ || is_held_outside_;
+    return told;
+}
+
+/// Until it comes back: the first may have gone to an interface that was not there.
+void CanController::repeat_boot_up(std::uint64_t now_us) {
+    if (is_running_ || now_us < next_boot_up_us_) {
+        return;
+    }
+    if (next_boot_up_us_ != 0) {
+        sender_.boot_up_again();
+    }
+    next_boot_up_us_ = now_us + boot_up_period_us;
 }
 
 void CanController::run_ticks() {
@@ -138,7 +219,7 @@ void CanController::work() {
 void CanController::finish(const hal::FeedOverride& output, std::uint64_t time_us) {
     output_ = output;
     tick_time_us_ = time_us;
-    sender_.update(output_, bus_time_us_);
+    sender_.update(told(), bus_time_us_);
     if (listener_ != nullptr) {
         listener_->on_tick(*this);
     }
@@ -186,7 +267,7 @@ bool CanController::is_at_rest() const {
 void CanController::judge(std::uint64_t now_us) {
     using cia402::NodeState;
     Conditions found;
-    found.set(Condition::sync_lost, bus_.health().sync_lost);
+    found.set(Condition::sync_lost, bus_.health().sync_lost || is_silent_);
     found.set(Condition::sync_foreign, foreign_syncs_ > 0 && now_us < foreign_sync_us_ + shown_for_us);
     for (std::size_t role = 0; role < cia402::drive_capacity; ++role) {
         const cia402::NodeHealth& drive = bus_.health(static_cast<cia402::DriveRole>(role));
@@ -201,7 +282,7 @@ void CanController::judge(std::uint64_t now_us) {
     }
     found.set(Condition::drive_not_enabled, is_any_drive_stopped());
     found.set(Condition::input_incomplete, (sample_.present & complete_) != complete_);
-    found.set(Condition::input_stale, has_begun_ && bus_time_us_ > complete_time_us_ + stale_us_);
+    found.set(Condition::input_stale, has_begun_ && (is_silent_ || bus_time_us_ > complete_time_us_ + stale_us_));
     const program_status::ProgramSource source = program_receiver_.source(bus_time_us_);
     found.set(Condition::program_unknown, source == program_status::ProgramSource::never_heard);
     found.set(Condition::program_silent, source == program_status::ProgramSource::silent);
@@ -213,18 +294,21 @@ bool CanController::take_frame(hal::CanFrame& frame) {
 }
 
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
-    std::uint64_t next_us = std::min(bus_.next_event_us(now_us) + settings_.settle_us,
-                                     now_us + settings_.feed_override.period_us);
-    if (settings_.drives.produces_sync && !stopped_) {
+    std::uint64_t next_us =
+        now_us + std::min(settings_.feed_override.period_us, settings_.drives.sync_period_us);
+    if (settings_.drives.produces_sync && is_running_ && !stopped_) {
         next_us = std::min(next_us, sync_.next_us());
     }
     return std::max(next_us, now_us);
 }
 
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
-    const std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
-    filters[count] = {settings_.program.id, hal::largest_standard_can_id};
-    return count + (settings_.program.id != 0 ? 1U : 0U);
+    std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
+    for (const std::uint32_t id : {settings_.program.id, settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+        filters[count] = {id, hal::largest_standard_can_id};
+        count += id != 0 ? 1U : 0U;
+    }
+    return count;
 }
 
 }  // namespace millforce::firmware

@@ -1,9 +1,6 @@
 #include "gpio/feed_hold_line.hpp"
 
 #include <cerrno>
-#include <vector>
-
-#include "gpio/gpio_chip.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -122,24 +119,4 @@ TEST(FeedHoldLine, whose_lines_are_lost_says_so_and_takes_them_again) {
     CHECK(line.health().is_ready && !is_released());
     tick(line);
     CHECK(is_released());
-}
-
-TEST_GROUP(GpioChip){};
-
-TEST(GpioChip, that_is_not_there_or_is_none_is_an_error_with_its_number) {
-    GpioChipSettings settings;
-    CHECK_FALSE(settings.set_chip(""));
-    CHECK(settings.set_chip("/dev/gpiochip_none"));
-    GpioChip without_lines(settings);
-    CHECK_FALSE(without_lines.open(0));
-    LONGS_EQUAL(EINVAL, without_lines.last_error());
-    settings.line_count = 2;
-    GpioChip missing(settings);
-    CHECK_FALSE(missing.open(0));
-    LONGS_EQUAL(ENOENT, missing.last_error());
-    CHECK_FALSE(missing.set(1));
-    CHECK(settings.set_chip("/dev/null"));
-    GpioChip no_chip(settings);
-    CHECK_FALSE(no_chip.open(0));
-    LONGS_EQUAL(ENOTTY, no_chip.last_error());
 }

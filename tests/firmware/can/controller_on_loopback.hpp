@@ -9,6 +9,7 @@
 #include "bus/cnc_on_bus.hpp"
 #include "bus/loopback_bus.hpp"
 #include "bus/machine_on_bus.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "firmware_can/can_controller.hpp"
 #include "live/plant_wiring.hpp"

@@ -212,6 +212,43 @@ TEST(Supervision, stop_says_hold_at_once_and_stopped_in_the_heartbeat) {
     CHECK(said_stopped);
 }
 
+TEST(Supervision, a_bus_on_which_nothing_passes_is_a_hold_by_the_clock_and_a_latched_fault_when_frames_come_again) {
+    Machine machine;
+    const std::uint32_t ticks = machine.controller.ticks();
+    machine.wire.set_fault([](const hal::CanFrame& f) { return sim::LoopbackBus::Fate{0, 0, f}; });
+    hal::CanFrame sent{};
+    hal::CanFrame last_override{};
+    for (const std::uint64_t end_us = machine.now_us + 60'000; machine.now_us < end_us; machine.now_us += 1000) {
+        machine.controller.poll(machine.now_us);
+        while (machine.controller.take_frame(sent)) {
+            last_override = sent.id == 0x1FE ? sent : last_override;
+        }
+    }
+    UNSIGNED_LONGS_EQUAL(ticks, machine.controller.ticks());
+    UNSIGNED_LONGS_EQUAL(1, last_override.data[2]);  // hold
+    CHECK(machine.has(Condition::input_stale));
+    CHECK(machine.has(Condition::sync_lost));
+    machine.wire.set_fault({});
+    machine.run_ms(20);
+    UNSIGNED_LONGS_EQUAL(stale_input, machine.fault());
+    CHECK(machine.newest.hold);
+}
+
+TEST(Supervision, the_boot_up_is_repeated_until_it_comes_back) {
+    ControllerOnLoopback machine(slot());
+    int lost = 0;
+    machine.wire.set_fault([&](const hal::CanFrame& f) {
+        const bool is_boot_up = f.id == 0x77E && f.data[0] == 0;
+        lost += is_boot_up && lost < 2 ? 1 : 0;
+        return sim::LoopbackBus::Fate{is_boot_up && machine.now_us < 1'700'000'000'350'000 ? 0 : 1, 0, f};
+    });
+    machine.run_us(300'000);
+    LONGS_EQUAL(2, lost);
+    UNSIGNED_LONGS_EQUAL(0, machine.controller.drives().health().syncs);
+    machine.run_us(1'000'000);
+    CHECK(machine.controller.ticks() > 100);
+}
+
 TEST(Supervision, every_condition_has_a_name_of_its_own) {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < firmware::condition_count; ++k) {

@@ -74,6 +74,24 @@ TEST(LinkController, tells_no_estimate_as_a_number_that_is_none) {
     CHECK(std::isnan(m.tooth_force_N) && std::isnan(m.radial_immersion) && std::isnan(m.axial_depth_mm));
 }
 
+TEST(LinkController, tells_a_force_of_which_only_a_bound_is_known_as_no_estimate) {
+    auto mill = a_mill();
+    mill.machine.spindle.K_t1_Nm_per_A = 0.5F;
+    mill.tool.law.k_s_N_per_mm2 = 1700.0F;
+    mill.tool.law.k_1 = 0.4F;
+    firmware::LinkController controller(mill, 1.0F);
+    cnc.message.present = 0x03;  // no axis currents: no immersion, and the tooth's force only at the narrowest cut
+    cnc.message.rapid = false;
+    cnc.message.spindle_current_A = 20.0F;
+    cnc.message.axis_velocity_mm_s = {5.0F, 0.0F, 0.0F};
+    local_link::OverrideMessage m;
+    for (int k = 0; k < 200; ++k) {
+        m = answer(controller, cnc.next());
+    }
+    CHECK(m.tangential_N > 100.0F);
+    CHECK(std::isnan(m.tooth_force_N));
+}
+
 TEST(LinkController, leaves_bytes_that_are_not_sound_unanswered) {
     firmware::LinkController controller(a_mill(), 1.0F);
     answer(controller, cnc.next());

@@ -1,4 +1,5 @@
 #include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "sim/files/temporary_folder.hpp"
 
@@ -120,4 +121,76 @@ TEST(MachineBusFile, is_documented_key_by_key) {
                              "| `index_number_object` | `\"0x60D5\"` | none |", "listener, master"}) {
         CHECK_TEXT(contains(text, part), part);
     }
+}
+
+namespace {
+
+/// The spindle's current by a converter and its angle by a counter; of x the current alone, beside the drive's velocity.
+const std::string local = spindle + R"([bus]
+produces_sync = true
+[bus.spindle]
+node_id = 5
+[bus.x]
+node_id = 6
+tpdo1 = ["0x6041:16", "0x606C:32"]
+velocity_mm_s_per_unit = -0.002
+heartbeat_timeout_ms = 500
+[iio]
+device = "/sys/bus/iio/devices/iio:device0"
+mode = "polled"
+[iio.spindle]
+current_channel = "voltage0"
+A_per_V = 10
+count_file = "/sys/bus/counter/devices/counter0/count0/count"
+[iio.x]
+current_channel = "voltage3"
+A_per_V = -2
+largest_A = 40
+[override_voltage]
+device = "/sys/bus/iio/devices/iio:device1"
+channel = "voltage0"
+)";
+
+std::string local_error(const std::string& from, const std::string& to) {
+    std::string text = local;
+    text.replace(text.find(from), from.size(), to);
+    return message_of<InputError>([&] { read(text); });
+}
+
+}  // namespace
+
+TEST_GROUP(LocalIoFile){};
+
+TEST(LocalIoFile, a_motor_with_a_converter_speaks_on_the_bus_with_the_fourth_pdo_of_its_node) {
+    const MachineBus machine = read(local).value();
+    const cia402::DriveSettings& spindle_drive = machine.drives.drives[0];
+    UNSIGNED_LONGS_EQUAL(0x485, spindle_drive.pdos[local_pdo].id);
+    UNSIGNED_LONGS_EQUAL(2, spindle_drive.pdos[local_pdo].object_count);
+    UNSIGNED_LONGS_EQUAL(0x6064, spindle_drive.pdos[local_pdo].objects[0].index);
+    UNSIGNED_LONGS_EQUAL(0x6078, spindle_drive.pdos[local_pdo].objects[1].index);
+    DOUBLES_EQUAL(1.0, spindle_drive.rated_current_A, 0.0);  // so 0x6078 tells mA
+    const cia402::DriveSettings& x_drive = machine.drives.drives[1];
+    UNSIGNED_LONGS_EQUAL(1, x_drive.pdos[local_pdo].object_count);
+    DOUBLES_EQUAL(40.0, x_drive.largest_share_of_rated, 0.0);
+    DOUBLES_EQUAL(-0.002, x_drive.velocity_mm_s_per_unit, 1e-9);  // of the drive's own PDO
+    UNSIGNED_LONGS_EQUAL(500'000, x_drive.heartbeat_timeout_us);
+    CHECK(machine.local.has_voltage());
+    CHECK_FALSE(machine.local.has_lines());
+}
+
+TEST(LocalIoFile, what_is_missing_or_told_twice_is_named_with_its_table_and_key) {
+    STRCMP_CONTAINS("iio.x.current_channel", local_error("current_channel = \"voltage3\"\n", "").c_str());
+    STRCMP_CONTAINS("iio.spindle.A_per_V", local_error("A_per_V = 10\n", "").c_str());
+    STRCMP_CONTAINS("iio.buffer: is missing", local_error("mode = \"polled\"\n", "").c_str());
+    STRCMP_CONTAINS("[iio] device", local_error("device = \"/sys/bus/iio/devices/iio:device0\"\n", "").c_str());
+    STRCMP_CONTAINS("iio.x: a tpdo of [bus.x] tells the same",
+                    local_error("\"0x606C:32\"]", "\"0x606C:32\", \"0x6078:16\"]").c_str());
+    STRCMP_CONTAINS("iio.x: expected node_id in [bus.x]", local_error("node_id = 6\n", "").c_str());
+    STRCMP_CONTAINS("iio.x: [bus.x] has a tpdo4",
+                    local_error("heartbeat_timeout_ms = 500", "tpdo4 = [\"0x6077:16\"]").c_str());
+    STRCMP_CONTAINS("iio.x: expected neither write_mapping",
+                    local_error("heartbeat_timeout_ms = 500", "write_mapping = true").c_str());
+    STRCMP_CONTAINS("did you mean largest_A?", local_error("A_per_V = 10", "A_per_V = 10\nlargest_a = 9").c_str());
+    STRCMP_CONTAINS("override_voltage.channel",
+                    local_error("iio:device1\"\nchannel = \"voltage0\"", "iio:device1\"").c_str());
 }

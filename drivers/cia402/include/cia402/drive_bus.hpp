@@ -50,6 +50,8 @@ class DriveBus {
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
     /// True once per SYNC period. The sample's time is that of its SYNC.
     [[nodiscard]] bool take_sample(hal::DriveSample& sample);
+    /// Drives have not answered the last SYNC yet.
+    [[nodiscard]] bool is_collecting() const { return cycle_open_; }
     /// When poll() has something to do at the latest: the next SYNC, or the end of collection.
     [[nodiscard]] std::uint64_t next_event_us(std::uint64_t now_us) const;
 

@@ -21,10 +21,22 @@ struct GpioChipSettings {
     bool set_chip(std::string_view name);
 };
 
+/// The calls to the kernel, each as its name says: -1 and errno where it fails.
+struct ChipCalls {
+    int (*open)(const char* file);
+    int (*ioctl)(int descriptor, unsigned long request, void* argument);
+    void (*close)(int descriptor);
+};
+[[nodiscard]] const ChipCalls& linux_calls();
+
 /// Lines of a GPIO chip of Linux, by its character device (uapi v2, Linux 5.10). No heap; a call is one ioctl.
 class GpioChip final : public LinePort {
   public:
-    explicit GpioChip(const GpioChipSettings& settings) : settings_(settings) { settings_.chip.back() = '\0'; }
+    /// `calls` outlive this object.
+    explicit GpioChip(const GpioChipSettings& settings, const ChipCalls& calls = linux_calls())
+        : settings_(settings), calls_(calls) {
+        settings_.chip.back() = '\0';
+    }
     ~GpioChip() { close(); }
     GpioChip(const GpioChip&) = delete;
     GpioChip& operator=(const GpioChip&) = delete;
@@ -38,6 +50,7 @@ class GpioChip final : public LinePort {
     void close();
 
     GpioChipSettings settings_;
+    const ChipCalls& calls_;
     int lines_ = -1;
     int last_error_ = 0;
 };

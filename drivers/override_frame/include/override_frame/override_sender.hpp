@@ -31,6 +31,11 @@ class OverrideSender final : public hal::OverrideOutput {
     [[nodiscard]] hal::OutputHealth health() const override { return {true, ticks_, 0, 0}; }
     /// True once for each frame that is to be sent.
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
+    /// The next heartbeat is the boot-up again.
+    void boot_up_again() {
+        booted_ = false;
+        heartbeat_due_ = true;
+    }
 
   private:
     [[nodiscard]] std::uint8_t nmt_state() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <span>
 
@@ -19,10 +20,16 @@
 ///     while (controller.take_frame(frame)) { ... }     // send
 ///     controller.work();                               // what may take milliseconds, now that the override is out
 ///
-/// What the tick sees depends on the received frames and their times alone: the same frames in the same order with the
-/// same times give the same estimates, bit for bit. So a cycle begins when the own SYNC comes back from the bus, at its
-/// time, and not when it was handed out. `poll(now_us)` counts as later than every frame that was received before
-/// `now_us − settle_us`.
+/// What the tick sees depends on the received frames, their order and their times alone: the same frames with the same
+/// times give the same estimates, bit for bit, however late they were fetched and however often poll() came. So that
+/// this holds by construction, the clock of poll() decides nothing that the tick sees: time passes with the frames of
+/// filters(), to which this controller's own override and heartbeat belong. What is due before a frame's time is done
+/// before the frame is looked at. A cycle begins when the own SYNC comes back from the bus, at its time, and the run
+/// begins, or begins anew, when the own boot-up comes back; it is repeated until then.
+///
+/// Where no frame comes at all, not even an own one, no override could reach the CNC by the bus either. After `stale_s`
+/// by the clock of poll() the override says hold, with a counter that stands still; when frames come again the tick
+/// finds the gap in their times, and its fault is latched.
 ///
 /// Supervision. A sample is complete where every configured drive told everything. The tick begins with the first
 /// complete one and sees complete ones only; what lacks something is left out. After five SYNC periods without a
@@ -38,7 +45,8 @@ struct CanControllerSettings {
     cia402::BusSettings drives{};  ///< check(drives) == none
     override_frame::OverrideSenderSettings feed_override{};
     program_status::ProgramStatusReceiverSettings program{};
-    std::uint32_t settle_us = 0;  ///< a frame may be handed over so much later than its time
+    /// Begin with the first frame: a replay of a log that holds no boot-up.
+    bool begins_at_once = false;
 };
 
 class CanController;
@@ -54,22 +62,24 @@ class TickListener {
 
 class CanController {
   public:
-    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 1;
+    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 3;
 
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
                   TickListener* listener = nullptr);
 
-    /// `is_own`: the echo of a frame that this controller sent.
+    /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
     void poll(std::uint64_t now_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
     /// The tick's work beside its steps. What is not done by then is done before the next sample: it is the same work.
     void work();
+    /// From the next tick on and as long as it is asked for the override says hold. The tick does not see it.
+    void hold_from_outside(bool is_held) { is_held_outside_ = is_held; }
     /// No more ticks nor SYNC: the override says hold at once, and the heartbeat `stopped` a little later.
     void stop(std::uint64_t now_us);
 
     [[nodiscard]] std::uint64_t next_event_us(std::uint64_t now_us) const;
-    /// Ids of the frames that on_frame() can use; returns how many.
+    /// Ids of the frames that on_frame() uses, and that its time passes with; returns how many.
     std::size_t filters(std::span<hal::CanFilter, filter_capacity> filters) const;
 
     /// The newest tick: its time, what went in and what came out.
@@ -77,6 +87,8 @@ class CanController {
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
     [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
+    /// The output as the CNC is told it: with the holds that are none of the tick's.
+    [[nodiscard]] hal::FeedOverride told() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
@@ -86,6 +98,11 @@ class CanController {
     [[nodiscard]] std::uint32_t syncs_skipped() const { return sync_.skipped(); }
 
   private:
+    void begin();
+    void repeat_boot_up(std::uint64_t now_us);
+    void watch_silence(std::uint64_t now_us);
+    [[nodiscard]] bool is_used(const hal::CanFrame& frame) const;
+    [[nodiscard]] bool is_boot_up(const hal::CanFrame& frame) const;
     void advance_to(std::uint64_t time_us);
     void run_ticks();
     void tick_on_sample();
@@ -98,6 +115,8 @@ class CanController {
     void judge(std::uint64_t now_us);
 
     CanControllerSettings settings_;
+    Parameters<float> parameters_;
+    std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
     std::uint8_t complete_;  ///< what a complete sample has present
     std::uint64_t stale_us_;
     std::uint64_t silent_after_us_;
@@ -108,8 +127,14 @@ class CanController {
     ForceControlTick<float> tick_;
     TickListener* listener_;
 
+    bool is_running_;  ///< the own boot-up was on the bus
+    std::uint64_t next_boot_up_us_ = 0;
+    bool was_heard_ = false;      ///< a frame came since the last poll()
+    std::uint64_t heard_us_ = 0;  ///< by the clock of poll()
+    bool is_silent_ = false;
+    bool is_held_outside_ = false;
     std::uint64_t bus_time_us_ = 0;
-    bool has_begun_ = false;
+    bool has_begun_ = false;  ///< a complete sample came
     std::uint64_t sync_time_us_ = 0;      ///< of the newest sample
     std::uint64_t complete_time_us_ = 0;  ///< of the newest complete one
     std::uint64_t next_silent_us_ = 0;
