@@ -12,7 +12,7 @@
 // The tick in fixed point beside the tick in float, on the same samples, over the operating range: tools from 3 to 80 mm
 // and 1 to 8 teeth, soft and hard materials, 300 to 24 000 rpm, any immersion, side and direction of feed. Each new
 // estimate of the engagement is an operating point. MILLFORCE_FIXED_TOOLS names another number of tools than 10, of 150
-// points each, MILLFORCE_FIXED_SEED another seed: the tier `published` goes through 10⁵ points.
+// points each, MILLFORCE_FIXED_SEED another seed.
 
 using namespace millforce;
 using estimation::CutSide;
