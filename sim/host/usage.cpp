@@ -105,14 +105,12 @@ void add_bus_pace(CLI::App& command, BusPace& pace) {
     CLI::Option* slow_motion =
         command
             .add_option("--slow-motion", pace.slow_motion,
-                        "Time on the bus passes N times slower, all periods and time-outs; the same for the "
-                        "controller, the plant and a replay")
+                        "The bus's time passes N times slower; the same for controller, plant and replay")
             ->type_name("N")
             ->check(number_from(1.0, largest_slowness));
     command
         .add_flag("--lock-step", pace.lock_step,
-                  "Time on the bus passes with SYNC alone, which waits for the drives' answers: nothing is late "
-                  "however busy the computer is; the same for the controller, the plant and a replay")
+                  "The bus's time passes with SYNC, which waits for the drives; the same for all three")
         ->excludes(slow_motion);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -63,12 +64,18 @@ class ControllerOnLoopback : public sim::OverrideSource {
         sender_ = wire.attach([](const hal::CanFrame&, std::uint64_t) {});
         wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { hear(frame, t); });
         plant_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) {
+            if (frame.id == 0x080) {
+                machine.set(sample_at(t));
+            }
             machine.on_frame(frame, t);
             cnc.on_frame(frame, t);
         });
     }
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
+        before_ = newest_;
+        newest_ = sample;
+        newest_us_ = now_us;
         machine.set(sample);
         if (cnc_tells_) {
             cnc.set(program, now_us);
@@ -111,6 +118,18 @@ class ControllerOnLoopback : public sim::OverrideSource {
     bool controller_runs = true;
 
   private:
+    /// A drive latches its values at the SYNC, which other frames delay, and not when the plant was stepped last.
+    [[nodiscard]] hal::DriveSample sample_at(std::uint64_t time_us) const {
+        hal::DriveSample sample = newest_;
+        const auto later_us = static_cast<double>(time_us - newest_us_);
+        const auto step_us = static_cast<double>(newest_.time_us - before_.time_us);
+        const auto step_counts = static_cast<std::int32_t>(newest_.spindle_count - before_.spindle_count);
+        if (step_us > 0.0 && later_us < step_us) {
+            sample.time_us += static_cast<std::uint32_t>(later_us);
+            sample.spindle_count += static_cast<std::uint32_t>(std::lround(step_counts * later_us / step_us));
+        }
+        return sample;
+    }
     void hear(const hal::CanFrame& frame, std::uint64_t time_us) {
         const bool is_own = frame.id == 0x080 || frame.id == 0x000 || frame.id == 0x1FE || frame.id == 0x77E ||
                             (frame.id & 0x780U) == 0x600;
@@ -120,6 +139,9 @@ class ControllerOnLoopback : public sim::OverrideSource {
         }
     }
 
+    hal::DriveSample before_{};
+    hal::DriveSample newest_{};
+    std::uint64_t newest_us_ = 0;
     int sender_ = 0;
     int plant_ = 0;
     bool cnc_tells_ = true;
