@@ -473,12 +473,14 @@ class FeedController {
     Scalar path_speed_mm_s_{0};
     CutState state_ = CutState::air;
     Fault fault_ = Fault::none;
+    Limit limit_ = Limit::none;
+    Limit demand_limit_ = Limit::force;
+    bool has_cut_ = false;  // since the tool was last in air
+    bool turned_now_ = false;
     Scalar ratio_{0};
     Scalar highest_feed_mm_s_{0};
     Scalar ratio_at_entry_{-1};
-    bool has_cut_ = false;  // since the tool was last in air
     Scalar demand_{0};
-    Limit demand_limit_ = Limit::force;
     Scalar surface_ceiling_{0};
     Scalar travel_in_state_mm_{0};
     Scalar revolutions_in_state_{0};
@@ -488,13 +490,11 @@ class FeedController {
     CutTrend<Scalar> trend_{};
     Scalar way_since_estimate_mm_{0};
     PathTurn<Scalar> turn_{};
-    bool turned_now_ = false;
     Scalar turn_travel_left_mm_{0};
     Scalar turn_demand_{0};
     Scalar tooth_period_s_{0};
     Basis basis_{};
     Scalar wanted_{0};
-    Limit limit_ = Limit::none;
 };
 
 }  // namespace millforce::control

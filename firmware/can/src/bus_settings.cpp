@@ -1,11 +1,13 @@
 #include "firmware_can/bus_settings.hpp"
 
+#include <cmath>
+
 namespace millforce::firmware {
 
 namespace {
 
 /// To the nearest; the table's ranges keep the values positive.
-std::uint32_t whole(float value) { return static_cast<std::uint32_t>(value + 0.5F); }
+std::uint32_t whole(float value) { return static_cast<std::uint32_t>(std::llround(value)); }
 std::uint32_t microseconds_of(float milliseconds) { return whole(milliseconds * 1e3F); }
 bool is_set(float value) { return value > 0.5F; }
 

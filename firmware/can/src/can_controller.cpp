@@ -54,6 +54,7 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
     : settings_(settings),
       parameters_(parameters),
       complete_(complete_sample(settings.drives)),
+      is_running_(settings.begins_at_once),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
       bus_(listening_for_sync(settings.drives)),
@@ -61,8 +62,7 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
       program_receiver_(settings.program),
       sender_(settings.feed_override),
       tick_(parameters),
-      listener_(listener),
-      is_running_(settings.begins_at_once) {
+      listener_(listener) {
     std::array<hal::CanFilter, filter_capacity> used{};
     const std::size_t count = filters(used);
     for (std::size_t k = 0; k < count; ++k) {

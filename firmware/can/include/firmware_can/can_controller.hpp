@@ -117,7 +117,13 @@ class CanController {
     CanControllerSettings settings_;
     Parameters<float> parameters_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
-    std::uint8_t complete_;  ///< what a complete sample has present
+    std::uint8_t complete_;    ///< what a complete sample has present
+    bool is_running_;          ///< the own boot-up was on the bus
+    bool was_heard_ = false;   ///< a frame came since the last poll()
+    bool has_begun_ = false;   ///< a complete sample came
+    bool is_silent_ = false;
+    bool is_held_outside_ = false;
+    bool stopped_ = false;
     std::uint64_t stale_us_;
     std::uint64_t silent_after_us_;
     cia402::DriveBus bus_;
@@ -127,14 +133,9 @@ class CanController {
     ForceControlTick<float> tick_;
     TickListener* listener_;
 
-    bool is_running_;  ///< the own boot-up was on the bus
     std::uint64_t next_boot_up_us_ = 0;
-    bool was_heard_ = false;      ///< a frame came since the last poll()
     std::uint64_t heard_us_ = 0;  ///< by the clock of poll()
-    bool is_silent_ = false;
-    bool is_held_outside_ = false;
     std::uint64_t bus_time_us_ = 0;
-    bool has_begun_ = false;  ///< a complete sample came
     std::uint64_t sync_time_us_ = 0;      ///< of the newest sample
     std::uint64_t complete_time_us_ = 0;  ///< of the newest complete one
     std::uint64_t next_silent_us_ = 0;
@@ -143,7 +144,6 @@ class CanController {
     hal::ProgramStatus program_{};
     hal::FeedOverride output_{};
     Conditions conditions_{};
-    bool stopped_ = false;
     std::uint32_t foreign_syncs_ = 0;
     std::uint64_t foreign_sync_us_ = 0;
 };
