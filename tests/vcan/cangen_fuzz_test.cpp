@@ -74,15 +74,18 @@ class FuzzedReceivers {
         to_the_bus(frame, time_us);
         to_the_cnc(frame, time_us);
     }
-    /// Of a drive that a heartbeat made of random bytes has stopped no PDO is looked at.
-    void hear_that_drives_are_operational(std::uint64_t time_us) {
+    /// The drives run and a sample is open: else a PDO is late or not to be looked at, whatever its length.
+    void begin_round(std::uint64_t time_us) {
+        hal::CanFrame frame;
+        frame.length = 1;
+        frame.data[0] = 0x05;
         for (const std::uint32_t id : {0x701U, 0x702U}) {
-            hal::CanFrame heartbeat;
-            heartbeat.id = id;
-            heartbeat.length = 1;
-            heartbeat.data[0] = 0x05;
-            bus_.on_frame(heartbeat, time_us);
+            frame.id = id;
+            bus_.on_frame(frame, time_us);
         }
+        frame.id = 0x080;
+        frame.length = 0;
+        bus_.on_frame(frame, time_us);
     }
     [[nodiscard]] std::uint32_t rejected(Reject reason) const { return bus_.rejects()[reason]; }
     [[nodiscard]] std::uint32_t rejected(ReceiveError reason) const { return receiver_.errors(reason); }
@@ -156,7 +159,7 @@ TEST(CangenFuzz, each_frame_is_sound_or_counted_by_its_reason_and_no_override_is
         }
         listener.run_ms(2);
         if (!listener.times_us.empty()) {
-            receivers.hear_that_drives_are_operational(listener.times_us.front());
+            receivers.begin_round(listener.times_us.front());
         }
         for (std::size_t k = 0; k < listener.frames.size(); ++k) {
             receivers.take(listener.frames[k], listener.times_us[k]);
