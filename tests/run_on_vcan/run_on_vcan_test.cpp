@@ -16,13 +16,26 @@ double peak_over_limit(const LiveFolder& folder) {
     return std::stod(member(folder.text("out/summary.json"), "peak_over_limit"));
 }
 
-/// The replay's rows but for the last ones, which see the bus after the run had ended.
-void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::string& log) {
-    const test::Ended replay = test::run_millforce({"replay", log, "--machine", folder.file("machine.toml"), "--tool",
-                                                    folder.file("tool.toml"), "-o", folder.file("replay.csv"), "--verify",
-                                                    folder.file("run.jsonl")});
+using Words = std::vector<std::string>;
+
+Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+/// Every tick of the run, by its digest.
+void replays_every_tick_of_the_run(const LiveFolder& folder, const std::string& log, const Words& pace) {
+    const test::Ended replay = test::run_millforce(
+        with({"replay", log, "--machine", folder.file("machine.toml"), "--tool", folder.file("tool.toml"), "--verify",
+              folder.file("run.jsonl"), "-o", folder.file("replay.csv")},
+             pace));
     STRCMP_EQUAL("", replay.error.c_str());
-    LONGS_EQUAL(0, replay.exit_code);  // every tick, by its digest
+    LONGS_EQUAL(0, replay.exit_code);
+}
+
+/// And the replay's rows but for the last ones, which see the bus after the run had ended.
+void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::string& log) {
+    replays_every_tick_of_the_run(folder, log, {});
     const std::vector<std::string> run = estimates_of(folder.text("run.jsonl"));
     const std::vector<std::string> again = rows_of(folder.text("replay.csv"));
     CHECK(run.size() > 100);
@@ -30,6 +43,35 @@ void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::st
     for (std::size_t k = 0; k < run.size(); ++k) {
         STRCMP_EQUAL(run[k].c_str(), again[k].c_str());
     }
+}
+
+struct Milled {
+    double peak_over_bus = 0.0;
+    double peak_in_process = 0.0;
+    std::string told;  ///< by the controller, at its end
+};
+
+/// The folder's scenario by two processes, recorded by candump in candump.log; and by one.
+Milled mill(const LiveFolder& folder, const Words& pace) {
+    Child candump("candump -L vcan0 >" + folder.file("candump.log"));
+    sleep_ms(200);
+    test::Program controller(with(folder.run_words(), pace));
+    test::Program plant(with(folder.plant_words(), pace));
+    plant.wait();
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    sleep_ms(300);
+    candump.send_signal(SIGTERM);
+    candump.wait();
+    STRCMP_EQUAL("", plant.error().c_str());
+    LONGS_EQUAL(0, plant.exit_code());  // the bounds hold, the program finished
+    LONGS_EQUAL(0, controller.exit_code());
+    CHECK(has(controller.out(), " 0 not sent, 0 lost"));
+    Milled milled{peak_over_limit(folder), 0.0, controller.out()};
+    LONGS_EQUAL(0,
+                test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
+    milled.peak_in_process = peak_over_limit(folder);
+    return milled;
 }
 
 }  // namespace
@@ -42,28 +84,12 @@ TEST_GROUP(RunOnVcan){void teardown() override{shell("ip link set vcan0 up");
 TEST(RunOnVcan, a_part_is_milled_by_two_processes_and_what_candump_recorded_replays_bit_for_bit) {
     const LiveFolder folder;
     const std::string recorded = folder.file("candump.log");
-    Child candump("candump -L vcan0 >" + recorded);
-    sleep_ms(200);
-    test::Program controller(folder.run_words());
-    test::Program plant(folder.plant_words());
-    plant.wait();
-    controller.interrupt(SIGTERM);
-    controller.wait();
-    sleep_ms(300);
-    candump.send_signal(SIGTERM);
-    candump.wait();
-    STRCMP_EQUAL("", plant.error().c_str());
-    LONGS_EQUAL(0, plant.exit_code());  // the bounds hold, the program finished
-    LONGS_EQUAL(0, controller.exit_code());
-    CHECK(has(controller.out(), " 0 not sent, 0 lost"));
+    const Milled milled = mill(folder, {});
     CHECK(has(folder.text("run.jsonl"), "\"state\":\"in_cut\""));
-    const double over_bus = peak_over_limit(folder);
-    LONGS_EQUAL(0,
-                test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
-    const double in_process = peak_over_limit(folder);
-    std::printf("\n    peak over limit %.3f, in process %.3f\n    %s", over_bus, in_process, controller.out().c_str());
-    CHECK(over_bus > 0.5 * in_process);
-    CHECK(over_bus < in_process + 0.15);
+    std::printf("\n    peak over limit %.3f, in process %.3f\n    %s", milled.peak_over_bus, milled.peak_in_process,
+                milled.told.c_str());
+    CHECK(milled.peak_over_bus > 0.5 * milled.peak_in_process);
+    CHECK(milled.peak_over_bus < milled.peak_in_process + 0.15);
     replays_to_the_estimates_of_the_run(folder, folder.file("run.log"));
     replays_to_the_estimates_of_the_run(folder, recorded);
 }
@@ -71,35 +97,10 @@ TEST(RunOnVcan, a_part_is_milled_by_two_processes_and_what_candump_recorded_repl
 TEST(RunOnVcan, in_lock_step_a_part_at_1_kHz_has_the_figures_of_one_process_and_every_tick_replays_whatever_the_load) {
     const LiveFolder folder;
     folder.write("machine.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml"));
-    const std::string recorded = folder.file("candump.log");
-    Child candump("candump -L vcan0 >" + recorded);
-    sleep_ms(200);
-    std::vector<std::string> run = folder.run_words();
-    run.emplace_back("--lock-step");
-    std::vector<std::string> mill = folder.plant_words();
-    mill.emplace_back("--lock-step");
-    test::Program controller(run);
-    test::Program plant(mill);
-    plant.wait();
-    controller.interrupt(SIGTERM);
-    controller.wait();
-    sleep_ms(300);
-    candump.send_signal(SIGTERM);
-    candump.wait();
-    STRCMP_EQUAL("", plant.error().c_str());
-    LONGS_EQUAL(0, plant.exit_code());
-    CHECK(has(controller.out(), " 0 not sent, 0 lost"));
-    const double over_bus = peak_over_limit(folder);
-    LONGS_EQUAL(0,
-                test::run_millforce({"simulate", folder.file("scenario.toml"), "--out", folder.file("out")}).exit_code);
-    DOUBLES_EQUAL(peak_over_limit(folder), over_bus, 0.03);
-    for (const std::string& log : {folder.file("run.log"), recorded}) {
-        const test::Ended replay = test::run_millforce(
-            {"replay", log, "--machine", folder.file("machine.toml"), "--tool", folder.file("tool.toml"), "--lock-step",
-             "--verify", folder.file("run.jsonl"), "-o", folder.file("replay.csv")});
-        STRCMP_EQUAL("", replay.error.c_str());
-        LONGS_EQUAL(0, replay.exit_code);
-    }
+    const Milled milled = mill(folder, {"--lock-step"});
+    DOUBLES_EQUAL(milled.peak_in_process, milled.peak_over_bus, 0.03);
+    replays_every_tick_of_the_run(folder, folder.file("run.log"), {"--lock-step"});
+    replays_every_tick_of_the_run(folder, folder.file("candump.log"), {"--lock-step"});
 }
 
 TEST(RunOnVcan, sigterm_ends_with_hold_a_stopped_heartbeat_and_complete_files) {
