@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -64,7 +65,8 @@ class EmulatorPipes {
 
     template <typename Message>
     void tell(const Message& message) {
-        works_ = works_ && write(to_, &message, sizeof(message)) == static_cast<ssize_t>(sizeof(message));
+        const auto bytes = std::as_bytes(std::span(&message, 1));
+        works_ = works_ && write(to_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
     }
 
     /// All zero where the emulator has ended.

@@ -3,14 +3,14 @@
 #include <span>
 
 #include "cia402/signal_table.hpp"
+#include "hal/finite.hpp"
 
 namespace millforce::cia402 {
 
 namespace {
 
-bool is_finite(float value) { return value - value == 0.0F; }
-bool is_positive(float value) { return is_finite(value) && value > 0.0F; }
-bool is_rated(float value, bool can_ask) { return is_finite(value) && (can_ask ? value >= 0.0F : value > 0.0F); }
+bool is_positive(float value) { return hal::is_finite(value) && value > 0.0F; }
+bool is_rated(float value, bool can_ask) { return hal::is_finite(value) && (can_ask ? value >= 0.0F : value > 0.0F); }
 
 SettingsError check_pdos(const DriveSettings& drive) {
     for (const PdoMapping& pdo : drive.pdos) {
@@ -64,7 +64,7 @@ SettingsError check_axis(const DriveSettings& drive, const SignalTable& signals)
         return SettingsError::object_missing;
     }
     const float unit = by_position ? drive.position_mm_per_unit : drive.velocity_mm_s_per_unit;
-    if (!is_finite(unit) || unit == 0.0F || !is_finite(drive.position_mm_per_unit)) {
+    if (!hal::is_finite(unit) || unit == 0.0F || !hal::is_finite(drive.position_mm_per_unit)) {
         return SettingsError::unit;
     }
     return is_positive(drive.largest_velocity_mm_s) ? SettingsError::none : SettingsError::limit;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "hal/finite.hpp"
+
 namespace millforce::override_frame {
 
 namespace {
@@ -32,7 +34,7 @@ std::uint8_t crc8_2f(std::span<const std::uint8_t> bytes) {
 }
 
 hal::CanFrame encode(const hal::FeedOverride& feed_override, std::uint32_t id) {
-    const bool is_finite = feed_override.ratio - feed_override.ratio == 0.0F;
+    const bool is_finite = hal::is_finite(feed_override.ratio);
     const float ratio = is_finite ? std::clamp(feed_override.ratio, 0.0F, largest_ratio) : 0.0F;
     const auto bits = static_cast<std::uint16_t>(std::min(ratio / ratio_per_bit + 0.5F, 65535.0F));
     hal::CanFrame frame;

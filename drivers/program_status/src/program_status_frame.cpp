@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "hal/finite.hpp"
 #include "override_frame/override_frame.hpp"
 
 namespace millforce::program_status {
@@ -23,8 +24,7 @@ std::uint8_t checksum(const hal::CanFrame& frame) {
 
 /// NaN and infinity become 0.
 std::uint32_t whole_steps(float value, float step, float largest) {
-    const bool is_finite = value - value == 0.0F;
-    return is_finite ? static_cast<std::uint32_t>(std::clamp(value / step + 0.5F, 0.0F, largest)) : 0U;
+    return hal::is_finite(value) ? static_cast<std::uint32_t>(std::clamp(value / step + 0.5F, 0.0F, largest)) : 0U;
 }
 
 }  // namespace

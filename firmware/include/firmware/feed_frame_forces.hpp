@@ -9,6 +9,7 @@
 #include "firmware/parameters.hpp"
 #include "firmware/wide_band_settings.hpp"
 #include "hal/drive_sample.hpp"
+#include "hal/finite.hpp"
 
 namespace millforce::firmware {
 
@@ -41,7 +42,7 @@ class FeedFrameForces {
         Forces forces;
         const unsigned needed =
             has_sensor_ ? hal::mask(hal::Present::force_sensor) : hal::axis_mask(0) | hal::axis_mask(1);
-        const bool finite = is_finite(sample.axis_velocity_mm_s[0]) && is_finite(sample.axis_velocity_mm_s[1]);
+        const bool finite = hal::is_finite(sample.axis_velocity_mm_s[0]) && hal::is_finite(sample.axis_velocity_mm_s[1]);
         if (!has(sample, needed) || !has(sample, hal::mask(hal::Present::spindle_count)) || !finite) {
             encoder_.reset();
             return forces;
@@ -78,7 +79,6 @@ class FeedFrameForces {
     [[nodiscard]] static bool has(const hal::DriveSample& sample, unsigned mask) {
         return (sample.present & mask) == mask;
     }
-    [[nodiscard]] static bool is_finite(float value) { return value - value == 0.0F; }
 
     [[nodiscard]] static Scalar wrapped(Scalar angle_rev) {
         using std::floor;
@@ -87,7 +87,7 @@ class FeedFrameForces {
     }
 
     [[nodiscard]] static PlaneForce from_sensor(const hal::DriveSample& sample, Scalar spindle_rev) {
-        const bool finite = is_finite(sample.force_N[0]) && is_finite(sample.force_N[1]);
+        const bool finite = hal::is_finite(sample.force_N[0]) && hal::is_finite(sample.force_N[1]);
         return {finite, Scalar(sample.force_N[0]), Scalar(sample.force_N[1]), spindle_rev};
     }
 

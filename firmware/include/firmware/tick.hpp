@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "control/feed_controller.hpp"
@@ -10,6 +9,7 @@
 #include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
+#include "hal/finite.hpp"
 
 /// The tick: one drive sample in, one feed override out. The same class runs on the drive controller, in the daemon and
 /// in the simulation.
@@ -170,21 +170,15 @@ class ForceControlTick {
         return forward ? static_cast<Scalar>(elapsed_us) * static_cast<Scalar>(1e-6L) : Scalar(0);
     }
 
-    /// By the bits: without a floating-point unit every operation on a float is a library call.
-    [[nodiscard]] static bool is_finite(float value) {
-        constexpr std::uint32_t exponent = 0x7F80'0000U;
-        return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;
-    }
-
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
         estimation::DriveSignals<Scalar> signals;
-        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && is_finite(sample.spindle_current_A)) {
+        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A)) {
             signals.spindle_current_A = Scalar(sample.spindle_current_A);
             signals.present |= 1U;
         }
         for (std::size_t k = 0; k < hal::axis_count; ++k) {
-            const bool there = (sample.present & hal::axis_mask(k)) != 0 && is_finite(sample.axis_current_A[k]) &&
-                               is_finite(sample.axis_velocity_mm_s[k]);
+            const bool there = (sample.present & hal::axis_mask(k)) != 0 && hal::is_finite(sample.axis_current_A[k]) &&
+                               hal::is_finite(sample.axis_velocity_mm_s[k]);
             if (there) {
                 signals.axis_current_A[k] = Scalar(sample.axis_current_A[k]);
                 signals.axis_velocity_mm_s[k] = Scalar(sample.axis_velocity_mm_s[k]);

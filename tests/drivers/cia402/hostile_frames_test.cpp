@@ -5,6 +5,8 @@
 #include <array>
 #include <random>
 
+#include "hal/finite.hpp"
+
 using namespace millforce;
 using namespace millforce::cia402;
 using namespace millforce::cia402::bench;
@@ -37,7 +39,6 @@ hal::CanFrame nearly_right(std::mt19937& random) {
     return f;
 }
 
-bool is_finite(float value) { return value - value == 0.0F; }
 
 }  // namespace
 
@@ -77,8 +78,8 @@ TEST(HostileFrames, fuzz_never_gives_a_value_that_is_not_finite_or_beyond_its_li
         }
         while (bus.take_sample(sample)) {
             ++samples;
-            CHECK(is_finite(sample.spindle_current_A) && is_finite(sample.axis_current_A[0]));
-            CHECK(is_finite(sample.axis_velocity_mm_s[0]));
+            CHECK(hal::is_finite(sample.spindle_current_A) && hal::is_finite(sample.axis_current_A[0]));
+            CHECK(hal::is_finite(sample.axis_velocity_mm_s[0]));
             CHECK(sample.axis_velocity_mm_s[0] <= 2000.0F && sample.axis_velocity_mm_s[0] >= -2000.0F);
         }
     }

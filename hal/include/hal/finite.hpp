@@ -1,0 +1,14 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace millforce::hal {
+
+/// Neither infinite nor NaN. By the bits: without a floating-point unit every operation on a float is a library call.
+[[nodiscard]] constexpr bool is_finite(float value) {
+    constexpr std::uint32_t exponent = 0x7F80'0000U;
+    return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;
+}
+
+}  // namespace millforce::hal
