@@ -54,6 +54,8 @@ CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& set
     return cnc;
 }
 
+constexpr double spindle_start_s = 1.0;
+
 class Loop {
   public:
     Loop(const Scenario& scenario, OverrideSource& controller, const SimulationSettings& settings)
@@ -72,7 +74,7 @@ class Loop {
         const auto started = std::chrono::steady_clock::now();
         Simulated simulated;
         double next_report_s = 1.0;
-        wait_for_the_controller();
+        start_spindle();
         while (!cnc_.finished() && plant_.time_s() < settings_.longest_run_s && !plant_.judge().fault_stopped()) {
             step_plant();
             if (--steps_.count <= 0) {
@@ -93,16 +95,17 @@ class Loop {
     }
 
   private:
-    /// Spindle on, axes standing.
-    void wait_for_the_controller() {
+    /// Spindle on, axes standing: as long as a CNC waits for its spindle, and until the controller is there.
+    void start_spindle() {
         const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
-        while (!controller_.is_ready()) {
+        while (!controller_.is_ready() || plant_.time_s() < spindle_start_s) {
             plant_.idle(steps_.step_s, standing);
             if (--steps_.count <= 0) {
                 override_ = controller_.step(plant_.sample(), program_status());
                 steps_ = controller_.plant_steps(usual_);
             }
         }
+        program_start_s_ = plant_.time_s();
     }
 
     void step_plant() {
@@ -123,7 +126,7 @@ class Loop {
     void sample() {
         override_ = controller_.step(plant_.sample(), program_status());
         steps_ = controller_.plant_steps(usual_);
-        plant_.judge().follow(plant_.time_s(), override_, controller_, settings_.trace_interval_s);
+        plant_.judge().follow(plant_.time_s() - program_start_s_, override_, controller_, settings_.trace_interval_s);
     }
 
     SimulationSettings settings_;
@@ -133,6 +136,7 @@ class Loop {
     hal::FeedOverride override_{};
     OverrideSource::PlantSteps usual_{};
     OverrideSource::PlantSteps steps_{};  ///< left until the next sample
+    double program_start_s_ = 0.0;
 };
 
 }  // namespace
