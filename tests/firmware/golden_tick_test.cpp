@@ -55,6 +55,7 @@ std::string table_of_the_cut() {
     std::string table = header;
     constexpr int interval = 10;
     for (int sample = 0; sample < instructions::samples; ++sample) {
+        program.rapid = sample < instructions::air_samples;  // what air teaches is in the vectors, too
         tick.step(instructions::sample_of(sample, parameters), program);
         if (sample % interval == 0) {
             table += row_of(sample, tick);
