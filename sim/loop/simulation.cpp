@@ -64,6 +64,7 @@ class Loop {
           cnc_(cnc_settings(scenario, settings), moves_of(scenario)),
           plant_(scenario) {
         plant_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
+        plant_.set_clock(-spindle_start_s);
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
         usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
         usual_.step_s = settings.plant_step_s;
@@ -98,14 +99,13 @@ class Loop {
     /// Spindle on, axes standing: as long as a CNC waits for its spindle, and until the controller is there.
     void start_spindle() {
         const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
-        while (!controller_.is_ready() || plant_.time_s() < spindle_start_s) {
+        while (!controller_.is_ready() || plant_.time_s() < -0.5 * steps_.step_s) {
             plant_.idle(steps_.step_s, standing);
             if (--steps_.count <= 0) {
                 override_ = controller_.step(plant_.sample(), program_status());
                 steps_ = controller_.plant_steps(usual_);
             }
         }
-        program_start_s_ = plant_.time_s();
     }
 
     void step_plant() {
@@ -126,7 +126,7 @@ class Loop {
     void sample() {
         override_ = controller_.step(plant_.sample(), program_status());
         steps_ = controller_.plant_steps(usual_);
-        plant_.judge().follow(plant_.time_s() - program_start_s_, override_, controller_, settings_.trace_interval_s);
+        plant_.judge().follow(plant_.time_s(), override_, controller_, settings_.trace_interval_s);
     }
 
     SimulationSettings settings_;
@@ -136,7 +136,6 @@ class Loop {
     hal::FeedOverride override_{};
     OverrideSource::PlantSteps usual_{};
     OverrideSource::PlantSteps steps_{};  ///< left until the next sample
-    double program_start_s_ = 0.0;
 };
 
 }  // namespace
