@@ -1,12 +1,12 @@
 #include "link/linuxcnc_plant.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <CppUTest/TestHarness.h>
 
 #include "firmware/tick.hpp"
+#include "loop/scenario.hpp"
 
 using namespace millforce::sim;
 using millforce::control::CutState;
@@ -17,9 +17,9 @@ constexpr double period_s = 1e-3;
 constexpr double spindle_rev_s = 4000.0 / 60.0;
 
 /// LinuxCNC with the axes at rest beside the part.
-class Cnc {
+class CncAtRest {
   public:
-    Cnc() : scenario(read_scenario(MILLFORCE_SOURCE_DIR "/sim/linuxcnc/pocket.toml")), plant(scenario) {}
+    CncAtRest() : scenario(read_scenario(MILLFORCE_SOURCE_DIR "/sim/linuxcnc/pocket.toml")), plant(scenario) {}
 
     millforce_plant_reply cycle(bool spindle_on) {
         millforce_plant_command command{};
@@ -59,7 +59,7 @@ millforce::hal::DriveSample sample_of(const millforce_plant_reply& reply) {
 TEST_GROUP(LinuxCncPlant){};
 
 TEST(LinuxCncPlant, runs_its_spindle_up_as_fast_as_its_current_allows) {
-    Cnc cnc;
+    CncAtRest cnc;
     const auto& spindle = cnc.scenario.machine.spindle;
     const double most_rad_s2 =
         2.5 * spindle.rated_current_A * spindle.torque_constant_Nm_per_A / spindle.inertia_kg_m2;
@@ -73,7 +73,7 @@ TEST(LinuxCncPlant, runs_its_spindle_up_as_fast_as_its_current_allows) {
 }
 
 TEST(LinuxCncPlant, shows_the_controller_no_cut_while_the_spindle_starts) {
-    Cnc cnc;
+    CncAtRest cnc;
     millforce::firmware::ForceControlTick<float> tick(cnc.scenario.parameters);
     for (int k = 0; k < 1500; ++k) {
         tick.step(sample_of(cnc.cycle(k >= 500)), {});
