@@ -57,6 +57,14 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     return sample;
 }
 
+/// The air ahead of the cut is a rapid: it teaches the spindle's idle torque and the axis' friction.
+inline hal::ProgramStatus program_at(int index) {
+    hal::ProgramStatus program;
+    program.programmed_feed_mm_s = feed_mm_s;
+    program.rapid = index < air_samples;
+    return program;
+}
+
 /// The same parameters in another scalar, by the parameter table.
 template <typename Scalar>
 firmware::Parameters<Scalar> parameters_in(firmware::Parameters<float> from) {
