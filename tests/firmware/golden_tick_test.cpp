@@ -3,6 +3,7 @@
 #include <string>
 
 #include "estimation/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"
 
@@ -49,7 +50,7 @@ constexpr const char* header =
 template <typename Scalar>
 std::string table_of_the_cut() {
     const auto parameters = instructions::machine_and_tool();
-    firmware::ForceControlTick<Scalar> tick(instructions::parameters_in<Scalar>(parameters));
+    firmware::ForceControlTick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
     std::string table = header;
     constexpr int interval = 10;
     for (int sample = 0; sample < instructions::samples; ++sample) {

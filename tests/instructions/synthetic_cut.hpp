@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "estimation/elementary.hpp"
-#include "firmware/parameter_table.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
@@ -63,19 +62,6 @@ inline hal::ProgramStatus program_at(int index) {
     program.programmed_feed_mm_s = feed_mm_s;
     program.rapid = index < air_samples;
     return program;
-}
-
-/// The same parameters in another scalar, by the parameter table.
-template <typename Scalar>
-firmware::Parameters<Scalar> parameters_in(firmware::Parameters<float> from) {
-    firmware::Parameters<Scalar> to;
-    const auto& fields = firmware::parameter_table<Scalar>;
-    for (std::size_t row = 0; row < fields.size(); ++row) {
-        for (std::size_t axis = 0; axis < firmware::axis_tables.size(); ++axis) {
-            fields[row].field(to, axis) = Scalar(firmware::parameter_table<float>[row].field(from, axis));
-        }
-    }
-    return to;
 }
 
 }  // namespace millforce::instructions
