@@ -54,7 +54,8 @@ CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& set
     return cnc;
 }
 
-constexpr double spindle_start_s = 1.0;
+/// Long enough for the override of the first rapid to rise from its minimum, behind a bus that starts meanwhile, too.
+constexpr double spindle_start_s = 2.0;
 
 class Loop {
   public:
