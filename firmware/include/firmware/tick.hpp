@@ -50,7 +50,9 @@ class ForceControlTick {
         if (!wide_band_.add(dt_s, sample, may_be_in_cut())) {
             forget_sections();
         }
-        estimator_.tell_immersion(immersion_by_force_drops());
+        if constexpr (WideBand::has_force_drops) {
+            estimator_.tell_immersion(immersion_by_force_drops());
+        }
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
                                                        sample.spindle_index_number, signals);
         if (fresh) {
@@ -172,23 +174,21 @@ class ForceControlTick {
 
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
         estimation::DriveSignals<Scalar> signals;
-        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A)) {
-            signals.spindle_current_A = Scalar(sample.spindle_current_A);
-            signals.present |= 1U;
-        }
+        const bool has_current =
+            (sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A);
+        signals.spindle_current_A = has_current ? Scalar(sample.spindle_current_A) : Scalar(0);
+        signals.present = has_current ? 1U : 0U;
         for (std::size_t k = 0; k < hal::axis_count; ++k) {
             const bool there = (sample.present & hal::axis_mask(k)) != 0 && hal::is_finite(sample.axis_current_A[k]) &&
                                hal::is_finite(sample.axis_velocity_mm_s[k]);
-            if (there) {
-                signals.axis_current_A[k] = Scalar(sample.axis_current_A[k]);
-                signals.axis_velocity_mm_s[k] = Scalar(sample.axis_velocity_mm_s[k]);
-                signals.present |= 2U << k;
-            }
+            signals.axis_current_A[k] = there ? Scalar(sample.axis_current_A[k]) : Scalar(0);
+            signals.axis_velocity_mm_s[k] = there ? Scalar(sample.axis_velocity_mm_s[k]) : Scalar(0);
+            signals.present |= there ? 2U << k : 0U;
         }
         return signals;
     }
 
-    void rezero_in_air(bool rapid) {
+    [[gnu::noinline]] void rezero_in_air(bool rapid) {
         const auto& estimate = estimator_.estimate();
         const bool in_air = controller_.state() == control::CutState::air;
         const Scalar half_contact_N = Scalar(0.5F) * control_parameters_.contact_force_N;

@@ -127,9 +127,13 @@ inline constexpr Raw raw_pi = 13493037705;         // π 2³²
 inline constexpr Raw raw_half_pi = 6746518852;     // ½π 2³²
 inline constexpr Raw raw_quarter_pi = 3373259426;  // ¼π 2³²
 
-/// a/b in Q31 for a ≤ b, both with b's highest bit at 31.
+/// a/b in Q31 for a ≤ b, b > 0.
 constexpr Fraction share_of(std::uint32_t a, std::uint32_t b) {
-    return a >= b ? INT32_MAX : static_cast<Fraction>(divide_normalised(a, 0, Divisor(b)).quotient >> 1U);
+    if (a >= b) {
+        return INT32_MAX;
+    }
+    const auto shift = static_cast<unsigned>(std::countl_zero(b));
+    return static_cast<Fraction>(divide_normalised(a << shift, 0, Divisor(b << shift)).quotient >> 1U);
 }
 
 /// atan(small/large) for 0 ≤ small ≤ large, large > 0.
