@@ -477,6 +477,14 @@ class CutEstimator {
                 forces_then.cutting_tangential_N / forces_then.tangential_N};
     }
 
+    // What each sample touches comes first: near the object's start an access is one instruction.
+    Scalar since_period_s_{0};
+    Scalar since_prediction_s_{0};
+    bool search_due_ = false;
+    bool peaks_due_ = false;
+    bool has_peaks_ = false;         // of this tooth period's forces
+    bool engagement_is_new_ = true;  // peaks_ has not seen it yet
+
     CutEstimatorSettings<Scalar> settings_{};
     CuttingLaw<Scalar> law_{};
     EncoderAngle<Scalar> encoder_{};
@@ -489,10 +497,6 @@ class CutEstimator {
     typename EngagementSolver<Scalar>::Search search_{};
     EngagementEstimate<Scalar> engagement_{};  // the last that the solver gave
     AverageForceMeasurement<Scalar> asked_{};      // what it is to be given next
-    bool search_due_ = false;
-    bool peaks_due_ = false;
-    bool has_peaks_ = false;          // of this tooth period's forces
-    bool engagement_is_new_ = true;   // peaks_ has not seen it yet
     EngagementPeaks<Scalar> peaks_{};
 
     typename Averager::Window window_{};
@@ -503,8 +507,6 @@ class CutEstimator {
     int periods_since_memory_ = 0;
     Scalar last_exponent_{Scalar(0.75F)};
     CutEstimate<Scalar> estimate_{};
-    Scalar since_period_s_{0};
-    Scalar since_prediction_s_{0};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
 };

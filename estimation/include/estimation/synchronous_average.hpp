@@ -158,9 +158,7 @@ class SynchronousAverage {
         const Scalar part_rev = width * turned_rev;
         if (from == Scalar(0) && to == Scalar(1)) {
             const Scalar half_rev = Scalar(0.5F) * part_rev;  // a whole interval, which is usual
-            for (int k = 0; k < Channels; ++k) {
-                sum_[k] += (previous_signals_[k] + signals[k]) * half_rev;
-            }
+            sum_ += (previous_signals_ + signals) * half_rev;
         } else {
             const Scalar middle = Scalar(0.5F) * (from + to);
             for (int k = 0; k < Channels; ++k) {
@@ -262,7 +260,6 @@ class SynchronousAverage {
 
     Settings settings_;
     Scalar pitch_rev_;
-    Average periods_[static_cast<std::size_t>(MaxPeriods)];
     std::uint32_t periods_seen_ = 0;  // kept in [0, 2·MaxPeriods): the ring's place, and whether it is full
 
     Signals sum_ = Signals::Zero();
@@ -277,6 +274,8 @@ class SynchronousAverage {
     Scalar previous_dt_s_{0};
     Signals previous_signals_ = Signals::Zero();
     std::uint32_t previous_present_ = 0;
+
+    Average periods_[static_cast<std::size_t>(MaxPeriods)];  // last: what each sample touches lies near the start
 };
 
 }  // namespace millforce::estimation

@@ -28,9 +28,9 @@ template <typename Scalar, typename WideBand = WideBandMonitor<Scalar>>
 class ForceControlTick {
   public:
     explicit ForceControlTick(const Parameters<Scalar>& parameters)
-        : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
+        : controller_(controller_parameters(parameters)),
+          estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
                      parameters.tool.law),
-          controller_(controller_parameters(parameters)),
           wide_band_(parameters),
           control_parameters_(controller_parameters(parameters)),
           roughness_model_(parameters.tool.roughness),
@@ -302,23 +302,24 @@ class ForceControlTick {
         return output;
     }
 
-    estimation::CutEstimator<Scalar> estimator_;
+    // What each sample touches comes first: near the object's start an access is one instruction.
+    control::ControlInput<Scalar> input_{};
+    control::ControlOutput<Scalar> control_{};
+    std::uint32_t last_time_us_ = 0;
+    std::uint32_t heartbeat_ = 0;
+    bool has_time_ = false;
+    bool was_rezeroed_ = false;
+    int air_periods_ = 0;
     control::FeedController<Scalar> controller_;
+    estimation::CutEstimator<Scalar> estimator_;
     WideBand wide_band_;
     control::FeedControllerParameters<Scalar> control_parameters_;
     estimation::RoughnessPredictor<Scalar> roughness_model_;
     Scalar tool_diameter_mm_;
     Scalar declared_depth_mm_;
     Scalar reaction_s_;
-    control::ControlInput<Scalar> input_{};
-    control::ControlOutput<Scalar> control_{};
     estimation::RoughnessPrediction<Scalar> roughness_{};
     control::SurfaceForControl<Scalar> surface_{};
-    std::uint32_t last_time_us_ = 0;
-    std::uint32_t heartbeat_ = 0;
-    bool has_time_ = false;
-    bool was_rezeroed_ = false;
-    int air_periods_ = 0;
     Scalar section_sum_mm2_{0};
     Scalar section_of_drops_mm2_{0};
     Scalar width_share_{Scalar(0.5F)};  ///< of the section's growth
