@@ -61,6 +61,9 @@ std::unique_ptr<OverrideSource> controller_named(const std::string& name, const 
     if (name == "constant_load") {
         return std::make_unique<ConstantLoad>(scenario.parameters, constant_load_reference_N(scenario.parameters));
     }
+    if (name == "millforce_fixed") {
+        return std::make_unique<FixedPointController>(scenario.parameters);
+    }
     return std::make_unique<MillforceController>(scenario.parameters);
 }
 

@@ -12,13 +12,20 @@ firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
     return parameters;
 }
 
-double value_or_none(const estimation::Measurement<float>& measurement) {
-    return measurement.valid ? static_cast<double>(measurement.value) : no_estimate;
+template <typename Scalar>
+double as_double(Scalar value) {
+    return static_cast<double>(static_cast<float>(value));
+}
+
+template <typename Scalar>
+double value_or_none(const estimation::Measurement<Scalar>& measurement) {
+    return measurement.valid ? as_double(measurement.value) : no_estimate;
 }
 
 }  // namespace
 
-hal::FeedOverride MillforceController::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+template <typename Scalar>
+hal::FeedOverride TickController<Scalar>::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     const hal::FeedOverride output = tick_.step(sample, program);
     if (tick_.work_due()) {
         tick_.work();
@@ -26,8 +33,9 @@ hal::FeedOverride MillforceController::step(const hal::DriveSample& sample, cons
     return output;
 }
 
-void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& point) {
-    const estimation::CutEstimate<float>& e = tick.estimate();
+template <typename Scalar>
+void describe_tick(const firmware::ForceControlTick<Scalar>& tick, TracePoint& point) {
+    const estimation::CutEstimate<Scalar>& e = tick.estimate();
     const bool in_contact =
         tick.control().state != control::CutState::air && tick.control().state != control::CutState::exit;
     point.state = static_cast<std::uint8_t>(tick.control().state);
@@ -38,22 +46,27 @@ void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& po
     if (!in_contact) {
         return;
     }
-    const estimation::EngagementEstimate<float> engagement = tick.engagement();
+    const estimation::EngagementEstimate<Scalar> engagement = tick.engagement();
     if (engagement.immersion_valid) {
-        point.radial_immersion = static_cast<double>(engagement.radial_immersion);
-        point.radial_immersion_sd = static_cast<double>(engagement.radial_immersion_sd);
+        point.radial_immersion = as_double(engagement.radial_immersion);
+        point.radial_immersion_sd = as_double(engagement.radial_immersion_sd);
     }
     if (engagement.depth_valid) {
-        point.axial_depth_mm = static_cast<double>(engagement.axial_depth_mm);
-        point.axial_depth_sd_mm = static_cast<double>(engagement.axial_depth_sd_mm);
+        point.axial_depth_mm = as_double(engagement.axial_depth_mm);
+        point.axial_depth_sd_mm = as_double(engagement.axial_depth_sd_mm);
     }
     point.tooth_force_N = value_or_none(e.tooth_force_N);
     if (e.tooth_force_N.valid) {
         const auto total = tick.estimator().total_force();
-        point.peak_force_N = static_cast<double>(total.peak_N);
-        point.force_limit_N = static_cast<double>(total.limit_N);
+        point.peak_force_N = as_double(total.peak_N);
+        point.force_limit_N = as_double(total.limit_N);
     }
 }
+
+template void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& point);
+template void describe_tick(const firmware::ForceControlTick<estimation::Fixed>& tick, TracePoint& point);
+template class TickController<float>;
+template class TickController<estimation::Fixed>;
 
 ConstantFeed::ConstantFeed(const firmware::Parameters<float>& parameters, double ratio)
     : monitor_(monitoring(parameters)), ratio_(static_cast<float>(ratio)) {}
@@ -98,6 +111,6 @@ double constant_load_reference_N(const firmware::Parameters<float>& parameters) 
     return static_cast<double>(parameters.tool.tooth_force_limit_N / factors.tooth);
 }
 
-std::vector<std::string> controller_names() { return {"millforce", "constant", "constant_load"}; }
+std::vector<std::string> controller_names() { return {"millforce", "millforce_fixed", "constant", "constant_load"}; }
 
 }  // namespace millforce::sim

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "estimation/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
@@ -30,22 +32,28 @@ class OverrideSource {
     [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
 
-/// The estimates of a tick at this moment.
-void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& point);
+/// The estimates of a tick at this moment. Scalar: float or estimation::Fixed.
+template <typename Scalar>
+void describe_tick(const firmware::ForceControlTick<Scalar>& tick, TracePoint& point);
 
-/// The real tick, the same class that runs on a drive controller.
-class MillforceController : public OverrideSource {
+/// The real tick, the same class that runs on a drive controller: in float, or in fixed point as on a processor without
+/// a floating-point unit.
+template <typename Scalar>
+class TickController : public OverrideSource {
   public:
-    explicit MillforceController(const firmware::Parameters<float>& parameters) : tick_(parameters) {}
+    explicit TickController(const firmware::Parameters<float>& parameters)
+        : tick_(firmware::parameters_in<Scalar>(parameters)) {}
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(TracePoint& point) const override { describe_tick(tick_, point); }
-    [[nodiscard]] const estimation::CutEstimate<float>& estimate() const { return tick_.estimate(); }
-    [[nodiscard]] const estimation::RoughnessPrediction<float>& roughness() const { return tick_.roughness(); }
-    [[nodiscard]] const firmware::WideBandEstimate<float>& wide_band() const { return tick_.wide_band(); }
+    [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return tick_.estimate(); }
+    [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return tick_.roughness(); }
+    [[nodiscard]] const firmware::WideBandEstimate<Scalar>& wide_band() const { return tick_.wide_band(); }
 
   private:
-    firmware::ForceControlTick<float> tick_;
+    firmware::ForceControlTick<Scalar> tick_;
 };
+using MillforceController = TickController<float>;
+using FixedPointController = TickController<estimation::Fixed>;
 
 /// The feed as programmed, times a constant: what is done today, with a feed that is safe everywhere. It estimates all
 /// the same, in monitor mode, so that its report shows what it met.
@@ -81,7 +89,7 @@ class ConstantLoad : public OverrideSource {
 /// slot at the entry feed, at a quarter of the flute length.
 double constant_load_reference_N(const firmware::Parameters<float>& parameters);
 
-/// The controllers by name: "millforce", "constant", "constant_load".
+/// The controllers by name: "millforce", "millforce_fixed", "constant", "constant_load".
 std::vector<std::string> controller_names();
 
 }  // namespace millforce::sim

@@ -72,7 +72,7 @@ struct RunFigures {
 };
 
 struct RunResult {
-    std::string controller;  ///< "millforce", "constant", "constant_load"
+    std::string controller;  ///< "millforce", "millforce_fixed", "constant", "constant_load"
     std::vector<TracePoint> trace;
     RunFigures figures;
 };

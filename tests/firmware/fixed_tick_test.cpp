@@ -4,6 +4,7 @@
 #include <random>
 
 #include "estimation/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"
 
@@ -214,7 +215,7 @@ template <typename Scalar>
 void mill(Draw& draw, int points, Agreement& agreement) {
     const Shop shop = drawn_shop(draw);
     firmware::ForceControlTick<float> in_float(shop.parameters);
-    firmware::ForceControlTick<Scalar> in_fixed(instructions::parameters_in<Scalar>(shop.parameters));
+    firmware::ForceControlTick<Scalar> in_fixed(firmware::parameters_in<Scalar>(shop.parameters));
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = shop.programmed_feed_mm_s;
     Clock clock;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "estimation/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"
 
@@ -49,7 +50,7 @@ constexpr const char* header =
 template <typename Scalar>
 std::string table_of_the_cut() {
     const auto parameters = instructions::machine_and_tool();
-    firmware::ForceControlTick<Scalar> tick(instructions::parameters_in<Scalar>(parameters));
+    firmware::ForceControlTick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = instructions::feed_mm_s;
     std::string table = header;

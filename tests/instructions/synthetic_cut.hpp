@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "estimation/elementary.hpp"
-#include "firmware/parameter_table.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
@@ -55,19 +54,6 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     sample.axis_current_A[0] = friction_A + load * feed_N / x.K_x4_N_per_A;
     sample.axis_velocity_mm_s[0] = feed_mm_s;
     return sample;
-}
-
-/// The same parameters in another scalar, by the parameter table.
-template <typename Scalar>
-firmware::Parameters<Scalar> parameters_in(firmware::Parameters<float> from) {
-    firmware::Parameters<Scalar> to;
-    const auto& fields = firmware::parameter_table<Scalar>;
-    for (std::size_t row = 0; row < fields.size(); ++row) {
-        for (std::size_t axis = 0; axis < firmware::axis_tables.size(); ++axis) {
-            fields[row].field(to, axis) = Scalar(firmware::parameter_table<float>[row].field(from, axis));
-        }
-    }
-    return to;
 }
 
 }  // namespace millforce::instructions

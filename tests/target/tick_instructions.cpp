@@ -8,6 +8,7 @@
 
 #include "common/processor.hpp"
 #include "estimation/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"
 #include "target/semihosting.hpp"
@@ -88,7 +89,7 @@ bool count_steps(const char* name) {
     const SysTick timer;
     auto parameters = instructions::machine_and_tool();
     parameters.machine.cnc.solver_values_per_tick = solver_values_per_tick<Scalar>;
-    static Tick<Scalar> tick(instructions::parameters_in<Scalar>(parameters));
+    static Tick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = instructions::feed_mm_s;
     Count all;

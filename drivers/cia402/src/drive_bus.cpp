@@ -18,7 +18,7 @@ std::size_t add_filter(std::span<hal::CanFilter, DriveBus::filter_capacity> filt
 
 }  // namespace
 
-DriveBus::DriveBus(const BusSettings& settings) : settings_(settings) {
+DriveBus::DriveBus(const BusSettings& settings) : settings_(settings), sync_clock_(settings.sync_period_us) {
     health_.sync_lost = true;
     if (check(settings) != SettingsError::none) {
         settings_ = {};
@@ -88,6 +88,7 @@ void DriveBus::begin_cycle(std::uint64_t time_us) {
         node.begin_cycle();
     }
     sync_time_us_ = time_us;
+    sync_clock_.on_sync(time_us);
     had_sync_ = true;
     cycle_open_ = true;
     health_.sync_lost = false;
@@ -109,12 +110,12 @@ void DriveBus::hand_over() {
     health_.samples_incomplete += is_complete() ? 0U : 1U;
     health_.samples_untaken += sample_ready_ ? 1U : 0U;
     sample_ = {};
-    sample_.time_us = static_cast<std::uint32_t>(sync_time_us_);
     for (std::size_t k = 0; k < drive_capacity; ++k) {
         const DriveReading reading = nodes_[k].read(sync_time_us_, rejects_);
         nodes_[k].end_cycle();
         put(k, reading);
     }
+    sample_.time_us = static_cast<std::uint32_t>(sync_clock_.latched_us());
     sample_ready_ = true;
     cycle_open_ = false;
 }
@@ -137,6 +138,7 @@ void DriveBus::put(std::size_t role, const DriveReading& reading) {
         sample_.present = static_cast<std::uint8_t>(sample_.present | hal::mask(hal::Present::spindle_current));
     }
     if (reading.has_count) {
+        sync_clock_.on_count(reading.count);
         sample_.present = static_cast<std::uint8_t>(sample_.present | hal::mask(hal::Present::spindle_count));
     }
 }

@@ -62,9 +62,13 @@ class EngagementTable {
     [[nodiscard]] Scalar last_rad() const { return angle_rad(Scalar(Nodes - 1)); }
     [[nodiscard]] Scalar angle_rad(Scalar node) const { return first_rad + step_rad_ * node; }
 
+    /// Without a feed no chip: the edges' forces are left.
     [[nodiscard]] Feed feed(Scalar feed_per_tooth_mm) const {
         using elementary::exp;
         using elementary::log;
+        if (!(feed_per_tooth_mm > Scalar(0))) {
+            return {};
+        }
         const Scalar ln_f = log(feed_per_tooth_mm);
         const bool has_reference = law_.reference_chip_thickness_mm > Scalar(0);
         const Scalar per_pitch = teeth_ / (Scalar(2) * pi<Scalar>);

@@ -174,9 +174,9 @@ void CanController::run_ticks() {
     }
     if (hal::DriveSample sample; bus_.take_sample(sample)) {
         sample_ = sample;
-        // The sample's time is that of its SYNC in 32 bits: the nearest such time at or before now.
-        const auto age_us = static_cast<std::uint32_t>(static_cast<std::uint32_t>(bus_time_us_) - sample.time_us);
-        sync_time_us_ = bus_time_us_ - age_us;
+        // The sample's time has 32 bits: the nearest such time to now. Where the stamp was early it may be ahead.
+        const auto age_us = static_cast<std::int32_t>(static_cast<std::uint32_t>(bus_time_us_) - sample.time_us);
+        sync_time_us_ = bus_time_us_ - static_cast<std::uint64_t>(static_cast<std::int64_t>(age_us));
         tick_on_sample();
     }
     if (has_begun_ && bus_time_us_ > next_silent_us_ + longest_silence_us) {

@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <random>
+
 using namespace millforce;
 using namespace millforce::test;
 
@@ -61,4 +63,17 @@ TEST(ClosedLoopOverBus, a_scenario_gives_the_figures_of_the_loop_without_a_bus_a
     CHECK(again == behind_bus.ticks.lines);
     // Fetched so late that by the clock alone each sample would have been given up, and the tick be at fault.
     CHECK(replayed(behind_bus, scenario, 300'000) == behind_bus.ticks.lines);
+}
+
+TEST(ClosedLoopOverBus, stamps_20_us_off_and_at_times_60_cost_neither_time_nor_estimates) {
+    const sim::Scenario scenario = scenario_named("slot_entry");
+    ControllerOnLoopback on_time(scenario);
+    const sim::RunFigures undisturbed = sim::simulate(scenario, on_time, "millforce").result.figures;
+    ControllerOnLoopback late(scenario);
+    std::mt19937 random{11};
+    late.sync_stamp_late_us = [&random] { return random() % 20 == 0 ? 60 : random() % 20; };
+    const sim::RunFigures disturbed = sim::simulate(scenario, late, "millforce").result.figures;
+    CHECK(sim::bounds_hold(disturbed));
+    DOUBLES_EQUAL(undisturbed.time_s, disturbed.time_s, 0.05 * undisturbed.time_s);
+    DOUBLES_EQUAL(undisturbed.estimate_share, disturbed.estimate_share, 0.05);
 }

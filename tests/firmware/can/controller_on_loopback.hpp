@@ -116,6 +116,8 @@ class ControllerOnLoopback : public sim::OverrideSource {
     std::vector<LoggedFrame> log{};
     std::uint64_t now_us = 1'700'000'000'000'000;
     bool controller_runs = true;
+    /// How much later than the SYNC its stamp is. Empty: not at all.
+    std::function<std::uint64_t()> sync_stamp_late_us{};
 
   private:
     /// A drive latches its values at the SYNC, which other frames delay, and not when the plant was stepped last.
@@ -133,6 +135,9 @@ class ControllerOnLoopback : public sim::OverrideSource {
     void hear(const hal::CanFrame& frame, std::uint64_t time_us) {
         const bool is_own = frame.id == 0x080 || frame.id == 0x000 || frame.id == 0x1FE || frame.id == 0x77E ||
                             (frame.id & 0x780U) == 0x600;
+        if (frame.id == 0x080 && sync_stamp_late_us) {
+            time_us += sync_stamp_late_us();
+        }
         log.push_back({time_us, frame, is_own});
         if (controller_runs) {
             controller.on_frame(frame, time_us, is_own);

@@ -122,6 +122,23 @@ TEST(ClosedLoop, is_saved_by_the_entry_feed_where_no_reaction_is_fast_enough) {
     LONGS_EQUAL(0, controlled(scenario_named("slot_entry")).teeth_broken);
 }
 
+/// Not in an interrupted cut: there both take 14 to 16 s from seed to seed, as a force at a threshold decides.
+TEST(ClosedLoop, mills_in_fixed_point_as_in_float) {
+    for (const char* name : {"slot_entry", "depth_ramp"}) {
+        const Scenario scenario = scenario_named(name);
+        FixedPointController controller(scenario.parameters);
+        const RunFigures in_fixed = simulate(scenario, controller, "millforce_fixed").result.figures;
+        const RunFigures in_float = controlled(scenario);
+        CHECK(bounds_hold(in_fixed));
+        DOUBLES_EQUAL(in_float.time_s, in_fixed.time_s, 0.02 * in_float.time_s);
+        DOUBLES_EQUAL(in_float.peak_over_limit, in_fixed.peak_over_limit, 0.02);
+        DOUBLES_EQUAL(in_float.immersion_rms, in_fixed.immersion_rms, 0.005);
+        DOUBLES_EQUAL(in_float.depth_rms_mm, in_fixed.depth_rms_mm, 0.02);
+        DOUBLES_EQUAL(in_float.mean_override, in_fixed.mean_override, 0.005);
+        UNSIGNED_LONGS_EQUAL(0, millforce::estimation::saturations());
+    }
+}
+
 TEST(ClosedLoop, is_the_same_to_the_bit_for_the_same_seed) {
     const RunFigures first = controlled(scenario_named("interrupted", {1.0, 1.0, 9}));
     const RunFigures second = controlled(scenario_named("interrupted", {1.0, 1.0, 9}));

@@ -8,6 +8,7 @@
 #include "cia402/drive_node.hpp"
 #include "cia402/drive_settings.hpp"
 #include "cia402/rejects.hpp"
+#include "cia402/sync_clock.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
 
@@ -22,7 +23,7 @@
 ///
 /// A pure state machine: no clock, no operating system, no heap, no exceptions. Times are µs of any clock that does not
 /// run backwards. Cost per frame: a search over at most 4 drives × 4 PDOs; 0.8 µs for a whole SYNC
-/// period of four drives on a desktop processor. 3.1 KB of RAM. One thread.
+/// period of four drives on a desktop processor. 3.2 KB of RAM. One thread.
 ///
 /// PDOs carry no number of their SYNC: what arrives belongs to the last SYNC. A PDO that is late by more than its
 /// period can therefore not be told from a timely one; it shows as a repeated PDO in the same period, and the next
@@ -48,7 +49,7 @@ class DriveBus {
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
     void poll(std::uint64_t time_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
-    /// True once per SYNC period. The sample's time is that of its SYNC.
+    /// True once per SYNC period. The sample's time is when the drives latched it: see SyncClock.
     [[nodiscard]] bool take_sample(hal::DriveSample& sample);
     /// Drives have not answered the last SYNC yet.
     [[nodiscard]] bool is_collecting() const { return cycle_open_; }
@@ -76,12 +77,13 @@ class DriveBus {
     std::array<DriveNode, drive_capacity> nodes_{};
     RejectCounters rejects_{};
     BusHealth health_{};
+    SyncClock sync_clock_;
     hal::DriveSample sample_{};
     bool sample_ready_ = false;
     bool cycle_open_ = false;
     bool had_sync_ = false;
     bool sync_to_send_ = false;
-    std::uint64_t sync_time_us_ = 0;
+    std::uint64_t sync_time_us_ = 0;  ///< by its stamp
     std::uint64_t next_sync_us_ = 0;
 };
 

@@ -1,0 +1,130 @@
+#include "cia402/sync_clock.hpp"
+
+#include <algorithm>
+
+namespace millforce::cia402 {
+
+namespace {
+
+constexpr float phase_gain = 1.0F / 64.0F;
+constexpr float drift_gain = phase_gain * phase_gain / 4.0F;  // critically damped
+constexpr float position_gain = 1.0F / 4.0F;
+constexpr float speed_gain = position_gain * position_gain / (2.0F - position_gain);
+constexpr float memory_periods = 1024.0F;
+constexpr float enough_periods = 200.0F;
+constexpr std::uint32_t settled = 32;  // counts until the spindle is followed well
+constexpr std::uint32_t longest_gap_periods = 8;
+constexpr std::uint64_t longest_grid_periods = 1000;
+constexpr float fewest_counts = 4.0F;
+constexpr float largest_change = 0.25F;
+constexpr float smallest_variance_us2 = 0.1F;
+constexpr float contradiction_sd2 = 16.0F;
+
+float square(float value) {
+    return value * value;
+}
+
+float magnitude(float value) {
+    return value < 0.0F ? -value : value;
+}
+
+std::int64_t rounded(float value) {
+    return static_cast<std::int64_t>(value < 0.0F ? value - 0.5F : value + 0.5F);
+}
+
+std::uint64_t shifted(std::uint64_t time_ns, float by_ns) {
+    return time_ns + static_cast<std::uint64_t>(rounded(by_ns));
+}
+
+}  // namespace
+
+SyncClock::SyncClock(std::uint32_t period_us) : period_ns_(1000ULL * std::max(period_us, 1U)) {}
+
+void SyncClock::restart_at(std::uint64_t stamp_us) {
+    grid_ns_ = stamp_us * 1000U;
+    drift_ns_ = 0.0F;
+    by_stamp_us_ = 0.0F;
+    latched_off_us_ = 0.0F;
+    has_count_ = false;
+}
+
+void SyncClock::on_sync(std::uint64_t stamp_us) {
+    const std::uint64_t stamp_ns = stamp_us * 1000U;
+    const std::uint64_t before_ns = shifted(grid_ns_, phase_gain * 1000.0F * by_stamp_us_);
+    const std::uint64_t periods = stamp_ns < before_ns ? 0 : (stamp_ns - before_ns + period_ns_ / 2) / period_ns_;
+    if (grid_ns_ == 0 || periods == 0 || periods > longest_grid_periods) {
+        restart_at(stamp_us);
+        return;
+    }
+    drift_ns_ += drift_gain * 1000.0F * by_stamp_us_;
+    grid_ns_ = shifted(before_ns + periods * period_ns_, static_cast<float>(periods) * drift_ns_);
+    const auto off_ns = static_cast<std::int64_t>(stamp_ns - grid_ns_);
+    const auto quarter_ns = static_cast<std::int64_t>(period_ns_ / 4);
+    if (off_ns > quarter_ns || off_ns < -quarter_ns) {
+        restart_at(stamp_us);
+        return;
+    }
+    by_stamp_us_ = static_cast<float>(off_ns) * 0.001F;
+    latched_off_us_ = by_stamp_us_;
+    since_count_ = std::min(since_count_ + static_cast<std::uint32_t>(periods), longest_gap_periods + 1);
+}
+
+void SyncClock::restart_counting(std::uint32_t count) {
+    const auto turned = static_cast<float>(static_cast<std::int32_t>(count - last_count_));
+    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_gap_periods;
+    counts_per_period_ = follows ? turned / static_cast<float>(since_count_) : 0.0F;
+    ahead_counts_ = 0.0F;
+    followed_ = 0;
+    last_count_ = count;
+    since_count_ = 0;
+    has_count_ = true;
+}
+
+void SyncClock::on_count(std::uint32_t count) {
+    const auto periods = static_cast<float>(since_count_);
+    const auto turned = static_cast<float>(static_cast<std::int32_t>(count - last_count_));
+    const float off_counts = turned - ahead_counts_ - periods * counts_per_period_;
+    const float speed = magnitude(counts_per_period_);
+    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_gap_periods;
+    if (!follows || speed < fewest_counts || magnitude(off_counts) > largest_change * speed) {
+        restart_counting(count);
+        return;
+    }
+    if (followed_ == settled) {
+        const float by_counts_us = off_counts / counts_per_period_ * static_cast<float>(period_ns_) * 0.001F;
+        weigh(by_counts_us);
+        learn(by_counts_us);
+    }
+    followed_ += followed_ < settled ? 1U : 0U;
+    ahead_counts_ = (position_gain - 1.0F) * off_counts;
+    counts_per_period_ += speed_gain * off_counts / periods;
+    last_count_ = count;
+    since_count_ = 0;
+}
+
+void SyncClock::learn(float by_counts_us) {
+    learnt_ = std::min(learnt_ + 1.0F, memory_periods);
+    const float share = 1.0F / learnt_;
+    mean_ss_us2_ += share * (square(by_stamp_us_) - mean_ss_us2_);
+    mean_cc_us2_ += share * (square(by_counts_us) - mean_cc_us2_);
+    mean_sc_us2_ += share * (by_stamp_us_ * by_counts_us - mean_sc_us2_);
+}
+
+void SyncClock::weigh(float by_counts_us) {
+    if (learnt_ < enough_periods) {
+        return;
+    }
+    const float of_sync = std::max(mean_sc_us2_, smallest_variance_us2);
+    const float of_stamp = std::max(mean_ss_us2_ - mean_sc_us2_, smallest_variance_us2);
+    const float of_counts = std::max(mean_cc_us2_ - mean_sc_us2_, smallest_variance_us2);
+    const bool contradicts = square(by_stamp_us_ - by_counts_us) > contradiction_sd2 * (of_stamp + of_counts);
+    const float counts_weight = contradicts ? 0.0F : 1.0F / of_counts;
+    latched_off_us_ = (by_stamp_us_ / of_stamp + by_counts_us * counts_weight) /
+                      (1.0F / of_stamp + counts_weight + 1.0F / of_sync);
+}
+
+std::uint64_t SyncClock::latched_us() const {
+    return (shifted(grid_ns_, latched_off_us_ * 1000.0F) + 500U) / 1000U;
+}
+
+}  // namespace millforce::cia402
