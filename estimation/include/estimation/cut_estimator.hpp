@@ -197,7 +197,7 @@ class CutEstimator {
   private:
     static constexpr int channels = 7;
     static constexpr int first_velocity = 4;
-    using Averager = SynchronousAverage<Scalar, channels, 48, first_velocity>;
+    using Averager = SynchronousAverage<Scalar, channels, first_velocity>;
     using Signals = typename Averager::Signals;
 
     [[nodiscard]] bool in_portions() const { return settings_.solver_values_per_step > 0; }
@@ -238,8 +238,9 @@ class CutEstimator {
         return vector;
     }
 
-    [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average(const typename Averager::Window& window) const {
-        typename SpindleDrive<Scalar>::Average spindle;
+    using SpindleAverage = typename SpindleDrive<Scalar>::Average;
+    [[nodiscard]] SpindleAverage spindle_average(const typename Averager::Window& window) const {
+        SpindleAverage spindle;
         set_spindle(spindle, window);
         spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
         // Two half-windows, each bounded by two counts of ± half a count (variance 1/12 each).
@@ -249,7 +250,7 @@ class CutEstimator {
         return spindle;
     }
     /// What is not common to a window and its last tooth period.
-    static void set_spindle(typename SpindleDrive<Scalar>::Average& spindle, const typename Averager::Average& average) {
+    static void set_spindle(SpindleAverage& spindle, const typename Averager::Average& average) {
         spindle.current_A = average.mean[0];
         spindle.speed_rad_s = average.spindle_speed_rad_s;
         spindle.samples = average.samples;
@@ -289,7 +290,7 @@ class CutEstimator {
         if (!(per_Nm_ > Scalar(0))) {
             return;
         }
-        typename SpindleDrive<Scalar>::Average spindle = spindle_average(window_);
+        SpindleAverage spindle = spindle_average(window_);
         estimate_.tangential_N = spindle_.force_N(spindle, per_Nm_);
         set_spindle(spindle, average_.tooth());
         estimate_.tooth_tangential_N = spindle_.force_N(spindle, per_Nm_);

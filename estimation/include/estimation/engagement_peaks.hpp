@@ -11,7 +11,8 @@ namespace millforce::estimation {
 ///
 /// They depend on the engagement alone, which comes once per solution; the forces come with every tooth period. So
 /// take() reads all tables once, and what is left for a tooth period are products. Cost of take(): up to seven readings of
-/// the peak table (peak_factors.hpp), three of the forces' table; what the present engagement does not ask for is not read. Memory: both sides' peak tables, 2.9 KiB in float.
+/// the peak table (peak_factors.hpp), three of the forces' table; what the present engagement does not ask for is not
+/// read. Memory: both sides' peak tables, 2.9 KiB in float.
 /// Not thread-safe.
 template <typename Scalar>
 class EngagementPeaks {

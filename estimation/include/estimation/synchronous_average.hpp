@@ -15,7 +15,7 @@
 namespace millforce::estimation {
 
 /// `FirstSlope`: the first of the signals whose slope is asked for; the slopes of those before it are not worked out.
-template <typename Scalar, int Channels, int MaxPeriods = 48, int FirstSlope = 0>
+template <typename Scalar, int Channels, int FirstSlope = 0, int MaxPeriods = 48>
 class SynchronousAverage {
   public:
     using Signals = Eigen::Matrix<Scalar, Channels, 1>;

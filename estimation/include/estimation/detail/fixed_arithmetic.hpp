@@ -146,9 +146,11 @@ constexpr Digit divide_normalised(std::uint32_t high, std::uint32_t low, const D
 
 /// One digit of (high·2³² + next) / divisor for a divisor of two words whose highest bit is set and high < divisor;
 /// `upper` is its upper word. `high` becomes the remainder.
-constexpr std::uint32_t divide_step(std::uint64_t& high, std::uint32_t next, std::uint64_t divisor, const Divisor& upper) {
+constexpr std::uint32_t divide_step(std::uint64_t& high, std::uint32_t next, std::uint64_t divisor,
+                                    const Divisor& upper) {
     std::uint32_t digit = 0xFFFFFFFFU;
-    std::uint64_t rest = std::uint64_t{low_word(high)} + upper.value;  // of the largest digit, where the upper words are equal
+    // Of the largest digit, where the upper words are equal.
+    std::uint64_t rest = std::uint64_t{low_word(high)} + upper.value;
     if (high_word(high) < upper.value) {
         const Digit estimate = divide_normalised(high_word(high), low_word(high), upper);
         digit = estimate.quotient;
