@@ -63,7 +63,7 @@ millforce_plant_reply LinuxCncPlant::step(const millforce_plant_command& command
     const bool spindle_turns = command.spindle_is_on != 0 && command.spindle_rev_s > 0.0;
     if (spindle_turns && !plant_) {
         plant_.emplace(scenario_);
-        plant_->start_at(position_mm, speed_of(command));
+        plant_->start_at(position_mm, 0.0);
         path_mm_ = 0.0;
         last_mm_ = position_mm;
     } else if (!spindle_turns && plant_) {

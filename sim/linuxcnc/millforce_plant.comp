@@ -36,6 +36,7 @@ pin out s32 spindle_count;
 pin out s32 spindle_index_count;
 pin out unsigned spindle_index_number;
 pin out float spindle_speed_rps;
+pin out bit spindle_at_speed "Within 2 % of spindle-rps: to spindle.0.at-speed";
 pin out float tooth_force "N, the truth";
 pin out bit alive "The plant answers";
 pin out unsigned cycle;
@@ -53,6 +54,7 @@ include "plant_link.h";
 ;;
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -165,5 +167,6 @@ FUNCTION(_) {
     spindle_index_count = (rtapi_s32)reply.index_count;
     spindle_index_number = reply.index_number;
     spindle_speed_rps = reply.spindle_rev_s;
+    spindle_at_speed = fabs(reply.spindle_rev_s - spindle_rps) <= 0.02 * fabs(spindle_rps);
     tooth_force = reply.tooth_force_N;
 }

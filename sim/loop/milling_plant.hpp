@@ -78,6 +78,7 @@ class MillingPlant {
 
     /// Spindle at speed, axes standing.
     void start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s);
+    void set_clock(double time_s) { machine_.set_clock(time_s); }
     void advance(double dt_s, const Command& command);
     /// The machine alone, away from the workpiece: nothing is cut, and nothing is judged.
     void idle(double dt_s, const MachinePlant::Command& command) { machine_.advance(dt_s, command, {}); }

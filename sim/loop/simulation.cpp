@@ -54,6 +54,8 @@ CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& set
     return cnc;
 }
 
+constexpr double spindle_start_s = 1.0;
+
 class Loop {
   public:
     Loop(const Scenario& scenario, OverrideSource& controller, const SimulationSettings& settings)
@@ -62,6 +64,7 @@ class Loop {
           cnc_(cnc_settings(scenario, settings), moves_of(scenario)),
           plant_(scenario) {
         plant_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
+        plant_.set_clock(-spindle_start_s);
         const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
         usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
         usual_.step_s = settings.plant_step_s;
@@ -72,7 +75,7 @@ class Loop {
         const auto started = std::chrono::steady_clock::now();
         Simulated simulated;
         double next_report_s = 1.0;
-        wait_for_the_controller();
+        start_spindle();
         while (!cnc_.finished() && plant_.time_s() < settings_.longest_run_s && !plant_.judge().fault_stopped()) {
             step_plant();
             if (--steps_.count <= 0) {
@@ -93,10 +96,10 @@ class Loop {
     }
 
   private:
-    /// Spindle on, axes standing.
-    void wait_for_the_controller() {
+    /// Spindle on, axes standing: as long as a CNC waits for its spindle, and until the controller is there.
+    void start_spindle() {
         const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
-        while (!controller_.is_ready()) {
+        while (!controller_.is_ready() || plant_.time_s() < -0.5 * steps_.step_s) {
             plant_.idle(steps_.step_s, standing);
             if (--steps_.count <= 0) {
                 override_ = controller_.step(plant_.sample(), program_status());

@@ -28,6 +28,7 @@ std::vector<Move> moves_of(const Scenario& scenario);
 
 /// Runs a scenario against a controller, in closed loop: CNC → drives → tool and workpiece → cutting force → drives →
 /// samples → controller → override → CNC. Deterministic: the same scenario, deviation and seed give the same bits.
+/// The spindle turns for a second before the program begins, at time 0; the figures leave it out.
 Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,
                    const SimulationSettings& settings = {});
 

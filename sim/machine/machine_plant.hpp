@@ -32,6 +32,7 @@ class MachinePlant {
     explicit MachinePlant(const MachinePlantSettings& settings);
 
     void start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s);
+    void set_clock(double time_s) { time_s_ = time_s; }
 
     struct Command {
         Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();

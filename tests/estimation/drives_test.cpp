@@ -79,6 +79,16 @@ TEST(SpindleDrive, learns_its_idle_torque_in_air_and_doubts_it_again_with_time) 
     CHECK(drive.tangential_force_N(at_current(9.0), 4.0).variance > rezeroed.variance);
 }
 
+TEST(SpindleDrive, does_not_take_an_inertia_that_is_off_for_idle_torque_while_it_runs_up) {
+    auto p = paper_spindle();
+    p.inertia_kg_m2 = 0.004;
+    SpindleDrive<double> drive(p);
+    auto running_up = at_current(9.7197 + 1.1 * 20.0 / p.K_t1_Nm_per_A);
+    running_up.acceleration_rad_s2 = 5000.0;  // 20 N·m by the inertia that is told, a tenth less than the true one
+    drive.rezero(running_up);
+    CHECK(std::abs(drive.drift_Nm()) < 0.02);
+}
+
 TEST(SpindleDrive, has_no_estimate_without_current_or_rotation) {
     const SpindleDrive<double> drive(paper_spindle());
     auto absent = at_current(12.0);

@@ -24,6 +24,13 @@ TEST(EncoderAngle, takes_its_zero_from_the_index) {
     DOUBLES_EQUAL(0.5, static_cast<double>(reading.angle_rev), 1e-6);
 }
 
+TEST(EncoderAngle, says_that_the_first_index_moves_the_angle) {
+    EncoderAngle<float> encoder(1000);
+    encoder.update(0, 0, 0);
+    CHECK(encoder.update(300, 120, 1).event == EncoderEvent::index_found);
+    CHECK(encoder.update(620, 120, 1).event == EncoderEvent::forward);
+}
+
 TEST(EncoderAngle, says_when_counts_were_lost_between_two_index_pulses) {
     EncoderAngle<float> encoder(1000);
     encoder.update(0, 0, 0);

@@ -51,12 +51,10 @@ template <typename Scalar>
 std::string table_of_the_cut() {
     const auto parameters = instructions::machine_and_tool();
     firmware::ForceControlTick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
-    hal::ProgramStatus program;
-    program.programmed_feed_mm_s = instructions::feed_mm_s;
     std::string table = header;
     constexpr int interval = 10;
     for (int sample = 0; sample < instructions::samples; ++sample) {
-        tick.step(instructions::sample_of(sample, parameters), program);
+        tick.step(instructions::sample_of(sample, parameters), instructions::program_at(sample));
         if (sample % interval == 0) {
             table += row_of(sample, tick);
         }

@@ -60,6 +60,25 @@ hal::ProgramStatus program() {
     return status;
 }
 
+/// With an encoder so fine that one window tells the torque.
+Parameters with_fine_encoder() {
+    Parameters p = machine_and_tool();
+    p.machine.encoder_counts_per_rev = 65536.0F;
+    return p;
+}
+
+/// At 4000 rpm with the axes at rest, or feeding along +x, under an even torque.
+hal::DriveSample sample_under(float torque_Nm, int index, float speed_mm_s) {
+    hal::DriveSample sample = sample_of(index);
+    const Parameters p = with_fine_encoder();
+    sample.spindle_count = static_cast<std::uint32_t>(std::lround(static_cast<double>(index) * 65536.0 / 15.0));
+    const auto& x = p.machine.axes[0];
+    sample.spindle_current_A = (torque_Nm - p.machine.spindle.K_t2_Nm) / p.machine.spindle.K_t1_Nm_per_A;
+    sample.axis_current_A[0] = speed_mm_s > 0.0F ? x.positive.at(speed_mm_s * 0.06F) + x.K_x3_A : 0.0F;
+    sample.axis_velocity_mm_s[0] = speed_mm_s;
+    return sample;
+}
+
 bool is_sound(const hal::FeedOverride& output) {
     return output.ratio >= 0.1F && output.ratio <= 1.5F;
 }
@@ -77,12 +96,53 @@ TEST(Tick, finds_the_cut_in_the_drives_signals) {
     for (int k = 0; k < 200; ++k) {
         CHECK(tick.step(sample_of(k), program()).state == static_cast<std::uint8_t>(CutState::air));
     }
+    double sum_N = 0.0;
     for (int k = 200; k < 800; ++k) {
         tick.step(sample_of(k), program());
+        sum_N += k >= 500 ? static_cast<double>(tick.estimate().tangential_N.value) : 0.0;
     }
     CHECK(tick.control().state == CutState::in_cut);
     CHECK(tick.estimate().tooth_force_N.valid);
-    DOUBLES_EQUAL(250.0, static_cast<double>(tick.estimate().tangential_N.value), 12.5);
+    DOUBLES_EQUAL(250.0, sum_N / 300.0, 12.5);
+}
+
+TEST(Tick, does_not_learn_a_light_cut_as_idle_torque_though_it_begins_with_the_spindle) {
+    ForceControlTick<float> tick(with_fine_encoder());
+    for (int k = 0; k < 3000; ++k) {
+        tick.step(sample_under(0.3F, k, feed_mm_s), program());
+    }
+    DOUBLES_EQUAL(60.0, static_cast<double>(tick.estimate().tangential_N.value), 3.0);
+}
+
+TEST(Tick, learns_the_idle_torque_while_the_axes_rest_or_in_a_rapid_and_not_in_the_light_cut_that_follows) {
+    for (const bool is_rapid : {false, true}) {
+        ForceControlTick<float> tick(with_fine_encoder());
+        hal::ProgramStatus before_the_cut = program();
+        before_the_cut.rapid = is_rapid;
+        for (int k = 0; k < 200; ++k) {
+            tick.step(sample_under(0.25F, k, is_rapid ? 200.0F : 0.0F), before_the_cut);
+        }
+        DOUBLES_EQUAL(0.0, static_cast<double>(tick.estimate().tangential_N.value), 5.0);
+        for (int k = 200; k < 3000; ++k) {
+            tick.step(sample_under(0.25F + 0.3F, k, feed_mm_s), program());
+        }
+        DOUBLES_EQUAL(60.0, static_cast<double>(tick.estimate().tangential_N.value), 6.0);
+    }
+}
+
+TEST(Tick, does_not_take_the_first_index_pulse_for_a_force) {
+    for (std::uint32_t index_count = 1000; index_count < 65536; index_count += 5000) {
+        ForceControlTick<float> tick(with_fine_encoder());
+        for (int k = 0; k < 200; ++k) {
+            hal::DriveSample sample = sample_under(0.0F, k, 0.0F);
+            const bool has_passed = sample.spindle_count >= index_count;
+            sample.spindle_index_count = has_passed ? index_count : 0;
+            sample.spindle_index_number = has_passed ? 1 : 0;
+            tick.step(sample, program());
+            CHECK(tick.control().state == CutState::air);
+            DOUBLES_EQUAL(0.0, static_cast<double>(tick.estimate().tangential_N.value), 3.0);
+        }
+    }
 }
 
 TEST(Tick, in_small_portions_finds_the_same_cut) {

@@ -56,4 +56,12 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     return sample;
 }
 
+/// The air ahead of the cut is a rapid: it teaches the spindle's idle torque and the axis' friction.
+inline hal::ProgramStatus program_at(int index) {
+    hal::ProgramStatus program;
+    program.programmed_feed_mm_s = feed_mm_s;
+    program.rapid = index < air_samples;
+    return program;
+}
+
 }  // namespace millforce::instructions

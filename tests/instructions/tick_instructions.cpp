@@ -24,12 +24,11 @@ extern "C" [[gnu::noinline]] void counted_step(ForceControlTick<float>& tick, co
 int main() {
     const Parameters<float> parameters = millforce::bench::machine_and_tool();
     ForceControlTick<float> tick(parameters);
-    hal::ProgramStatus program;
-    program.programmed_feed_mm_s = feed_mm_s;
     int estimating = 0;
     int with_engagement = 0;
     for (int index = 0; index < samples; ++index) {
         const hal::DriveSample sample = sample_of(index, parameters);
+        const hal::ProgramStatus program = program_at(index);
         const bool counted = index >= air_samples + settling_samples;
         if (!counted) {
             tick.step(sample, program);

@@ -12,7 +12,14 @@ import linuxcnc
 from drive import Drive
 
 PREAMBLE = {"m52_missing": "M52 P0", "m51_p0": "M52 P1\nM51 P0", "m52_and_m51_missing": "M52 P0\nM51 P0"}
-INJECTED = {"nan": "nan", "infinite": "inf", "negative": "-0.5", "zero": "0", "above_one": "5"}
+INJECTED = {"nan": "nan", "infinite": "inf", "negative": "-0.5", "zero": "0", "above_one": "5", "thread": "0.07"}
+# A spindle with the position that G33 wants.
+THREADING = """loadrt sim_spindle names=thread-spindle
+addf thread-spindle servo-thread
+net spindle-rps => thread-spindle.velocity-cmd
+net thread-revs thread-spindle.position-fb => spindle.0.revs
+net thread-index thread-spindle.index-enable <=> spindle.0.index-enable
+"""
 # The program goes on to its end; elsewhere it is aborted.
 ENDS = ("zero", "above_one", "reset", "fall_back", "response", "controller_restarted", "controller_late")
 
@@ -126,6 +133,9 @@ def main():
     drive.make_ready()
     with open("straight.ngc", encoding="ascii") as file:
         text = file.read().replace("M52 P1", PREAMBLE.get(case, "M52 P1"))
+    if case == "thread":
+        subprocess.run(["halcmd", "-f"], input=THREADING, text=True, check=True)
+        text = text.replace("G1 X44", "G33 X44 K0.06")
     with open("case.ngc", "w", encoding="ascii") as file:
         file.write(text)
     if case == "controller_late":

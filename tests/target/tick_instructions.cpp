@@ -90,8 +90,6 @@ bool count_steps(const char* name) {
     auto parameters = instructions::machine_and_tool();
     parameters.machine.cnc.solver_values_per_tick = solver_values_per_tick<Scalar>;
     static Tick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
-    hal::ProgramStatus program;
-    program.programmed_feed_mm_s = instructions::feed_mm_s;
     Count all;
     std::uint32_t estimates = 0;
     std::uint32_t with_engagement = 0;
@@ -99,6 +97,7 @@ bool count_steps(const char* name) {
     std::uint32_t stack = 0;
     for (int index = 0; index < instructions::samples; ++index) {
         const hal::DriveSample sample = instructions::sample_of(index, parameters);
+        const hal::ProgramStatus program = instructions::program_at(index);
         const Scalar before_s = tick.estimator().since_period_s();
         board::paint_stack();
         const std::uint32_t untouched = board::untouched_stack_bytes();

@@ -326,7 +326,8 @@ class FeedController {
     void cap_by_state(Wish& wish, const ControlInput<Scalar>& input) const {
         // Before contact the ceilings hold for the highest F that may come: the next block's F acts at once, the
         // override on it only after the latency.
-        const Scalar before_contact = input.programmed_feed_mm_s / highest_feed_mm_s_;
+        const bool is_slower = input.programmed_feed_mm_s < highest_feed_mm_s_;
+        const Scalar before_contact = is_slower ? input.programmed_feed_mm_s / highest_feed_mm_s_ : Scalar(1);
         const Scalar air = before_contact * ratio_of_feed_per_tooth(parameters_.air_feed_per_tooth_mm, input);
         if (state_ == CutState::air) {
             wish.cap(air, Limit::air_feed);

@@ -111,7 +111,7 @@ class CutEstimator {
         since_period_s_ += dt_s;
         since_prediction_s_ += dt_s;
         if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
-            reading.event == EncoderEvent::index_slipped) {
+            reading.event == EncoderEvent::index_slipped || reading.event == EncoderEvent::index_found) {
             average_.restart();
             return false;
         }
@@ -173,6 +173,12 @@ class CutEstimator {
     void leave_air() {
         air_window_ = {};
         air_periods_ = 0;
+    }
+    /// In the mean of the window no axis moved by more than 0.1 mm/s: nothing can be cut.
+    [[nodiscard]] bool axes_rest() const {
+        constexpr Scalar rest_mm_s = static_cast<Scalar>(0.1L);
+        const auto rests = [&](Scalar v_mm_s) { return v_mm_s < rest_mm_s && -v_mm_s < rest_mm_s; };
+        return window_.revolutions > 0 && rests(window_.mean[4]) && rests(window_.mean[5]) && rests(window_.mean[6]);
     }
 
     [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimate_; }

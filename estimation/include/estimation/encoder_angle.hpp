@@ -11,7 +11,8 @@ enum class EncoderEvent : unsigned char {
     standstill,    ///< no count, or a jitter of one count backwards
     reversed,      ///< turned against the cutting direction
     too_fast,      ///< turned by 0.45 revolutions or more between two readings: the direction is not known
-    index_slipped  ///< counts between two index pulses are not a whole number of revolutions: counts were lost
+    index_slipped, ///< counts between two index pulses are not a whole number of revolutions: counts were lost
+    index_found    ///< the first index pulse: the angle up to it had begun anywhere, and has jumped
 };
 
 template <typename Scalar>
@@ -24,7 +25,8 @@ struct EncoderReading {
 /// Spindle angle from encoder counts and index pulse.
 ///
 /// The count is taken modulo 2³²; the angle is the count since the index, modulo counts_per_rev. When an index pulse
-/// comes where the count does not expect it (± tolerance), the index wins and the reading says `index_slipped`.
+/// comes where the count does not expect it (± tolerance), the index wins and the reading says `index_slipped`, at the
+/// first one `index_found`.
 /// A direction change is reported once per reading; a jitter of one count is not a reversal.
 /// Readings must be less than 0.45 revolutions apart. Integer arithmetic only, no accumulation of rounding.
 /// Not thread-safe; about 40 instructions a reading.
@@ -77,8 +79,8 @@ class EncoderAngle {
         last_index_number_ = index_number;
         const std::uint32_t remainder = modulo(index_count - zero_count_);
         const std::uint32_t tolerance = counts_per_rev_ / 1024U + 1U;
-        if (!first_index && remainder > tolerance && counts_per_rev_ - remainder > tolerance) {
-            reading.event = EncoderEvent::index_slipped;
+        if (remainder > tolerance && counts_per_rev_ - remainder > tolerance) {
+            reading.event = first_index ? EncoderEvent::index_found : EncoderEvent::index_slipped;
         }
         zero_count_ = index_count;
     }

@@ -62,8 +62,13 @@ class SpindleDrive {
     /// Time passes: the drift may have moved.
     void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
 
-    /// The tool is known to be in air: what is left of the torque is drift.
-    void rezero(const Average& average) { drift_Nm_.correct(torque_without_drift_Nm(average)); }
+    /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of its
+    /// inertia's torque a share is in doubt.
+    void rezero(const Average& average) {
+        Measurement<Scalar> torque = torque_without_drift_Nm(average);
+        torque.variance += square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
+        drift_Nm_.correct(torque);
+    }
 
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
 
@@ -74,6 +79,9 @@ class SpindleDrive {
     }
 
   private:
+    /// Of J dω/dt: what J is off by, and what the slope of an average misses of an acceleration that changes within it.
+    static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
+
     [[nodiscard]] Measurement<Scalar> torque_without_drift_Nm(const Average& average) const {
         if (!average.present || !(average.samples > Scalar(0)) || !(average.speed_rad_s > Scalar(0))) {
             return {};

@@ -14,9 +14,11 @@
 /// The tick: one drive sample in, one feed override out. The same class runs on the drive controller, in the daemon and
 /// in the simulation.
 ///
-/// Rezeroing in air is its own: while the controller's state is `air`, the spindle turns evenly and its torque is near
-/// its idle value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows
-/// can so not be taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain.
+/// Rezeroing in air is its own: in a rapid, and while the controller's state is `air` and the torque is near its idle
+/// value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows can so not
+/// be taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain. As long as the
+/// idle torque is known no better than by its calibration, a light cut looks like drift, and no feed move teaches: the
+/// first time takes a rapid or axes at rest, some five revolutions of it.
 ///
 /// Beside it runs a WideBand monitor (NoWideBand where the memory is short): an immersion from force drops enters the
 /// solver as one more measurement of the engagement. What the cut has changed since the drops were seen adds to its
@@ -192,9 +194,10 @@ class ForceControlTick {
         const auto& estimate = estimator_.estimate();
         const bool in_air = controller_.state() == control::CutState::air;
         const Scalar half_contact_N = Scalar(0.5F) * control_parameters_.contact_force_N;
+        const bool looks_idle = was_rezeroed_
+                                    ? estimate.tangential_N.valid && estimate.tangential_N.value < half_contact_N
+                                    : estimator_.axes_rest();
         // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
-        const bool looks_idle = estimate.tangential_N.valid &&
-                                (!was_rezeroed_ || estimate.tangential_N.value < half_contact_N);
         air_periods_ = rapid || (in_air && looks_idle) ? air_periods_ + 1 : 0;
         // The first windows after a change hold a mixture of air and cut.
         if (air_periods_ > 2 * static_cast<int>(control_parameters_.teeth)) {
