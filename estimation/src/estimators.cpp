@@ -14,6 +14,7 @@ namespace millforce::estimation {
 template class WarmUpTracker<float>;
 template class EncoderAngle<float>;
 template class SynchronousAverage<float, 7>;
+template class SynchronousAverage<float, 7, 4>;
 template class SpindleDrive<float>;
 template class FeedDrive<float>;
 template class FeedForceObserver<float>;

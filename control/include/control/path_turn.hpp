@@ -44,7 +44,11 @@ class PathTurn {
     Motion smoothed(const Motion& m) {
         constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
         const Scalar over_s = Scalar(2) * (m.tooth_period_s - settling_s);
-        const Scalar share = over_s > m.dt_s ? m.dt_s / over_s : Scalar(1);
+        if (!(over_s > m.dt_s)) {  // nothing to smooth, as is usual
+            smooth_ = {m.velocity_x_mm_s, m.velocity_y_mm_s, m.path_speed_mm_s};
+            return m;
+        }
+        const Scalar share = m.dt_s / over_s;
         follow(smooth_.velocity_x_mm_s, m.velocity_x_mm_s, share);
         follow(smooth_.velocity_y_mm_s, m.velocity_y_mm_s, share);
         follow(smooth_.path_speed_mm_s, m.path_speed_mm_s, share);
@@ -98,7 +102,11 @@ class PathTurn {
         return slowed;
     }
 
-    Motion smooth_{};
+    struct {
+        Scalar velocity_x_mm_s{0};
+        Scalar velocity_y_mm_s{0};
+        Scalar path_speed_mm_s{0};
+    } smooth_{};
     Scalar mean_x_{0};
     Scalar mean_y_{0};
     bool was_at_speed_ = false;

@@ -91,6 +91,8 @@ class CutEstimator {
           encoder_(settings.encoder_counts_per_rev),
           average_({static_cast<int>(settings.teeth), settings.min_samples}),
           spindle_(spindle),
+          per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
+          count_rad_(Scalar(2) * pi<Scalar> / static_cast<Scalar>(settings.encoder_counts_per_rev)),
           axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
           solver_(law, solver_settings(settings), settings.side),
           peaks_(law, {peak_settings(settings.side), settings.largest_depth_mm, settings.assumed_immersion,
@@ -140,7 +142,7 @@ class CutEstimator {
         average_.restart();
         estimate_ = {};
         engagement_ = {};
-        search_ = {};
+        search_.cancel();
         search_due_ = false;
         peaks_due_ = false;
         engagement_is_new_ = true;
@@ -160,7 +162,7 @@ class CutEstimator {
         air_periods_ = 0;
         const bool has_window = air_window_.revolutions > 0;
         if (has_window) {
-            spindle_.rezero(spindle_average(air_window_, air_window_));
+            spindle_.rezero(spindle_average(air_window_));
             for (std::size_t k = 0; k < axes_.size(); ++k) {
                 axes_[k].rezero(axis_average(air_window_, k));
             }
@@ -200,7 +202,8 @@ class CutEstimator {
 
   private:
     static constexpr int channels = 7;
-    using Averager = SynchronousAverage<Scalar, channels>;
+    static constexpr int first_velocity = 4;
+    using Averager = SynchronousAverage<Scalar, channels, first_velocity>;
     using Signals = typename Averager::Signals;
 
     [[nodiscard]] bool in_portions() const { return settings_.solver_values_per_step > 0; }
@@ -241,20 +244,23 @@ class CutEstimator {
         return vector;
     }
 
-    [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average(
-        const typename Averager::Average& average, const typename Averager::Window& window) const {
-        typename SpindleDrive<Scalar>::Average spindle;
-        spindle.current_A = average.mean[0];
-        spindle.speed_rad_s = average.spindle_speed_rad_s;
+    using SpindleAverage = typename SpindleDrive<Scalar>::Average;
+    [[nodiscard]] SpindleAverage spindle_average(const typename Averager::Window& window) const {
+        SpindleAverage spindle;
+        set_spindle(spindle, window);
         spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
         // Two half-windows, each bounded by two counts of ± half a count (variance 1/12 each).
-        const Scalar count_rad = Scalar(2) * pi<Scalar> / static_cast<Scalar>(settings_.encoder_counts_per_rev);
         const Scalar half_s = Scalar(0.5F) * window.duration_s;
         spindle.acceleration_variance =
-            half_s > Scalar(0) ? square(count_rad / square(half_s)) * static_cast<Scalar>(0.33L) : Scalar(0);
+            half_s > Scalar(0) ? square(count_rad_ / square(half_s)) * static_cast<Scalar>(0.33L) : Scalar(0);
+        return spindle;
+    }
+    /// What is not common to a window and its last tooth period.
+    static void set_spindle(SpindleAverage& spindle, const typename Averager::Average& average) {
+        spindle.current_A = average.mean[0];
+        spindle.speed_rad_s = average.spindle_speed_rad_s;
         spindle.samples = average.samples;
         spindle.present = (average.present & 1U) != 0U;
-        return spindle;
     }
 
     [[nodiscard]] typename FeedDrive<Scalar>::Average axis_average(const typename Averager::Window& window,
@@ -262,8 +268,8 @@ class CutEstimator {
         const auto k = static_cast<Eigen::Index>(axis);
         typename FeedDrive<Scalar>::Average average;
         average.current_A = window.mean[1 + k];
-        average.velocity_mm_s = window.mean[4 + k];
-        average.acceleration_mm_s2 = window.slope_per_s[4 + k];
+        average.velocity_mm_s = window.mean[first_velocity + k];
+        average.acceleration_mm_s2 = window.slope_per_s[k];
         average.duration_s = window.duration_s;
         average.samples = window.samples;
         average.present = (window.present & (2U << axis)) != 0U;
@@ -271,22 +277,29 @@ class CutEstimator {
     }
 
     void update() {
-        window_ = average_.window();
+        average_.read_window(window_);
         estimate_ = {};
         if (window_.revolutions == 0) {
             return;
         }
-        const auto& tooth = average_.tooth();
         estimate_.window_s = window_.duration_s;
         estimate_.spindle_speed_rad_s = window_.spindle_speed_rad_s;
-        estimate_.tangential_N = spindle_.tangential_force_N(spindle_average(window_, window_), settings_.cutter_radius_mm);
-        estimate_.tooth_tangential_N =
-            spindle_.tangential_force_N(spindle_average(tooth, window_), settings_.cutter_radius_mm);
+        estimate_tangential();
         estimate_.x_N = axes_[0].force_N(axis_average(window_, 0));
         estimate_.y_N = axes_[1].force_N(axis_average(window_, 1));
         estimate_.z_N = axes_[2].force_N(axis_average(window_, 2));
         estimate_feed();
         take_up_engagement();
+    }
+
+    void estimate_tangential() {
+        if (!(per_Nm_ > Scalar(0))) {
+            return;
+        }
+        SpindleAverage spindle = spindle_average(window_);
+        estimate_.tangential_N = spindle_.force_N(spindle, per_Nm_);
+        set_spindle(spindle, average_.tooth());
+        estimate_.tooth_tangential_N = spindle_.force_N(spindle, per_Nm_);
     }
 
     /// The next piece of work. True where the estimate is new by it.
@@ -326,8 +339,8 @@ class CutEstimator {
 
     void estimate_feed() {
         using std::sqrt;
-        const Scalar v_x = window_.mean[4];
-        const Scalar v_y = window_.mean[5];
+        const Scalar v_x = window_.mean[first_velocity];
+        const Scalar v_y = window_.mean[first_velocity + 1];
         const Scalar speed = sqrt(square(v_x) + square(v_y));
         estimate_.feed_mm_s = speed;
         const Scalar teeth_per_s = settings_.teeth * window_.spindle_speed_rad_s / (Scalar(2) * pi<Scalar>);
@@ -471,20 +484,26 @@ class CutEstimator {
                 forces_then.cutting_tangential_N / forces_then.tangential_N};
     }
 
+    // What each sample touches comes first: near the object's start an access is one instruction.
+    Scalar since_period_s_{0};
+    Scalar since_prediction_s_{0};
+    bool search_due_ = false;
+    bool peaks_due_ = false;
+    bool has_peaks_ = false;         // of this tooth period's forces
+    bool engagement_is_new_ = true;  // peaks_ has not seen it yet
+
     CutEstimatorSettings<Scalar> settings_{};
     CuttingLaw<Scalar> law_{};
     EncoderAngle<Scalar> encoder_{};
     Averager average_{};
     SpindleDrive<Scalar> spindle_{};
+    Scalar per_Nm_{0};     // F_at of a torque, 1000/R
+    Scalar count_rad_{0};
     std::array<FeedDrive<Scalar>, 3> axes_{};
     EngagementSolver<Scalar> solver_{};
     typename EngagementSolver<Scalar>::Search search_{};
     EngagementEstimate<Scalar> engagement_{};  // the last that the solver gave
     AverageForceMeasurement<Scalar> asked_{};      // what it is to be given next
-    bool search_due_ = false;
-    bool peaks_due_ = false;
-    bool has_peaks_ = false;          // of this tooth period's forces
-    bool engagement_is_new_ = true;   // peaks_ has not seen it yet
     EngagementPeaks<Scalar> peaks_{};
 
     typename Averager::Window window_{};
@@ -495,8 +514,6 @@ class CutEstimator {
     int periods_since_memory_ = 0;
     Scalar last_exponent_{Scalar(0.75F)};
     CutEstimate<Scalar> estimate_{};
-    Scalar since_period_s_{0};
-    Scalar since_prediction_s_{0};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
 };

@@ -10,8 +10,9 @@ namespace millforce::estimation {
 /// Tooth peaks per F_at at the engagement that is known, and at those that may come.
 ///
 /// They depend on the engagement alone, which comes once per solution; the forces come with every tooth period. So
-/// take() reads all tables once, and what is left for a tooth period are products. Cost of take(): eight readings of the
-/// peak table (peak_factors.hpp), three of the forces' table. Memory: both sides' peak tables, 2.9 KiB in float.
+/// take() reads all tables once, and what is left for a tooth period are products. Cost of take(): up to seven readings of
+/// the peak table (peak_factors.hpp), three of the forces' table; what the present engagement does not ask for is not
+/// read. Memory: both sides' peak tables, 2.9 KiB in float.
 /// Not thread-safe.
 template <typename Scalar>
 class EngagementPeaks {
@@ -41,7 +42,7 @@ class EngagementPeaks {
         Scalar by_K_s{0};         ///< change of `now` by one deviation of K_s
         Scalar bound{1};          ///< what the narrowest cut and the smallest depth that the forces allow load one tooth
         Scalar narrowest{1};      ///< the same where no force tells anything
-        Scalar surge{1};
+        Scalar surge{1};          ///< where it is wider than now
         Scalar turn{1};
     };
 
@@ -69,14 +70,17 @@ class EngagementPeaks {
         depth_mm_ = has_depth ? found.axial_depth_mm : usual_mm;
         const Table& table = solver.table(side_);
         here_node_ = table.between(now_.theta_rad);
-        surge_node_ = table.between(surge_.theta_rad);
-        turn_node_ = table.between(turn_.theta_rad);
         factors_.now = factor(side_, now_, depth_mm_);
         factors_.slot = factor(side_, slot_, depth_mm_);
-        factors_.surge = factor(side_, surge_, depth_mm_);
-        factors_.turn = factor(side_, turn_, depth_mm_);
+        if (surge_is_wider()) {
+            surge_node_ = table.between(surge_.theta_rad);
+            factors_.surge = factor(side_, surge_, depth_mm_);
+        }
+        if (turn_is_wider()) {
+            turn_node_ = table.between(turn_.theta_rad);
+            factors_.turn = factor(side_, turn_, depth_mm_);
+        }
         read_bounds(found, has_depth);
-        factors_.narrowest = factor(side_, Place{}, Scalar(0));
         factors_.by_K_s = change_by_K_s(table, feed_per_tooth_mm);
     }
 
@@ -113,6 +117,8 @@ class EngagementPeaks {
             factors_.at_high = factor(side_, high, has_depth ? e.depth_at_high_mm : depth_mm_);
         } else if (e.solved) {
             factors_.bound = factor(side_, low, e.depth_at_high_mm);
+        } else {
+            factors_.narrowest = factor(side_, Place{}, Scalar(0));
         }
     }
 

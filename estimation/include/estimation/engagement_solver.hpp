@@ -101,6 +101,11 @@ class EngagementSolver {
       public:
         [[nodiscard]] bool done() const { return phase_ == Phase::done; }
         [[nodiscard]] const EngagementEstimate<Scalar>& estimate() const { return estimate_; }
+        /// Gives it up: no estimate.
+        void cancel() {
+            estimate_ = {};
+            phase_ = Phase::done;
+        }
 
       private:
         friend class EngagementSolver;

@@ -119,12 +119,12 @@ class FeedDrive {
         }
         const Scalar friction_A = signed_friction_A(average);
         const Scalar cut_A = average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
-        const Scalar force = parameters_.K_x4_N_per_A * cut_A +
-                             force_by_speed_N(average) - inertial_force_N(average);
+        const Scalar inertial_N = inertial_force_N(average);
+        const Scalar force = parameters_.K_x4_N_per_A * cut_A + force_by_speed_N(average) - inertial_N;
         const Scalar friction_variance =
             square(friction_A) * friction_scale_.variance(direction(average)) + square(parameters_.friction_ripple_A);
         const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
-                             square(inertia_share_in_doubt * inertial_force_N(average));
+                             square(inertia_share_in_doubt * inertial_N);
         return {true, force,
                 noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
                 noise};

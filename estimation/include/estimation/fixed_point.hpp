@@ -26,7 +26,7 @@
 /// Errors: sqrt 2⁻³² relative; sin, cos, atan2 2e-9; acos 3e-9, within 1e-4 of ±1 1e-6; exp 3e-9 relative or half a
 /// resolution; log 2e-9.
 ///
-/// Cost on a Cortex-M3 in instructions: + 8, × 27, ÷ 175, √ 265; in soft float 60, 45, 140. Not thread-safe in its counter.
+/// Cost on a Cortex-M3 in instructions: + 8, × 26, ÷ 140, √ 140; in soft float 60, 45, 140. Not thread-safe in its counter.
 
 namespace millforce::estimation {
 

@@ -78,8 +78,10 @@ class ForceMemory {
     }
 
     static void mix(Measurement<Scalar>& now, const Measurement<Scalar>& held, Scalar share) {
-        now.value = held.value + (now.value - held.value) * share;
-        now.variance -= now.noise * (Scalar(1) - share);
+        if (now.valid) {
+            now.value = held.value + (now.value - held.value) * share;
+            now.variance -= now.noise * (Scalar(1) - share);
+        }
     }
 
     void remember(const AverageForceMeasurement<Scalar>& forces, Scalar feed_mm_s, Scalar revolutions) {

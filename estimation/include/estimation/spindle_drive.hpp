@@ -45,14 +45,18 @@ class SpindleDrive {
     };
 
     [[nodiscard]] Measurement<Scalar> tangential_force_N(const Average& average, Scalar cutter_radius_mm) const {
+        return cutter_radius_mm > Scalar(0) ? force_N(average, Scalar(1000) / cutter_radius_mm) : Measurement<Scalar>{};
+    }
+    /// The same for a tool whose newtons per N·m, 1000/R, are known already.
+    [[nodiscard]] Measurement<Scalar> force_N(const Average& average, Scalar per_Nm) const {
         Measurement<Scalar> torque = torque_without_drift_Nm(average);
-        if (!torque.valid || !(cutter_radius_mm > Scalar(0))) {
+        if (!torque.valid) {
             return {};
         }
         torque.value -= drift_Nm_.value();
         torque.variance += drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque.value);
-        const Scalar per_Nm = Scalar(1000) / cutter_radius_mm;
-        return {true, torque.value * per_Nm, torque.variance * square(per_Nm), torque.noise * square(per_Nm)};
+        const Scalar per_Nm2 = square(per_Nm);
+        return {true, torque.value * per_Nm, torque.variance * per_Nm2, torque.noise * per_Nm2};
     }
 
     /// Time passes: the drift may have moved.

@@ -14,10 +14,12 @@
 
 namespace millforce::estimation {
 
-template <typename Scalar, int Channels, int MaxPeriods = 48>
+/// `FirstSlope`: the first of the signals whose slope is asked for; the slopes of those before it are not worked out.
+template <typename Scalar, int Channels, int FirstSlope = 0, int MaxPeriods = 48>
 class SynchronousAverage {
   public:
     using Signals = Eigen::Matrix<Scalar, Channels, 1>;
+    using Slopes = Eigen::Matrix<Scalar, Channels - FirstSlope, 1>;
 
     struct Settings {
         int teeth = 4;            ///< tooth periods per revolution, 1…12
@@ -37,7 +39,7 @@ class SynchronousAverage {
     /// The last whole revolutions, and how the spindle and the signals changed across them.
     struct Window : Average {
         Scalar spindle_acceleration_rad_s2{0};
-        Signals slope_per_s = Signals::Zero();  ///< of each signal: newer half against older half
+        Slopes slope_per_s = Slopes::Zero();  ///< of each signal from FirstSlope on: newer half against older half
         int revolutions = 0;                    ///< 0: not enough has been seen since the last start
     };
 
@@ -87,6 +89,10 @@ class SynchronousAverage {
     /// The newest whole revolutions that hold at least min_samples. Cost: linear in the periods of the window.
     [[nodiscard]] Window window() const {
         Window window;
+        read_window(window);
+        return window;
+    }
+    void read_window(Window& window) const {
         int count = 0;
         Scalar samples{0};
         int wanted = 0;
@@ -100,11 +106,11 @@ class SynchronousAverage {
             }
         }
         if (wanted == 0) {
-            return window;
+            window = {};
+            return;
         }
         sum_up(wanted, window);
         window.revolutions = wanted / settings_.teeth;
-        return window;
     }
 
   private:
@@ -152,9 +158,7 @@ class SynchronousAverage {
         const Scalar part_rev = width * turned_rev;
         if (from == Scalar(0) && to == Scalar(1)) {
             const Scalar half_rev = Scalar(0.5F) * part_rev;  // a whole interval, which is usual
-            for (int k = 0; k < Channels; ++k) {
-                sum_[k] += (previous_signals_[k] + signals[k]) * half_rev;
-            }
+            sum_ += (previous_signals_ + signals) * half_rev;
         } else {
             const Scalar middle = Scalar(0.5F) * (from + to);
             for (int k = 0; k < Channels; ++k) {
@@ -194,36 +198,52 @@ class SynchronousAverage {
     }
 
     void sum_up(int count, Window& window) const {
-        window.present = ~0U;
+        std::uint32_t present = ~0U;
+        Scalar samples{0};
+        Scalar duration_s{0};
         Scalar newer_duration_s{0};
         Scalar older_duration_s{0};
-        Signals newer = Signals::Zero();
-        Signals older = Signals::Zero();
+        Slopes newer = Slopes::Zero();
+        Slopes older = Slopes::Zero();
+        Signals sum = Signals::Zero();
         const int half = (count + 1) / 2;
         for (int k = 0; k < count; ++k) {
             const Average& period = at(k);
-            window.mean += period.mean;
-            window.present &= period.present;
-            window.samples += period.samples;
-            window.duration_s += period.duration_s;
+            add_to(sum, period.mean, 0);
+            present &= period.present;
+            samples += period.samples;
+            duration_s += period.duration_s;
             if (k < half) {
-                newer += period.mean;
+                add_to(newer, period.mean, FirstSlope);
                 newer_duration_s += period.duration_s;
             }
             if (k >= count - half) {
-                older += period.mean;
+                add_to(older, period.mean, FirstSlope);
                 older_duration_s += period.duration_s;
             }
         }
-        window.mean *= Scalar(1) / Scalar(count);
+        window.mean = sum * (Scalar(1) / Scalar(count));
+        window.present = present;
+        window.samples = samples;
+        window.duration_s = duration_s;
         const Scalar pitch_rad = two_pi * pitch_rev_;
         const Scalar half_rad = Scalar(half) * pitch_rad;
-        window.spindle_speed_rad_s = Scalar(count) * pitch_rad / window.duration_s;
-        const Scalar apart_s = window.duration_s - Scalar(0.5F) * (newer_duration_s + older_duration_s);
+        window.spindle_speed_rad_s = Scalar(count) * pitch_rad / duration_s;
+        const Scalar apart_s = duration_s - Scalar(0.5F) * (newer_duration_s + older_duration_s);
         if (apart_s > Scalar(0)) {
             window.spindle_acceleration_rad_s2 =
                 (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
             window.slope_per_s = (newer - older) * (Scalar(1) / (Scalar(half) * apart_s));
+        } else {
+            window.spindle_acceleration_rad_s2 = Scalar(0);
+            window.slope_per_s.setZero();
+        }
+    }
+
+    template <typename Sum>
+    static void add_to(Sum& sum, const Signals& signals, int first) {
+        for (int k = 0; k < static_cast<int>(Sum::RowsAtCompileTime); ++k) {
+            sum[k] += signals[first + k];
         }
     }
 
@@ -240,7 +260,6 @@ class SynchronousAverage {
 
     Settings settings_;
     Scalar pitch_rev_;
-    Average periods_[static_cast<std::size_t>(MaxPeriods)];
     std::uint32_t periods_seen_ = 0;  // kept in [0, 2·MaxPeriods): the ring's place, and whether it is full
 
     Signals sum_ = Signals::Zero();
@@ -255,6 +274,8 @@ class SynchronousAverage {
     Scalar previous_dt_s_{0};
     Signals previous_signals_ = Signals::Zero();
     std::uint32_t previous_present_ = 0;
+
+    Average periods_[static_cast<std::size_t>(MaxPeriods)];  // last: what each sample touches lies near the start
 };
 
 }  // namespace millforce::estimation

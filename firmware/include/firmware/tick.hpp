@@ -30,9 +30,9 @@ template <typename Scalar, typename WideBand = WideBandMonitor<Scalar>>
 class ForceControlTick {
   public:
     explicit ForceControlTick(const Parameters<Scalar>& parameters)
-        : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
+        : controller_(controller_parameters(parameters)),
+          estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
                      parameters.tool.law),
-          controller_(controller_parameters(parameters)),
           wide_band_(parameters),
           control_parameters_(controller_parameters(parameters)),
           roughness_model_(parameters.tool.roughness),
@@ -52,7 +52,9 @@ class ForceControlTick {
         if (!wide_band_.add(dt_s, sample, may_be_in_cut())) {
             forget_sections();
         }
-        estimator_.tell_immersion(immersion_by_force_drops());
+        if constexpr (WideBand::has_force_drops) {
+            estimator_.tell_immersion(immersion_by_force_drops());
+        }
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
                                                        sample.spindle_index_number, signals);
         if (fresh) {
@@ -174,23 +176,21 @@ class ForceControlTick {
 
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
         estimation::DriveSignals<Scalar> signals;
-        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A)) {
-            signals.spindle_current_A = Scalar(sample.spindle_current_A);
-            signals.present |= 1U;
-        }
+        const bool has_current =
+            (sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A);
+        signals.spindle_current_A = has_current ? Scalar(sample.spindle_current_A) : Scalar(0);
+        signals.present = has_current ? 1U : 0U;
         for (std::size_t k = 0; k < hal::axis_count; ++k) {
             const bool there = (sample.present & hal::axis_mask(k)) != 0 && hal::is_finite(sample.axis_current_A[k]) &&
                                hal::is_finite(sample.axis_velocity_mm_s[k]);
-            if (there) {
-                signals.axis_current_A[k] = Scalar(sample.axis_current_A[k]);
-                signals.axis_velocity_mm_s[k] = Scalar(sample.axis_velocity_mm_s[k]);
-                signals.present |= 2U << k;
-            }
+            signals.axis_current_A[k] = there ? Scalar(sample.axis_current_A[k]) : Scalar(0);
+            signals.axis_velocity_mm_s[k] = there ? Scalar(sample.axis_velocity_mm_s[k]) : Scalar(0);
+            signals.present |= there ? 2U << k : 0U;
         }
         return signals;
     }
 
-    void rezero_in_air(bool rapid) {
+    [[gnu::noinline]] void rezero_in_air(bool rapid) {
         const auto& estimate = estimator_.estimate();
         const bool in_air = controller_.state() == control::CutState::air;
         const Scalar half_contact_N = Scalar(0.5F) * control_parameters_.contact_force_N;
@@ -305,23 +305,24 @@ class ForceControlTick {
         return output;
     }
 
-    estimation::CutEstimator<Scalar> estimator_;
+    // What each sample touches comes first: near the object's start an access is one instruction.
+    control::ControlInput<Scalar> input_{};
+    control::ControlOutput<Scalar> control_{};
+    std::uint32_t last_time_us_ = 0;
+    std::uint32_t heartbeat_ = 0;
+    bool has_time_ = false;
+    bool was_rezeroed_ = false;
+    int air_periods_ = 0;
     control::FeedController<Scalar> controller_;
+    estimation::CutEstimator<Scalar> estimator_;
     WideBand wide_band_;
     control::FeedControllerParameters<Scalar> control_parameters_;
     estimation::RoughnessPredictor<Scalar> roughness_model_;
     Scalar tool_diameter_mm_;
     Scalar declared_depth_mm_;
     Scalar reaction_s_;
-    control::ControlInput<Scalar> input_{};
-    control::ControlOutput<Scalar> control_{};
     estimation::RoughnessPrediction<Scalar> roughness_{};
     control::SurfaceForControl<Scalar> surface_{};
-    std::uint32_t last_time_us_ = 0;
-    std::uint32_t heartbeat_ = 0;
-    bool has_time_ = false;
-    bool was_rezeroed_ = false;
-    int air_periods_ = 0;
     Scalar section_sum_mm2_{0};
     Scalar section_of_drops_mm2_{0};
     Scalar width_share_{Scalar(0.5F)};  ///< of the section's growth

@@ -36,6 +36,7 @@ struct WideBandEstimate {
 template <typename Scalar>
 class NoWideBand {
   public:
+    static constexpr bool has_force_drops = false;
     explicit NoWideBand(const Parameters<Scalar>&) {}
     bool add(Scalar, const hal::DriveSample&, bool) { return false; }
     [[nodiscard]] static bool work_due() { return false; }
@@ -49,6 +50,8 @@ class NoWideBand {
 template <typename Scalar>
 class WideBandMonitor {
   public:
+    static constexpr bool has_force_drops = true;
+
     explicit WideBandMonitor(const Parameters<Scalar>& p)
         : forces_(p),
           teeth_(p.tool.teeth),

@@ -55,12 +55,15 @@ MILLFORCE_CALLED constexpr Raw multiply_by_words(Raw a, Raw b) {
     const std::uint64_t x = magnitude(a);
     const std::uint64_t y = magnitude(b);
     constexpr std::uint64_t half = 1ULL << 31U;
-    const std::uint64_t low = product(low_word(x), low_word(y)) + half;
-    const std::uint64_t middle =
-        product(high_word(x), low_word(y)) + product(low_word(x), high_word(y)) + high_word(low);
-    const std::uint64_t high = product(high_word(x), high_word(y)) + high_word(middle);
+    // Each sum is written as its product is added: one instruction.
+    const std::uint64_t low = half + product(low_word(x), low_word(y));
+    std::uint64_t middle = high_word(low);
+    middle += product(high_word(x), low_word(y));
+    middle += product(low_word(x), high_word(y));
+    std::uint64_t high = high_word(middle);
+    high += product(high_word(x), high_word(y));
     const bool negative = (a ^ b) < 0;
-    if (high >= half) {
+    if ((high_word(high) | low_word(high) >> 31U) != 0U) {
         return end_of_range<Policy>(negative);
     }
     return signed_raw(high << 32U | low_word(middle), negative);
@@ -91,74 +94,96 @@ constexpr std::uint64_t scaled(std::uint64_t value, std::uint64_t fraction) {
     return product(high_word(value), high_word(fraction)) + high_word(middle_a) + high_word(middle_b);
 }
 
+constexpr std::uint64_t joined(std::uint32_t high, std::uint32_t low) { return std::uint64_t{high} << 32U | low; }
+
+/// x 2ˢ for s below 32, its upper 64 bits lost. (A shift by any number of places takes twice the instructions.)
+constexpr std::uint64_t shifted_up(std::uint64_t x, unsigned s) {
+    return joined(high_word(x) << s | low_word(x) >> 1U >> (31U - s), low_word(x) << s);
+}
+
 struct Digit {
     std::uint32_t quotient;
     std::uint32_t remainder;
 };
 
-/// (high·2³² + low) / divisor for high < divisor and a divisor whose highest bit is set: two digits of 16 bits, each
-/// with one 32-bit division (Knuth, The Art of Computer Programming 2, 4.3.1, algorithm D).
-constexpr Digit divide_normalised(std::uint32_t high, std::uint32_t low, std::uint32_t divisor) {
-    const std::uint32_t d_high = divisor >> 16U;
-    const std::uint32_t d_low = divisor & 0xFFFFU;
-    std::uint32_t remainder = high;
-    std::uint32_t quotient = 0;
-    for (const std::uint32_t next : {low >> 16U, low & 0xFFFFU}) {
-        std::uint32_t digit = remainder / d_high;
-        std::uint32_t rest = remainder - digit * d_high;
-        while (digit >= 0x10000U || digit * d_low > (rest << 16U | next)) {
-            --digit;
-            rest += d_high;
-            if (rest >= 0x10000U) {
-                break;
-            }
+/// A divisor whose highest bit is set, with ⌊(2⁶⁴ − 1)/divisor⌋ − 2³²: each digit of a quotient is then two products.
+struct Divisor {
+    std::uint32_t value;
+    std::uint32_t reciprocal;
+
+    constexpr explicit Divisor(std::uint32_t divisor) : value(divisor), reciprocal(0) {
+        // 2⁶²/divisor to 16 bits, from the divisor's first 17; then one step of Newton's, which stays below.
+        const std::uint32_t first_bits = divisor >> 15U | 1U;
+        const std::uint32_t first = 0xFFFFFFFFU / first_bits;
+        const std::uint32_t second = ((0xFFFFFFFFU - first * first_bits) << 15U) / first_bits;
+        const std::uint32_t rough = first << 15U | second;
+        const auto miss = static_cast<std::int64_t>((1ULL << 62U) - product(rough, divisor)) >> 16U;
+        const std::int64_t correction = std::int64_t{static_cast<std::int32_t>(rough)} * static_cast<std::int32_t>(miss);
+        reciprocal = (rough << 2U) + static_cast<std::uint32_t>(correction >> 44U);
+        std::uint64_t rest = ~(product(reciprocal, divisor) + joined(divisor, 0));
+        while (rest >= divisor) {
+            rest -= divisor;
+            ++reciprocal;
         }
-        remainder = (remainder << 16U) + next - digit * divisor;
-        quotient = quotient << 16U | digit;
+    }
+};
+
+/// (high·2³² + low) / divisor for high < divisor (Möller & Granlund, Improved division by invariant integers, 2011).
+constexpr Digit divide_normalised(std::uint32_t high, std::uint32_t low, const Divisor& divisor) {
+    const std::uint64_t estimate = joined(high, low) + product(divisor.reciprocal, high);
+    std::uint32_t quotient = high_word(estimate) + 1U;
+    std::uint32_t remainder = low - quotient * divisor.value;
+    if (remainder > low_word(estimate)) {
+        --quotient;
+        remainder += divisor.value;
+    }
+    if (remainder >= divisor.value) [[unlikely]] {
+        ++quotient;
+        remainder -= divisor.value;
     }
     return {quotient, remainder};
 }
 
-/// One digit of (high·2³² + next) / divisor for a divisor of two words whose highest bit is set and high < divisor.
-/// `high` becomes the remainder.
-constexpr std::uint32_t divide_step(std::uint64_t& high, std::uint32_t next, std::uint64_t divisor) {
-    const std::uint32_t d_high = high_word(divisor);
+/// One digit of (high·2³² + next) / divisor for a divisor of two words whose highest bit is set and high < divisor;
+/// `upper` is its upper word. `high` becomes the remainder.
+constexpr std::uint32_t divide_step(std::uint64_t& high, std::uint32_t next, std::uint64_t divisor,
+                                    const Divisor& upper) {
     std::uint32_t digit = 0xFFFFFFFFU;
-    std::uint64_t rest = std::uint64_t{low_word(high)} + d_high;  // of the largest digit, where high_word(high) is d_high
-    if (high_word(high) < d_high) {
-        const Digit estimate = divide_normalised(high_word(high), low_word(high), d_high);
+    // Of the largest digit, where the upper words are equal.
+    std::uint64_t rest = std::uint64_t{low_word(high)} + upper.value;
+    if (high_word(high) < upper.value) {
+        const Digit estimate = divide_normalised(high_word(high), low_word(high), upper);
         digit = estimate.quotient;
         rest = estimate.remainder;
     }
-    while (high_word(rest) == 0 && product(digit, low_word(divisor)) > (rest << 32U | next)) {
+    while (high_word(rest) == 0 && product(digit, low_word(divisor)) > joined(low_word(rest), next)) {
         --digit;
-        rest += d_high;
+        rest += upper.value;
     }
-    high = (high << 32U | next) - digit * divisor;
+    high = joined(low_word(high), next) - digit * divisor;
     return digit;
 }
-
-constexpr std::uint64_t joined(std::uint32_t high, std::uint32_t low) { return std::uint64_t{high} << 32U | low; }
 
 /// 2³² x / y rounded to nearest, for y below 2³² and a quotient below 2⁶³.
 constexpr std::uint64_t quotient_by_word(std::uint64_t x, std::uint32_t y) {
     const auto shift = static_cast<unsigned>(std::countl_zero(y));
-    const std::uint32_t divisor = y << shift;
-    const std::uint64_t dividend = x << shift;
+    const Divisor divisor(y << shift);
+    const std::uint64_t dividend = shifted_up(x, shift);
     const Digit first = divide_normalised(high_word(dividend), low_word(dividend), divisor);
     const Digit second = divide_normalised(first.remainder, 0, divisor);
-    const std::uint64_t round_up = second.remainder >= divisor - second.remainder ? 1U : 0U;
+    const std::uint64_t round_up = second.remainder >= divisor.value - second.remainder ? 1U : 0U;
     return joined(first.quotient, second.quotient) + round_up;
 }
 
 /// The same for y of 2³² and more.
 constexpr std::uint64_t quotient_by_two_words(std::uint64_t x, std::uint64_t y) {
-    const auto shift = static_cast<unsigned>(std::countl_zero(y));
-    const std::uint64_t divisor = y << shift;
-    const std::uint64_t dividend = x << shift;
-    std::uint64_t rest = joined(shift == 0 ? 0U : static_cast<std::uint32_t>(x >> (64U - shift)), high_word(dividend));
-    const std::uint32_t first = divide_step(rest, low_word(dividend), divisor);
-    const std::uint32_t second = divide_step(rest, 0, divisor);
+    const auto shift = static_cast<unsigned>(std::countl_zero(high_word(y)));
+    const std::uint64_t divisor = shifted_up(y, shift);
+    const Divisor upper(high_word(divisor));
+    const std::uint64_t dividend = shifted_up(x, shift);
+    std::uint64_t rest = joined(high_word(x) >> 1U >> (31U - shift), high_word(dividend));
+    const std::uint32_t first = divide_step(rest, low_word(dividend), divisor, upper);
+    const std::uint32_t second = divide_step(rest, 0, divisor, upper);
     return joined(first, second) + (rest >= divisor - rest ? 1U : 0U);
 }
 

@@ -92,16 +92,19 @@ MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
     const auto shift = static_cast<unsigned>(std::countl_zero(static_cast<std::uint64_t>(x))) & ~1U;
     const std::uint64_t m = static_cast<std::uint64_t>(x) << shift;
     const auto top = high_word(m);  // Q32: ¼ … 1
-    // 1/√top in Q30, from a line that is 4 % off at most.
-    std::uint32_t y = 0x9F00'0000U - high_word(product(top, 0x6200'0000U));
-    for (int round = 0; round < 4; ++round) {
+    // 1/√top in Q30 to 24 bits, from a line that is 9 % off at most.
+    std::uint32_t y = 0x887E'0000U - high_word(product(top, 0x4DFE'0000U));
+    for (int round = 0; round < 3; ++round) {
         const std::uint32_t y2 = high_word(product(y, y));                       // Q28
         const std::uint32_t rest = 0xC000'0000U - (high_word(product(y2, top)) << 2U);  // 3 − m y² in Q30
         y = high_word(product(y, rest) << 1U);
     }
     std::uint64_t root = product(top, y) >> 30U;
+    // √m = root + (m − root²)/(2 √m), but for a unit.
+    const auto miss = static_cast<std::int32_t>(static_cast<std::int64_t>(m - root * root) >> 16U);
+    const std::int64_t correction = (std::int64_t{miss} * static_cast<std::int32_t>(y >> 1U)) >> 46U;
+    root += static_cast<std::uint64_t>(correction);
     root = root > 0xFFFF'FFFFULL ? 0xFFFF'FFFFULL : root;
-    // √x in raw is √(x 2³²) = √m 2^(16 − shift/2).
     while (root * root > m) {
         --root;
     }
@@ -109,6 +112,7 @@ MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
         ++root;
     }
     root += m - root * root > root ? 1U : 0U;
+    // √x in raw is √(x 2³²) = √m 2^(16 − shift/2).
     const int up = 16 - static_cast<int>(shift / 2U);
     return up >= 0 ? static_cast<Raw>(root << static_cast<unsigned>(up))
                    : static_cast<Raw>((root + (1ULL << static_cast<unsigned>(-up - 1))) >> static_cast<unsigned>(-up));
@@ -123,9 +127,13 @@ inline constexpr Raw raw_pi = 13493037705;         // π 2³²
 inline constexpr Raw raw_half_pi = 6746518852;     // ½π 2³²
 inline constexpr Raw raw_quarter_pi = 3373259426;  // ¼π 2³²
 
-/// a/b in Q31 for a ≤ b, both with b's highest bit at 31.
+/// a/b in Q31 for a ≤ b, b > 0.
 constexpr Fraction share_of(std::uint32_t a, std::uint32_t b) {
-    return a >= b ? INT32_MAX : static_cast<Fraction>(divide_normalised(a, 0, b).quotient >> 1U);
+    if (a >= b) {
+        return INT32_MAX;
+    }
+    const auto shift = static_cast<unsigned>(std::countl_zero(b));
+    return static_cast<Fraction>(divide_normalised(a << shift, 0, Divisor(b << shift)).quotient >> 1U);
 }
 
 /// atan(small/large) for 0 ≤ small ≤ large, large > 0.
