@@ -6,10 +6,11 @@ namespace millforce::cia402 {
 
 namespace {
 
-constexpr float phase_gain = 1.0F / 64.0F;
-constexpr float drift_gain = phase_gain * phase_gain / 4.0F;  // critically damped
+constexpr float grid_gain = 1.0F / 64.0F;
+constexpr float drift_gain = grid_gain * grid_gain / 4.0F;  // critically damped
 constexpr float position_gain = 1.0F / 4.0F;
 constexpr float speed_gain = position_gain * position_gain / (2.0F - position_gain);
+constexpr float followed_noise = 0.25F;  // of white noise with variance 1 in what is followed so: a step ahead
 constexpr float memory_periods = 1024.0F;
 constexpr float enough_periods = 200.0F;
 constexpr std::uint32_t settled = 32;  // counts until the spindle is followed well
@@ -44,19 +45,23 @@ void SyncClock::restart_at(std::uint64_t stamp_us) {
     grid_ns_ = stamp_us * 1000U;
     drift_ns_ = 0.0F;
     by_stamp_us_ = 0.0F;
+    ahead_us_ = 0.0F;
+    ahead_us_per_period_ = 0.0F;
     latched_off_us_ = 0.0F;
     has_count_ = false;
 }
 
 void SyncClock::on_sync(std::uint64_t stamp_us) {
     const std::uint64_t stamp_ns = stamp_us * 1000U;
-    const std::uint64_t before_ns = shifted(grid_ns_, phase_gain * 1000.0F * by_stamp_us_);
+    const std::uint64_t before_ns = shifted(grid_ns_, grid_gain * 1000.0F * by_stamp_us_);
     const std::uint64_t periods = stamp_ns < before_ns ? 0 : (stamp_ns - before_ns + period_ns_ / 2) / period_ns_;
     if (grid_ns_ == 0 || periods == 0 || periods > longest_grid_periods) {
         restart_at(stamp_us);
         return;
     }
     drift_ns_ += drift_gain * 1000.0F * by_stamp_us_;
+    ahead_us_ -= grid_gain * by_stamp_us_;
+    ahead_us_per_period_ -= drift_gain * by_stamp_us_;
     grid_ns_ = shifted(before_ns + periods * period_ns_, static_cast<float>(periods) * drift_ns_);
     const auto off_ns = static_cast<std::int64_t>(stamp_ns - grid_ns_);
     const auto quarter_ns = static_cast<std::int64_t>(period_ns_ / 4);
@@ -66,7 +71,15 @@ void SyncClock::on_sync(std::uint64_t stamp_us) {
     }
     by_stamp_us_ = static_cast<float>(off_ns) * 0.001F;
     latched_off_us_ = by_stamp_us_;
+    follow_stamp(static_cast<float>(periods));
     since_count_ = std::min(since_count_ + static_cast<std::uint32_t>(periods), longest_gap_periods + 1);
+}
+
+void SyncClock::follow_stamp(float periods) {
+    expected_us_ = ahead_us_ + periods * ahead_us_per_period_;
+    const float off_us = by_stamp_us_ - expected_us_;
+    ahead_us_ = expected_us_ + position_gain * off_us;
+    ahead_us_per_period_ += speed_gain * off_us / periods;
 }
 
 void SyncClock::restart_counting(std::uint32_t count) {
@@ -105,9 +118,11 @@ void SyncClock::on_count(std::uint32_t count) {
 void SyncClock::learn(float by_counts_us) {
     learnt_ = std::min(learnt_ + 1.0F, memory_periods);
     const float share = 1.0F / learnt_;
-    mean_ss_us2_ += share * (square(by_stamp_us_) - mean_ss_us2_);
+    const float off_us = by_stamp_us_ - expected_us_;
+    mean_ss_us2_ += share * (square(off_us) - mean_ss_us2_);
     mean_cc_us2_ += share * (square(by_counts_us) - mean_cc_us2_);
-    mean_sc_us2_ += share * (by_stamp_us_ * by_counts_us - mean_sc_us2_);
+    mean_sc_us2_ += share * (off_us * by_counts_us - mean_sc_us2_);
+    mean_wander_us2_ += share * (square(expected_us_) - mean_wander_us2_);
 }
 
 void SyncClock::weigh(float by_counts_us) {
@@ -117,10 +132,13 @@ void SyncClock::weigh(float by_counts_us) {
     const float of_sync = std::max(mean_sc_us2_, smallest_variance_us2);
     const float of_stamp = std::max(mean_ss_us2_ - mean_sc_us2_, smallest_variance_us2);
     const float of_counts = std::max(mean_cc_us2_ - mean_sc_us2_, smallest_variance_us2);
-    const bool contradicts = square(by_stamp_us_ - by_counts_us) > contradiction_sd2 * (of_stamp + of_counts);
+    const float wander = std::max(mean_wander_us2_, smallest_variance_us2);
+    const float base_us = expected_us_ * std::max(0.0F, 1.0F - followed_noise * of_stamp / wander);
+    const float off_us = by_stamp_us_ - base_us;
+    const bool contradicts = square(off_us - by_counts_us) > contradiction_sd2 * (of_stamp + of_counts);
     const float counts_weight = contradicts ? 0.0F : 1.0F / of_counts;
-    latched_off_us_ = (by_stamp_us_ / of_stamp + by_counts_us * counts_weight) /
-                      (1.0F / of_stamp + counts_weight + 1.0F / of_sync);
+    latched_off_us_ = base_us + (off_us / of_stamp + by_counts_us * counts_weight) /
+                                    (1.0F / of_stamp + counts_weight + 1.0F / of_sync);
 }
 
 std::uint64_t SyncClock::latched_us() const {

@@ -104,6 +104,13 @@ TEST(SyncClock, what_the_drives_latch_late_with_is_believed) {
     CHECK(always.rms_us < 2.0);
 }
 
+TEST(SyncClock, a_producer_that_wanders_is_believed_at_any_pace) {
+    for (const int periods : {3, 8, 20, 60, 200, 1000}) {
+        const auto wander = [periods](int k) { return Lateness{60.0 * std::sin(6.2832 * k / periods), 0.0}; };
+        CHECK(errors(1000.0, wander).rms_us < 42.4 / 8.0);
+    }
+}
+
 TEST(SyncClock, of_both_at_once_the_counts_tell_one_from_the_other) {
     const Errors rare =
         errors(1000.0, [this](int k) { return Lateness{k % 50 == 0 ? 20.0 : 0.0, k % 20 == 0 ? 60.0 : up_to(20.0)}; });

@@ -8,19 +8,22 @@
 /// with it: w. Or only the stamp is late (interrupt latency), or the drives have a clock of their own that is locked to
 /// the SYNC: v. The first must be believed and the second must not: 20 µs in 1 ms look like 2 % of spindle speed. The
 /// spindle helps, since its inertia keeps its speed for some periods: what it turned tells the time, but for what forces
-/// and the counts' step make of it: u. Against a grid of the SYNCs' period and a spindle that turns steadily
+/// and the counts' step make of it: u. Stamps and counts are followed alike (position gain 1/4); what each is off by
 ///
-///     stamp_k - grid_k = s = w + v,    latch time by the counts - grid_k = c = w + u
+///     s = stamp - expected stamp = w + v,    c = (count - expected count) / speed = w + u
 ///
-/// and as w, v and u have nothing to do with each other, E[s c] = σ_w², E[s²] - E[s c] = σ_v², E[c²] - E[s c] = σ_u²
-/// (over about 1000 periods). The latch time is the mean of the three, each weighted by what it is worth:
+/// has E[s c] = σ_w², E[s²] - E[s c] = σ_v², E[c²] - E[s c] = σ_u², over about 1000 periods, as w, v and u have nothing
+/// to do with each other. The latch time is the mean of three, each weighted by what it is worth:
 ///
-///     latch_k = grid_k + (s / σ_v² + c / σ_u²) / (1 / σ_v² + 1 / σ_u² + 1 / σ_w²)
+///     latch = base + ((stamp - base) / σ_v² + c / σ_u²) / (1 / σ_v² + 1 / σ_u² + 1 / σ_w²)
+///
+/// where base is a grid of even periods (gain 1/64), but moved to the expected stamp by the share of their distance that
+/// is more than v would make of it (σ_v²/4): where all of a stamp is w, it is believed however slowly w changes.
 ///
 /// Counts that contradict the stamp (4 sd) are a spindle that changes its speed, and are left out. Stamps are taken as
 /// they are until 200 periods were seen with the spindle turning by at least 4 counts per period. A stamp more than a
 /// quarter of a period off the grid begins a new grid. Latch times of stamps that are at least half a period apart
-/// increase. Integers and about 100 float operations per SYNC; 72 bytes; no errors. One thread.
+/// increase. Integers and about 100 float operations per SYNC; 88 bytes; no errors. One thread.
 
 namespace millforce::cia402 {
 
@@ -37,6 +40,7 @@ class SyncClock {
 
   private:
     void restart_at(std::uint64_t stamp_us);
+    void follow_stamp(float periods);
     void restart_counting(std::uint32_t count);
     void learn(float by_counts_us);
     void weigh(float by_counts_us);
@@ -44,7 +48,10 @@ class SyncClock {
     std::uint64_t period_ns_;
     std::uint64_t grid_ns_ = 0;       ///< of the newest SYNC
     float drift_ns_ = 0.0F;           ///< of the grid, per period
-    float by_stamp_us_ = 0.0F;        ///< s
+    float by_stamp_us_ = 0.0F;        ///< of the newest stamp: stamp - grid
+    float ahead_us_ = 0.0F;           ///< followed stamps - grid
+    float ahead_us_per_period_ = 0.0F;
+    float expected_us_ = 0.0F;        ///< of the newest stamp, before it came
     float latched_off_us_ = 0.0F;     ///< latch - grid
     bool has_count_ = false;
     std::uint32_t since_count_ = 0;  ///< periods from the last count's SYNC to the newest
@@ -56,6 +63,7 @@ class SyncClock {
     float mean_ss_us2_ = 0.0F;
     float mean_cc_us2_ = 0.0F;
     float mean_sc_us2_ = 0.0F;
+    float mean_wander_us2_ = 0.0F;  ///< of expected_us_
 };
 
 }  // namespace millforce::cia402
