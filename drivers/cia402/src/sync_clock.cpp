@@ -39,7 +39,7 @@ std::uint64_t shifted(std::uint64_t time_ns, float by_ns) {
 
 }  // namespace
 
-SyncClock::SyncClock(std::uint32_t period_us) : period_ns_(1000ULL * std::max(period_us, 1U)) {}
+SyncClock::SyncClock(std::uint32_t period_us) : period_ns_(1000ULL * std::max<std::uint32_t>(period_us, 1U)) {}
 
 void SyncClock::restart_at(std::uint64_t stamp_us) {
     grid_ns_ = stamp_us * 1000U;
