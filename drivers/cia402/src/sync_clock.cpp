@@ -14,7 +14,7 @@ constexpr float followed_noise = 0.25F;  // of white noise with variance 1 in wh
 constexpr float memory_periods = 1024.0F;
 constexpr float enough_periods = 200.0F;
 constexpr std::uint32_t settled = 32;  // counts until the spindle is followed well
-constexpr std::uint32_t longest_gap_periods = 8;
+constexpr std::uint32_t longest_uncounted_periods = 8;
 constexpr std::uint64_t longest_grid_periods = 1000;
 constexpr float fewest_counts = 4.0F;
 constexpr float largest_change = 0.25F;
@@ -25,7 +25,7 @@ float square(float value) {
     return value * value;
 }
 
-float magnitude(float value) {
+float absolute(float value) {
     return value < 0.0F ? -value : value;
 }
 
@@ -72,7 +72,7 @@ void SyncClock::on_sync(std::uint64_t stamp_us) {
     by_stamp_us_ = static_cast<float>(off_ns) * 0.001F;
     latched_off_us_ = by_stamp_us_;
     follow_stamp(static_cast<float>(periods));
-    since_count_ = std::min(since_count_ + static_cast<std::uint32_t>(periods), longest_gap_periods + 1);
+    since_count_ = std::min(since_count_ + static_cast<std::uint32_t>(periods), longest_uncounted_periods + 1);
 }
 
 void SyncClock::follow_stamp(float periods) {
@@ -84,7 +84,7 @@ void SyncClock::follow_stamp(float periods) {
 
 void SyncClock::restart_counting(std::uint32_t count) {
     const auto turned = static_cast<float>(static_cast<std::int32_t>(count - last_count_));
-    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_gap_periods;
+    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_uncounted_periods;
     counts_per_period_ = follows ? turned / static_cast<float>(since_count_) : 0.0F;
     ahead_counts_ = 0.0F;
     followed_ = 0;
@@ -97,9 +97,9 @@ void SyncClock::on_count(std::uint32_t count) {
     const auto periods = static_cast<float>(since_count_);
     const auto turned = static_cast<float>(static_cast<std::int32_t>(count - last_count_));
     const float off_counts = turned - ahead_counts_ - periods * counts_per_period_;
-    const float speed = magnitude(counts_per_period_);
-    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_gap_periods;
-    if (!follows || speed < fewest_counts || magnitude(off_counts) > largest_change * speed) {
+    const float speed = absolute(counts_per_period_);
+    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_uncounted_periods;
+    if (!follows || speed < fewest_counts || absolute(off_counts) > largest_change * speed) {
         restart_counting(count);
         return;
     }
