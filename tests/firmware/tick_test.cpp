@@ -60,6 +60,20 @@ hal::ProgramStatus program() {
     return status;
 }
 
+/// So well known that one solution is like the next.
+Parameters well_known_machine() {
+    Parameters p = machine_and_tool();
+    p.machine.spindle.current_sd_A = 0.02F;
+    p.machine.spindle.inertia_kg_m2 = 0.0005F;
+    for (auto& axis : p.machine.axes) {
+        axis.friction_relative_sd = 0.01F;
+        axis.friction_ripple_A = 0.01F;
+        axis.current_sd_A = 0.02F;
+        axis.gain_relative_sd = 0.01F;
+    }
+    return p;
+}
+
 /// With an encoder so fine that one window tells the torque.
 Parameters with_fine_encoder() {
     Parameters p = machine_and_tool();
@@ -145,22 +159,45 @@ TEST(Tick, does_not_take_the_first_index_pulse_for_a_force) {
     }
 }
 
-TEST(Tick, in_small_portions_finds_the_same_cut) {
-    Parameters small = machine_and_tool();
-    small.machine.cnc.solver_values_per_tick = 6.0F;
-    ForceControlTick<float> at_once(machine_and_tool());
-    ForceControlTick<float> in_portions(small);
-    for (int k = 0; k < 1500; ++k) {
-        at_once.step(sample_of(k), program());
-        in_portions.step(sample_of(k), program());
+TEST(Tick, in_small_portions_finds_the_same_cut_even_where_teeth_pass_faster_than_portions) {
+    for (const float teeth : {4.0F, 6.0F, 12.0F}) {  // a tooth in 3.75, 2.5 and 1.25 ticks
+        Parameters one_piece = well_known_machine();
+        one_piece.tool.teeth = teeth;
+        Parameters small = one_piece;
+        small.machine.cnc.solver_values_per_tick = 6.0F;
+        ForceControlTick<float> at_once(one_piece);
+        ForceControlTick<float> in_portions(small);
+        for (int k = 0; k < 1500; ++k) {
+            at_once.step(sample_of(k), program());
+            in_portions.step(sample_of(k), program());
+        }
+        CHECK(in_portions.control().state == CutState::in_cut);
+        const auto& a = at_once.estimate();
+        const auto& b = in_portions.estimate();
+        CHECK(a.engagement.immersion_valid && b.engagement.immersion_valid);
+        DOUBLES_EQUAL(static_cast<double>(a.engagement.radial_immersion),
+                      static_cast<double>(b.engagement.radial_immersion), 0.03);
+        DOUBLES_EQUAL(1.0, static_cast<double>(b.tooth_force_N.value / a.tooth_force_N.value), 0.03);
     }
-    CHECK(in_portions.control().state == CutState::in_cut);
-    const auto& a = at_once.estimate();
-    const auto& b = in_portions.estimate();
-    CHECK(a.engagement.immersion_valid && b.engagement.immersion_valid);
-    DOUBLES_EQUAL(static_cast<double>(a.engagement.radial_immersion),
-                  static_cast<double>(b.engagement.radial_immersion), 0.03);
-    DOUBLES_EQUAL(1.0, static_cast<double>(b.tooth_force_N.value / a.tooth_force_N.value), 0.03);
+}
+
+TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period) {
+    Parameters small = machine_and_tool();
+    small.machine.cnc.solver_values_per_tick = 1.0F;
+    ForceControlTick<float> tick(small);
+    for (int k = 0; k < 700; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    int tooth_periods = 0;
+    const float* last_shown = nullptr;
+    for (int k = 700; k < 1450; ++k) {  // 50 revolutions
+        tick.step(sample_of(k), program());
+        const auto& e = tick.estimate();
+        CHECK(e.tangential_N.valid && e.x_N.valid && e.tooth_force_N.valid && e.engagement.immersion_valid);
+        tooth_periods += &e.window_s != last_shown ? e.tooth_periods : 0;
+        last_shown = &e.window_s;
+    }
+    CHECK(tooth_periods >= 199 && tooth_periods <= 201);
 }
 
 TEST(Tick, counts_its_heartbeat_up_by_one_with_and_without_a_sample) {
