@@ -26,7 +26,7 @@ std::string bus_scenario_file() {
 }
 
 std::string parameter_file(const EmulatorPipes& pipes, const firmware::Parameters<float>& parameters) {
-    std::string name = pipes.folder() + "/parameters.bin";
+    std::string name = pipes.folder().path("parameters.bin").string();
     const firmware::ParameterBlock block = firmware::encoded(parameters, 1);
     std::ofstream(name, std::ios::binary)
         .write(reinterpret_cast<const char*>(block.data()), static_cast<std::streamsize>(block.size()));

@@ -7,40 +7,36 @@
 
 #include <cerrno>
 #include <chrono>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "sim/files/temporary_folder.hpp"
 
 namespace millforce {
 
 /// A program in an emulator, spoken to over two pipes whose names are the last two words of its command line.
 class EmulatorPipes {
   public:
-    EmulatorPipes() {
-        std::string name = (std::filesystem::temp_directory_path() / "millforce-loop-XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
+    EmulatorPipes() = default;
     ~EmulatorPipes() {
         close(to_);
         close(from_);
         if (child_ > 0) {
             waitpid(child_, nullptr, 0);
         }
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
     }
     EmulatorPipes(const EmulatorPipes&) = delete;
     EmulatorPipes& operator=(const EmulatorPipes&) = delete;
 
     /// A folder that ends with this object.
-    [[nodiscard]] const std::string& folder() const { return folder_; }
+    [[nodiscard]] const test::TemporaryFolder& folder() const { return folder_; }
 
     /// `command`: a runner and its first arguments.
     void start(std::vector<std::string> command) {
-        const std::string to = folder_ + "/to";
-        const std::string from = folder_ + "/from";
+        const std::string to = folder_.path("to").string();
+        const std::string from = folder_.path("from").string();
         if (mkfifo(to.c_str(), 0600) != 0 || mkfifo(from.c_str(), 0600) != 0) {
             return;
         }
@@ -103,7 +99,7 @@ class EmulatorPipes {
         return -1;
     }
 
-    std::string folder_;
+    test::TemporaryFolder folder_;
     pid_t child_ = -1;
     int to_ = -1;
     int from_ = -1;

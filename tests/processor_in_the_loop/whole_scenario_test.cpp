@@ -3,6 +3,7 @@
 
 #include "emulated_controller.hpp"
 #include "estimation/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "loop/bounds.hpp"
 #include "loop/override_source.hpp"
 #include "loop/scenario.hpp"
@@ -28,7 +29,7 @@ class ComparedController : public sim::OverrideSource {
   public:
     ComparedController(const std::string& processor, const firmware::Parameters<float>& parameters)
         : image_(processor, parameters),
-          host_(lock_step::parameters_of<Scalar>(lock_step::values_of(parameters))),
+          host_(firmware::parameters_in<Scalar>(parameters)),
           monitor_(parameters) {}
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
