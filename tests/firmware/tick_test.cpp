@@ -87,7 +87,8 @@ bool are_equal(const hal::FeedOverride& a, const hal::FeedOverride& b) {
     return a.ratio == b.ratio && a.hold == b.hold && a.state == b.state && a.fault == b.fault;
 }
 
-/// A tick's tables take longer to build than a thousand samples, minutes on a slow emulator: the cases begin with copies.
+/// A tick's tables take longer to build than a thousand samples, minutes on a slow emulator: the cases begin with
+/// copies.
 ForceControlTick<float> fresh_tick() {
     static const ForceControlTick<float> tick(machine_and_tool());
     return tick;

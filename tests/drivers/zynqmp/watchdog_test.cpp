@@ -1,5 +1,5 @@
-#include "zynqmp/reset_cause.hpp"
 #include "zynqmp/watchdog.hpp"
+#include "zynqmp/reset_cause.hpp"
 
 #include <array>
 
@@ -62,7 +62,7 @@ TEST_GROUP(ZynqWatchdog) {
 TEST(ZynqWatchdog, each_register_is_written_with_its_key) {
     chip.errors.enable_1 = 1U << 3U;
     watchdog.start(20'000, 100);
-    UNSIGNED_LONGS_EQUAL(0xABC000U | 0x1C3U, chip.registers.mode);        // ZKEY, lengths, RSTEN, WDEN
+    UNSIGNED_LONGS_EQUAL(0xABC000U | 0x1C3U, chip.registers.mode);            // ZKEY, lengths, RSTEN, WDEN
     UNSIGNED_LONGS_EQUAL(0x248U << 14U | 60U << 2U, chip.registers.control);  // CKEY, CRV, clock / 8
     UNSIGNED_LONGS_EQUAL(0x1999, chip.registers.restart);
     UNSIGNED_LONGS_EQUAL(1U << 12U, chip.errors.system_reset_enable_1);
@@ -108,7 +108,7 @@ TEST(ZynqWatchdog, times_beyond_its_range_end_at_it) {
     UNSIGNED_LONGS_EQUAL(0xFFF, chip.registers.control >> 2U & 0xFFFU);
 }
 
-TEST_GROUP(ZynqReset) {};
+TEST_GROUP(ZynqReset){};
 
 TEST(ZynqReset, each_reset_tells_its_cause_once) {
     struct Case {

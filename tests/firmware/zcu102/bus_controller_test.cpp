@@ -1,7 +1,7 @@
+#include "zcu102/bus_controller.hpp"
 #include "drivers/zynqmp/fake_can.hpp"
 #include "hal/tick_watch.hpp"
 #include "instructions/machine_and_tool.hpp"
-#include "zcu102/bus_controller.hpp"
 
 #include <array>
 #include <cstdint>
@@ -41,7 +41,7 @@ TEST_GROUP(Zcu102Bus) {
     zcu102::BusController controller{{chip.registers, watchdog, errors}, settings, parameters};
 
     /// Frames with this id that leave until then.
-    int frames_until(std::uint64_t& now_us, std::uint64_t end_us, std::uint32_t id) {
+    int frames_until(std::uint64_t & now_us, std::uint64_t end_us, std::uint32_t id) {
         int frames = 0;
         for (; now_us < end_us; now_us += 50) {
             chip.registers.transmit.identifier = 0;
@@ -53,8 +53,8 @@ TEST_GROUP(Zcu102Bus) {
     }
 };
 
-/// The same with drives that answer each SYNC: a spindle that turns, axes at rest. An emergency is the last frame of its
-/// poll, and so the one that is seen.
+/// The same with drives that answer each SYNC: a spindle that turns, axes at rest. An emergency is the last frame of
+/// its poll, and so the one that is seen.
 TEST_GROUP(Zcu102Guard) {
     FakeZynqCan chip;
     zynqmp::WatchdogRegisters watchdog{};
@@ -128,7 +128,9 @@ TEST_GROUP(Zcu102Guard) {
     [[nodiscard]] std::uint32_t detail_of(emergency::Reason reason) const {
         return emergencies[static_cast<std::size_t>(reason)]->data[4];
     }
-    [[nodiscard]] bool is_held() const { return newest_override.has_value() && (newest_override->data[2] & 1U) != 0; }
+    [[nodiscard]] bool is_held() const {
+        return newest_override.has_value() && (newest_override->data[2] & 1U) != 0;
+    }
 
     std::uint32_t spindle_count = 0;
 };
@@ -188,7 +190,7 @@ TEST(Zcu102Guard, a_bus_that_is_off_is_no_reason_for_a_reset_and_is_told_when_it
     chip.registers.isr = 1U << 9U;
     feeds = 0;
     for (int part = 0; part < 5; ++part) {
-        run_ms(18);  // shorter than the watchdog's time
+        run_ms(18);
         CHECK_COMPARE(feeds, >, 0);
         feeds = 0;
     }
@@ -203,8 +205,8 @@ TEST(Zcu102Guard, a_ratio_beyond_the_limits_is_not_healthy) {
         output.ratio = ratio;
         CHECK_TRUE(hal::is_within_limits(output, 1.5F));
     }
-    for (const float ratio : {-0.001F, 1.501F, std::numeric_limits<float>::infinity(),
-                              std::numeric_limits<float>::quiet_NaN()}) {
+    for (const float ratio :
+         {-0.001F, 1.501F, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
         output.ratio = ratio;
         CHECK_FALSE(hal::is_within_limits(output, 1.5F));
     }

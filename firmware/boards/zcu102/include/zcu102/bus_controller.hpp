@@ -10,8 +10,8 @@
 #include "zynqmp/can_controller.hpp"
 #include "zynqmp/watchdog.hpp"
 
-/// The controller of a Zynq UltraScale+ whose drives and CNC are on its CAN bus: firmware::CanController over the chip's
-/// CAN controller.
+/// The controller of a Zynq UltraScale+ whose drives and CNC are on its CAN bus: firmware::CanController over the
+/// chip's CAN controller.
 
 namespace millforce::zcu102 {
 
@@ -43,18 +43,19 @@ struct Peripherals {
     zynqmp::ErrorRegisters& errors;
 };
 
-/// Shorter than the CNC's patience with a silent controller; longer than any piece of work between two ticks.
-inline constexpr std::uint32_t watchdog_us = 20'000;
+/// Not short, since the CNC stops the feed by itself after 20 ms of silence; longer than the longest work beside the
+/// tick, the fit of a flute profile (estimation/flute_profile_fit.hpp).
+inline constexpr std::uint32_t watchdog_us = 200'000;
 inline constexpr std::uint32_t watchdog_clock_MHz = 100;
 
-/// poll() as often as possible: it fetches one frame, whose time is that of the poll, so that a babbling node delays nothing
-/// else. A frame that was sent counts as heard
-/// then: this CAN controller does not hear its own. After bus-off the bus is joined again 100 ms later; meanwhile no
-/// override goes out, and the CNC holds the feed by itself. No heap. One thread.
+/// poll() as often as possible: it fetches one frame, whose time is that of the poll, so that a babbling node delays
+/// nothing else. A frame that was sent counts as heard then: this CAN controller does not hear its own. After bus-off
+/// the bus is joined again 100 ms later; meanwhile no override goes out, and the CNC holds the feed by itself. No heap.
+/// One thread.
 ///
-/// The first healthy tick starts the watchdog, and healthy ticks feed it: the heartbeat went on and the ratio is within the
-/// limits. Frames drive the ticks. Where none passes for 5 ms, not even an own one, no tick is due, and polling feeds: a
-/// reset would not bring the bus back. A ratio beyond the limits holds the feed until the reset.
+/// The first healthy tick starts the watchdog, and healthy ticks feed it: the heartbeat went on and the ratio is within
+/// the limits. Frames drive the ticks. Where none passes for 5 ms, not even an own one, no tick is due, and polling
+/// feeds: a reset would not bring the bus back. A ratio beyond the limits holds the feed until the reset.
 ///
 /// | what happens | on the bus, from emergency/emergencies.hpp |
 /// |---|---|
