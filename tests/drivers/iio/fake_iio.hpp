@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "iio/adc_currents.hpp"
+#include "sim/files/temporary_folder.hpp"
 
 /// A folder that looks as a device of Linux IIO does, with a FIFO in the place of /dev/iio:device0.
 
@@ -20,14 +21,6 @@ namespace millforce::iio::test {
 
 class FakeTree {
   public:
-    FakeTree() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "millforce-iio-XXXXXX").string();
-        root_ = ::mkdtemp(pattern.data());
-    }
-    ~FakeTree() { std::filesystem::remove_all(root_); }
-    FakeTree(const FakeTree&) = delete;
-    FakeTree& operator=(const FakeTree&) = delete;
-
     void write(const std::string& file, const std::string& text) const {
         const std::filesystem::path path = root_ / file;
         std::filesystem::create_directories(path.parent_path());
@@ -44,7 +37,8 @@ class FakeTree {
     [[nodiscard]] std::string name(const std::string& file) const { return (root_ / file).string(); }
 
   private:
-    std::filesystem::path root_;
+    millforce::test::TemporaryFolder folder_;
+    std::filesystem::path root_ = folder_.path("");
 };
 
 /// Two 12-bit channels, voltage0 and voltage3, and a timestamp: 16 bytes a scan.
