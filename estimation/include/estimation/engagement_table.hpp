@@ -96,13 +96,7 @@ class EngagementTable {
         return square(law_.r_1_relative_sd) + square(law_.r_1_exponent_sd * forces.ln_t_in_references);
     }
 
-    [[nodiscard]] Forces at_node(std::size_t k, const Feed& feed) const {
-        Node node;
-        for (std::size_t j = 0; j < node.size(); ++j) {
-            node[j] = Scalar(nodes_[k][j]);
-        }
-        return forces(node, feed);
-    }
+    [[nodiscard]] Forces at_node(std::size_t k, const Feed& feed) const { return forces(nodes_[k], feed); }
 
     /// θ outside of the table is taken at its end.
     [[nodiscard]] Forces at(Scalar theta_rad, const Feed& feed) const { return forces(between(theta_rad), feed); }
@@ -125,16 +119,18 @@ class EngagementTable {
         return node;
     }
 
-    [[nodiscard]] Forces forces(const Node& n, const Feed& feed) const {
+    /// `n`: a Node, or one as the table stores it.
+    template <typename Entries>
+    [[nodiscard]] Forces forces(const Entries& n, const Feed& feed) const {
         const Scalar Gr = feed.G_N_per_mm * feed.r;
         Forces f;
-        f.cutting_tangential_N = feed.G_N_per_mm * n[a_t];
-        f.tangential_N = f.cutting_tangential_N + n[e_t];
-        f.feed_per_ln_r_1_N = Gr * n[b_x];
-        f.normal_per_ln_r_1_N = Gr * n[b_y];
-        f.feed_N = feed.G_N_per_mm * n[a_x] + f.feed_per_ln_r_1_N + n[e_x];
-        f.normal_N = feed.G_N_per_mm * n[a_y] + f.normal_per_ln_r_1_N + n[e_y];
-        f.ln_t_in_references = feed.ln_f_in_references + n[ln_sine];
+        f.cutting_tangential_N = feed.G_N_per_mm * Scalar(n[a_t]);
+        f.tangential_N = f.cutting_tangential_N + Scalar(n[e_t]);
+        f.feed_per_ln_r_1_N = Gr * Scalar(n[b_x]);
+        f.normal_per_ln_r_1_N = Gr * Scalar(n[b_y]);
+        f.feed_N = feed.G_N_per_mm * Scalar(n[a_x]) + f.feed_per_ln_r_1_N + Scalar(n[e_x]);
+        f.normal_N = feed.G_N_per_mm * Scalar(n[a_y]) + f.normal_per_ln_r_1_N + Scalar(n[e_y]);
+        f.ln_t_in_references = feed.ln_f_in_references + Scalar(n[ln_sine]);
         return f;
     }
 
