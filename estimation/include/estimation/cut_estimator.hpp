@@ -254,10 +254,8 @@ class CutEstimator {
             case Stage::idle:
                 break;
         }
-        const bool has_search = search_due_ || !search_.done();
-        if (has_engagements_turn_ && (has_search || unread_parts_ > 0)) {
-            work_on_engagement(is_end_of_period);
-        } else if (periods_ended_ > 0) {
+        const bool is_engagement_in_work = search_due_ || !search_.done() || unread_parts_ > 0;
+        if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work)) {
             take_period();
         } else {
             work_on_engagement(is_end_of_period);
