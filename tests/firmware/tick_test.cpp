@@ -192,6 +192,24 @@ TEST(Tick, in_small_portions_finds_the_same_cut_even_where_teeth_pass_faster_tha
     }
 }
 
+TEST(Tick, in_small_portions_learns_as_much_in_air) {
+    Parameters small = machine_and_tool();
+    small.machine.cnc.solver_values_per_tick = 6.0F;
+    ForceControlTick<float> at_once(machine_and_tool());
+    ForceControlTick<float> in_portions(small);
+    hal::ProgramStatus rapid = program();
+    rapid.rapid = true;
+    for (int k = 0; k < 600; ++k) {
+        at_once.step(sample_of(k), k < 200 ? rapid : program());
+        in_portions.step(sample_of(k), k < 200 ? rapid : program());
+    }
+    const auto& a = at_once.estimate().engagement;
+    const auto& b = in_portions.estimate().engagement;
+    CHECK(a.depth_valid && b.depth_valid);
+    DOUBLES_EQUAL(1.0, static_cast<double>(b.radial_immersion_sd / a.radial_immersion_sd), 0.25);
+    DOUBLES_EQUAL(1.0, static_cast<double>(b.axial_depth_sd_mm / a.axial_depth_sd_mm), 0.25);
+}
+
 TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period) {
     Parameters small = machine_and_tool();
     small.machine.cnc.solver_values_per_tick = 1.0F;

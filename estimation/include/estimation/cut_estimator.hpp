@@ -250,6 +250,9 @@ class CutEstimator {
                 return false;
             case Stage::show:
                 show();
+                if (search_.scanning() && estimate().engagement.immersion_valid) {
+                    solve_on();  // where the immersion is known the law's work is short
+                }
                 return true;
             case Stage::idle:
                 break;

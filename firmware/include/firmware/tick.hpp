@@ -204,9 +204,10 @@ class ForceControlTick {
         // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
         air_periods_ = rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
         // The first windows after a change hold a mixture of air and cut.
-        if (air_periods_ > 2 * static_cast<int>(control_parameters_.teeth)) {
+        const int enough = 2 * static_cast<int>(control_parameters_.teeth) + 1;
+        if (air_periods_ >= enough) {
             was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
-            air_periods_ = 2 * static_cast<int>(control_parameters_.teeth);
+            air_periods_ = enough;
         } else {
             estimator_.leave_air();
         }
