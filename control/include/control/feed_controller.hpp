@@ -4,6 +4,7 @@
 #include "control/cut_trend.hpp"
 #include "control/feed_controller_data.hpp"
 #include "control/path_turn.hpp"
+#include "estimation/cut_geometry.hpp"
 #include "estimation/elementary.hpp"
 
 /// The feed override that holds the largest force on a tooth at its limit.
@@ -29,7 +30,7 @@ class FeedController {
   public:
     explicit FeedController(const FeedControllerParameters<Scalar>& parameters = {})
         : parameters_(parameters),
-          recovery_per_rad_(parameters.recovery_per_rev * static_cast<Scalar>(0.159154943091895336L)),
+          recovery_per_rad_(parameters.recovery_per_rev * estimation::turns_per_rad<Scalar>),
           ratio_(parameters.override_min),
           highest_feed_mm_s_(parameters.highest_programmed_feed_mm_s) {
         if (!configuration_is_sound()) {
@@ -269,8 +270,8 @@ class FeedController {
     }
 
     [[nodiscard]] Scalar ratio_of_feed_per_tooth(Scalar feed_per_tooth_mm, const ControlInput<Scalar>& input) const {
-        constexpr Scalar per_rad = static_cast<Scalar>(0.159154943091895336L);
-        const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s * per_rad;
+        const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s *
+                                 estimation::turns_per_rad<Scalar>;
         return feed_mm_s / input.programmed_feed_mm_s;
     }
 
@@ -416,8 +417,8 @@ class FeedController {
         const Scalar before_surge = may_surge ? growth_to(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
                                                           cut.surge_cutting_share)
                                               : growth;
-        demand_limit_ = Limit::force;
         if (is_ignorant(cut)) {
+            demand_limit_ = Limit::force;
             demand_ = not_below_entry_feed(feed_at(growth, input), input);
             const Scalar surge_feed = may_surge ? feed_at(before_surge, input) : demand_;
             if (surge_feed < demand_) {

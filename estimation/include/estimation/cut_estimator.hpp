@@ -382,7 +382,7 @@ class CutEstimator {
     void estimate_feed(CutEstimate<Scalar>& e) const {
         using std::sqrt;
         e.feed_mm_s = sqrt(square(window_.mean[first_velocity]) + square(window_.mean[first_velocity + 1]));
-        const Scalar teeth_per_rad = settings_.teeth * static_cast<Scalar>(0.159154943091895336L);
+        const Scalar teeth_per_rad = settings_.teeth * turns_per_rad<Scalar>;
         const Scalar teeth_per_s = teeth_per_rad * window_.spindle_speed_rad_s;
         e.feed_per_tooth_mm = teeth_per_s > Scalar(0) ? e.feed_mm_s / teeth_per_s : Scalar(0);
     }

@@ -22,23 +22,22 @@ namespace millforce::iio::test {
 class FakeTree {
   public:
     void write(const std::string& file, const std::string& text) const {
-        const std::filesystem::path path = root_ / file;
+        const std::filesystem::path path = folder_.path(file);
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path) << text;
     }
     [[nodiscard]] std::string read(const std::string& file) const {
         std::string line;
-        std::ifstream in(root_ / file);
+        std::ifstream in(folder_.path(file));
         std::getline(in, line);
         return line;
     }
-    void remove(const std::string& file) const { std::filesystem::remove_all(root_ / file); }
-    [[nodiscard]] Path path(const std::string& file) const { return Path((root_ / file).string()); }
-    [[nodiscard]] std::string name(const std::string& file) const { return (root_ / file).string(); }
+    void remove(const std::string& file) const { std::filesystem::remove_all(folder_.path(file)); }
+    [[nodiscard]] Path path(const std::string& file) const { return Path(name(file)); }
+    [[nodiscard]] std::string name(const std::string& file) const { return folder_.path(file).string(); }
 
   private:
     millforce::test::TemporaryFolder folder_;
-    std::filesystem::path root_ = folder_.path("");
 };
 
 /// Two 12-bit channels, voltage0 and voltage3, and a timestamp: 16 bytes a scan.
