@@ -16,7 +16,8 @@ constexpr double dt_s = 0.001;
 Turn::Motion motion_at(double direction_rad, double speed_mm_s = feed_mm_s, double commanded_mm_s = feed_mm_s) {
     return {static_cast<float>(dt_s), static_cast<float>(speed_mm_s * std::cos(direction_rad)),
             static_cast<float>(speed_mm_s * std::sin(direction_rad)), static_cast<float>(speed_mm_s),
-            static_cast<float>(commanded_mm_s), static_cast<float>(feed_mm_s)};
+            static_cast<float>(speed_mm_s * dt_s), static_cast<float>(commanded_mm_s / feed_mm_s),
+            static_cast<float>(feed_mm_s)};
 }
 
 int turns_on_an_arc(double radius_mm) {

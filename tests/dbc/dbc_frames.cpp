@@ -6,6 +6,7 @@
 
 #include "bus/machine_on_bus.hpp"
 #include "cia402/drive_bus.hpp"
+#include "emergency/emergencies.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_frame.hpp"
 
@@ -24,7 +25,7 @@ void print(const hal::CanFrame& frame, const Values& values) {
     }
     std::printf("%s", frame.length == 0 ? "-" : "");
     for (const auto& [name, value] : values) {
-        std::printf(" %s=%.9g", name.c_str(), value);
+        std::printf(" %s=%.10g", name.c_str(), value);
     }
     std::printf("\n");
 }
@@ -47,6 +48,18 @@ void print_overrides() {
                        k * 0.0001, k % 2 == 1);
     }
     print_override({1e9F, false, 255, 255, 0xFFFFFFFFU}, 6.5535, false);
+}
+
+void print_own_emergencies() {
+    emergency::Emergencies emergencies(override_frame::default_node_id);
+    for (std::uint32_t k = 0; k < emergency::reason_count; ++k) {
+        const auto reason = static_cast<emergency::Reason>(k);
+        const std::uint32_t detail = 0xFEDC'BA98U - k;
+        print(emergencies.frame_of(reason, 0x6010, detail), {{"MillforceErrorCode", 0x6010},
+                                                             {"MillforceErrorRegister", 1.0},
+                                                             {"MillforceReason", k},
+                                                             {"MillforceDetail", detail}});
+    }
 }
 
 /// Boot-up, pre-operational, operational, stopped.
@@ -175,6 +188,7 @@ void print_drives() {
 int main() {
     print_overrides();
     print_heartbeats();
+    print_own_emergencies();
     print_program_statuses();
     print_master();
     print_drives();

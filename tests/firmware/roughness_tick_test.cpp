@@ -85,13 +85,30 @@ void cut(ForceControlTick<float>& tick, const Parameters& p, int from = 0, float
     }
 }
 
+Parameters with_limit(float Ra_limit_um) {
+    Parameters p = parameters_with(model());
+    p.tool.control.Ra_limit_um = Ra_limit_um;
+    return p;
+}
+
+/// Its tables take longer to build than a thousand samples: cases begin with copies.
+ForceControlTick<float> fresh_tick() {
+    static const ForceControlTick<float> tick(parameters_with(model()));
+    return tick;
+}
+constexpr float low_limit_um = 1.8F;
+ForceControlTick<float> fresh_tick_with_low_limit() {
+    static const ForceControlTick<float> tick(with_limit(low_limit_um));
+    return tick;
+}
+
 }  // namespace
 
 TEST_GROUP(RoughnessTick){};
 
 TEST(RoughnessTick, predicts_R_a_with_its_interval_from_the_drives_currents) {
     const Parameters p = parameters_with(model());
-    ForceControlTick<float> tick(p);
+    ForceControlTick<float> tick = fresh_tick();
     for (int k = 0; k < 200; ++k) {
         tick.step(sample_of(k, p), program());
         CHECK_FALSE(tick.roughness().valid);  // in air there is no ratio of forces
@@ -106,7 +123,7 @@ TEST(RoughnessTick, predicts_R_a_with_its_interval_from_the_drives_currents) {
 
 TEST(RoughnessTick, has_no_prediction_where_z_stands_or_no_model_is_there) {
     const Parameters p = parameters_with(model());
-    ForceControlTick<float> standing(p);
+    ForceControlTick<float> standing = fresh_tick();
     cut(standing, p, 0, 0.0F);
     CHECK(standing.estimate().feed_N.valid);
     CHECK_FALSE(standing.roughness().valid);
@@ -130,9 +147,8 @@ TEST(RoughnessTick, says_where_the_cut_is_outside_the_fitted_range) {
 }
 
 TEST(RoughnessTick, holds_the_feed_where_the_upper_bound_of_R_a_meets_its_limit) {
-    Parameters p = parameters_with(model());
-    p.tool.control.Ra_limit_um = 1.8F;
-    ForceControlTick<float> tick(p);
+    const Parameters p = with_limit(low_limit_um);
+    ForceControlTick<float> tick = fresh_tick_with_low_limit();
     cut(tick, p);
     CHECK(tick.control().limit == Limit::roughness);
     const float feed_mm_rev = tick.control().ratio * program().programmed_feed_mm_s / turns_per_s;
@@ -144,8 +160,7 @@ TEST(RoughnessTick, holds_the_feed_where_the_upper_bound_of_R_a_meets_its_limit)
 }
 
 TEST(RoughnessTick, does_not_hold_the_feed_down_for_a_limit_that_is_far_away) {
-    Parameters p = parameters_with(model());
-    p.tool.control.Ra_limit_um = 50.0F;
+    const Parameters p = with_limit(50.0F);
     ForceControlTick<float> tick(p);
     cut(tick, p);
     cut(tick, p, 800);
@@ -153,9 +168,8 @@ TEST(RoughnessTick, does_not_hold_the_feed_down_for_a_limit_that_is_far_away) {
 }
 
 TEST(RoughnessTick, does_not_raise_the_feed_under_a_limit_without_a_prediction) {
-    Parameters p = parameters_with(model());
-    p.tool.control.Ra_limit_um = 1.8F;
-    ForceControlTick<float> tick(p);
+    Parameters p = with_limit(low_limit_um);
+    ForceControlTick<float> tick = fresh_tick_with_low_limit();
     cut(tick, p);
     const float held = tick.control().ratio;
     cut(tick, p, 800, 0.0F);
@@ -171,8 +185,7 @@ TEST(RoughnessTick, does_not_raise_the_feed_under_a_limit_without_a_prediction) 
 }
 
 TEST(RoughnessTick, keeps_the_upper_bound_below_its_limit_in_a_loop_whose_surface_grows_rough) {
-    Parameters p = parameters_with(model());
-    p.tool.control.Ra_limit_um = 2.0F;
+    const Parameters p = with_limit(2.0F);
     ForceControlTick<float> tick(p);
     float speed_share = 0.5F;  // of the programmed feed; follows the override with a lag of 20 ms
     float slowest = 10.0F;
@@ -202,10 +215,9 @@ TEST(RoughnessTick, gives_a_sound_ratio_and_no_rise_for_the_roughness_sake_whate
         const float extremes[] = {std::nanf(""), INFINITY, -INFINITY, 3e38F, -3e38F, 1e-40F, 0.0F, -1.0F};
         return engine() % 8U == 0U ? extremes[engine() % 8U] : sensible;
     };
-    Parameters p = parameters_with(model());
-    ForceControlTick<float> free(p);
-    p.tool.control.Ra_limit_um = 1.8F;
-    ForceControlTick<float> limited(p);
+    const Parameters p = with_limit(low_limit_um);
+    ForceControlTick<float> free = fresh_tick();
+    ForceControlTick<float> limited = fresh_tick_with_low_limit();
     for (int k = 0; k < 20000; ++k) {
         hal::DriveSample sample = sample_of(k % 3000, p);
         sample.spindle_count = static_cast<std::uint32_t>(static_cast<float>(k) * 273.07F);

@@ -65,9 +65,15 @@ void print(const char* scalar, const char* kind, const Count& count) {
 template <typename Scalar>
 using Tick = firmware::ForceControlTick<Scalar, firmware::NoWideBand<Scalar>>;
 
-/// Values of the solver in one tick: so many that its worst is about that of a tooth period's end.
+/// Values of the solver in one tick: so many that its worst is about that of a tooth period's end. Without an FPU one,
+/// whichever the scalar: what is compared there does the same work.
+#ifdef __ARM_FP
 template <typename Scalar>
 constexpr float solver_values_per_tick = std::is_same_v<Scalar, float> ? 6.0F : 1.0F;
+#else
+template <typename Scalar>
+constexpr float solver_values_per_tick = 1.0F;
+#endif
 
 template <typename Scalar>
 [[gnu::noinline]] hal::FeedOverride counted_step(Tick<Scalar>& tick, const hal::DriveSample& sample,

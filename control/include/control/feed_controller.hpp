@@ -4,6 +4,7 @@
 #include "control/cut_trend.hpp"
 #include "control/feed_controller_data.hpp"
 #include "control/path_turn.hpp"
+#include "estimation/cut_geometry.hpp"
 #include "estimation/elementary.hpp"
 
 /// The feed override that holds the largest force on a tooth at its limit.
@@ -29,6 +30,7 @@ class FeedController {
   public:
     explicit FeedController(const FeedControllerParameters<Scalar>& parameters = {})
         : parameters_(parameters),
+          recovery_per_rad_(parameters.recovery_per_rev * estimation::turns_per_rad<Scalar>),
           ratio_(parameters.override_min),
           highest_feed_mm_s_(parameters.highest_programmed_feed_mm_s) {
         if (!configuration_is_sound()) {
@@ -53,6 +55,7 @@ class FeedController {
         // A step of unknown, negative or absurd length moves nothing; a speed that is no number counts as rest.
         dt_s_ = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
         path_speed_mm_s_ = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
+        way_mm_ = path_speed_mm_s_ * dt_s_;
         update_state(input);
         watch_turns(input);
         if (basis_.has_changed(basis_of(input)) || input.cut.fresh || turned_now_) {
@@ -123,7 +126,7 @@ class FeedController {
         if (state_ == CutState::fault) {
             return;
         }
-        travel_in_state_mm_ += path_speed_mm_s_ * dt_s_;
+        travel_in_state_mm_ += way_mm_;
         const bool silent = !input.cut.force_valid;
         silent_s_ = silent ? silent_s_ + dt_s_ : Scalar(0);
         if (input.cut.fresh) {
@@ -138,7 +141,7 @@ class FeedController {
     void follow_contact(const ControlInput<Scalar>& input) {
         const bool contact = is_in_contact(input.cut);
         const bool lost = has_lost_contact(input.cut);
-        revolutions_in_state_ += Scalar(1) / parameters_.teeth;
+        revolutions_in_state_ += input.cut.tooth_periods / parameters_.teeth;
         switch (state_) {
             case CutState::air:
                 if (contact) {
@@ -210,7 +213,7 @@ class FeedController {
         }
         const bool over = input.cut.force_valid && input.cut.tooth_force_valid && !input.cut.tooth_force_is_bound &&
                           input.cut.tooth_force_N > parameters_.overload_share * parameters_.tooth_force_limit_N;
-        overload_revolutions_ = over ? overload_revolutions_ + Scalar(1) / parameters_.teeth : Scalar(0);
+        overload_revolutions_ = over ? overload_revolutions_ + input.cut.tooth_periods / parameters_.teeth : Scalar(0);
         if (overload_revolutions_ > parameters_.overload_revolutions && !parameters_.monitor_only) {
             enter_fault(Fault::overload);
         }
@@ -226,13 +229,11 @@ class FeedController {
     }
 
     void watch_turns(const ControlInput<Scalar>& input) {
-        const Scalar way_mm = path_speed_mm_s_ * dt_s_;
-        way_since_estimate_mm_ += way_mm;
+        way_since_estimate_mm_ += way_mm_;
         follow_tooth_period(input.cut.spindle_speed_rad_s);
-        const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s,
-                                          path_speed_mm_s_, ratio_ * input.programmed_feed_mm_s,
-                                          input.programmed_feed_mm_s, tooth_period_s_});
-        const Scalar left_mm = turn_travel_left_mm_ - way_mm;
+        const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s, path_speed_mm_s_, way_mm_,
+                                          ratio_, input.programmed_feed_mm_s, tooth_period_s_});
+        const Scalar left_mm = turn_travel_left_mm_ - way_mm_;
         turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
         turned_now_ = turned;
         if (turned && state_ == CutState::exit) {
@@ -269,8 +270,8 @@ class FeedController {
     }
 
     [[nodiscard]] Scalar ratio_of_feed_per_tooth(Scalar feed_per_tooth_mm, const ControlInput<Scalar>& input) const {
-        constexpr Scalar per_rad = static_cast<Scalar>(0.159154943091895336L);
-        const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s * per_rad;
+        const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s *
+                                 estimation::turns_per_rad<Scalar>;
         return feed_mm_s / input.programmed_feed_mm_s;
     }
 
@@ -344,14 +345,17 @@ class FeedController {
         }
     }
 
-    /// The override at which a force that is `force_N` now would be `share` of the tooth's limit.
-    [[nodiscard]] Scalar feed_for(Scalar share, Scalar force_N, Scalar cutting_share,
-                                  const ControlInput<Scalar>& input) const {
-        using estimation::elementary::exp;
-        using estimation::elementary::log;
+    /// (f/f₀)^(1+p_s) at which a force that is `force_N` now would be `share` of the tooth's limit.
+    [[nodiscard]] Scalar growth_to(Scalar share, Scalar force_N, Scalar cutting_share) const {
         constexpr Scalar least_share = static_cast<Scalar>(0.05L);
         const Scalar c = cutting_share > least_share ? cutting_share : least_share;
-        const Scalar growth = (share * parameters_.tooth_force_limit_N / force_N - (Scalar(1) - c)) / c;
+        return (share * parameters_.tooth_force_limit_N / force_N - (Scalar(1) - c)) / c;
+    }
+
+    /// The override that goes with it.
+    [[nodiscard]] static Scalar feed_at(Scalar growth, const ControlInput<Scalar>& input) {
+        using estimation::elementary::exp;
+        using estimation::elementary::log;
         if (!(growth > Scalar(0))) {
             return Scalar(0);
         }
@@ -368,9 +372,11 @@ class FeedController {
     [[nodiscard]] Scalar not_below_entry_feed(Scalar demand, const ControlInput<Scalar>& input) const {
         const CutEstimateForControl<Scalar>& cut = input.cut;
         const Scalar entry = ratio_of_feed_per_tooth(parameters_.entry_feed_per_tooth_mm, input);
-        const Scalar certain = cut.least_tooth_force_N > Scalar(0)
-                                   ? feed_for(parameters_.setpoint_share, cut.least_tooth_force_N, cut.cutting_share, input)
-                                   : entry;
+        if (!(demand < entry) || !(cut.least_tooth_force_N > Scalar(0))) {
+            return demand < entry ? entry : demand;
+        }
+        const Scalar certain =
+            feed_at(growth_to(parameters_.setpoint_share, cut.least_tooth_force_N, cut.cutting_share), input);
         const Scalar floor = entry < certain ? entry : certain;
         return demand > floor ? demand : floor;
     }
@@ -388,19 +394,7 @@ class FeedController {
                             is_finite(cut.feed_mm_s) && is_finite(cut.feed_exponent) && is_finite(cut.cutting_share) &&
                             is_finite(cut.surge_ratio) && is_finite(cut.surge_cutting_share);
         if (cut.fresh && usable) {
-            demand_ = feed_for(parameters_.setpoint_share, cut.tooth_force_N, cut.cutting_share, input);
-            demand_limit_ = Limit::force;
-            if (is_ignorant(cut)) {
-                demand_ = not_below_entry_feed(demand_, input);
-            }
-            if (parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1)) {
-                const Scalar before_surge = feed_for(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
-                                                     cut.surge_cutting_share, input);
-                if (before_surge < demand_) {
-                    demand_ = before_surge;
-                    demand_limit_ = Limit::surge;
-                }
-            }
+            set_demand(input);
         }
         if (cut.fresh && usable) {
             trend_.update(cut.section_mm2, cut.section_noise_mm2, way_since_estimate_mm_);
@@ -416,6 +410,27 @@ class FeedController {
         cap_after_turn(wish, input, usable);
     }
 
+    void set_demand(const ControlInput<Scalar>& input) {
+        const CutEstimateForControl<Scalar>& cut = input.cut;
+        const Scalar growth = growth_to(parameters_.setpoint_share, cut.tooth_force_N, cut.cutting_share);
+        const bool may_surge = parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1);
+        const Scalar before_surge = may_surge ? growth_to(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
+                                                          cut.surge_cutting_share)
+                                              : growth;
+        if (is_ignorant(cut)) {
+            demand_limit_ = Limit::force;
+            demand_ = not_below_entry_feed(feed_at(growth, input), input);
+            const Scalar surge_feed = may_surge ? feed_at(before_surge, input) : demand_;
+            if (surge_feed < demand_) {
+                demand_ = surge_feed;
+                demand_limit_ = Limit::surge;
+            }
+        } else {  // the lower growth is the lower feed
+            demand_limit_ = before_surge < growth ? Limit::surge : Limit::force;
+            demand_ = feed_at(before_surge < growth ? before_surge : growth, input);
+        }
+    }
+
     /// After a sharp turn the tool may meet anything up to the turn's immersion: the feed that such a cut would allow.
     void cap_after_turn(Wish& wish, const ControlInput<Scalar>& input, bool usable) {
         const CutEstimateForControl<Scalar>& cut = input.cut;
@@ -425,9 +440,11 @@ class FeedController {
         }
         const bool known = usable && is_finite(cut.turn_ratio) && is_finite(cut.turn_cutting_share);
         if (known && (turned_now_ || cut.fresh)) {
-            turn_demand_ = cut.turn_ratio > Scalar(1) ? feed_for(parameters_.surge_share, cut.tooth_force_N * cut.turn_ratio,
-                                                                 cut.turn_cutting_share, input)
-                                                      : parameters_.override_max;
+            turn_demand_ = cut.turn_ratio > Scalar(1)
+                               ? feed_at(growth_to(parameters_.surge_share, cut.tooth_force_N * cut.turn_ratio,
+                                                   cut.turn_cutting_share),
+                                         input)
+                               : parameters_.override_max;
         }
         wish.cap(turn_demand_, Limit::surge);
     }
@@ -452,26 +469,24 @@ class FeedController {
     }
 
     void approach(Scalar wanted, const ControlInput<Scalar>& input) {
-        const Scalar fall = parameters_.slew_down_per_s * dt_s_;
         if (wanted < ratio_ || !is_finite(ratio_)) {
-            ratio_ = wanted < ratio_ - fall ? ratio_ - fall : wanted;
-        } else {
-            const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
-            const Scalar revolutions =
-                input.cut.spindle_speed_rad_s * dt_s_ * static_cast<Scalar>(0.159154943091895336L);
-            const Scalar paced = revolutions > Scalar(0) ? parameters_.recovery_per_rev * revolutions : Scalar(0);
-            const Scalar share = cutting ? paced : Scalar(1);
-            Scalar rise = (wanted - ratio_) * (share < Scalar(1) ? share : Scalar(1));
-            const Scalar most = parameters_.slew_up_per_s * dt_s_;
-            rise = rise > most ? most : rise;
-            ratio_ += rise;
+            const Scalar lowest = ratio_ - parameters_.slew_down_per_s * dt_s_;
+            ratio_ = bounded(wanted < lowest ? lowest : wanted);
+            return;
         }
-        ratio_ = bounded(ratio_);
+        const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
+        const Scalar paced = recovery_per_rad_ * input.cut.spindle_speed_rad_s * dt_s_;
+        const Scalar share = cutting ? (paced > Scalar(0) ? paced : Scalar(0)) : Scalar(1);
+        const Scalar rise = share < Scalar(1) ? (wanted - ratio_) * share : wanted - ratio_;
+        const Scalar most = parameters_.slew_up_per_s * dt_s_;
+        ratio_ = bounded(ratio_ + (rise > most ? most : rise));
     }
 
     FeedControllerParameters<Scalar> parameters_;
-    Scalar dt_s_{0};  // of this step
+    Scalar recovery_per_rad_;
+    Scalar dt_s_{0};  // of this step, as are the next two
     Scalar path_speed_mm_s_{0};
+    Scalar way_mm_{0};
     CutState state_ = CutState::air;
     Fault fault_ = Fault::none;
     Limit limit_ = Limit::none;

@@ -22,33 +22,37 @@ class PathTurn {
         Scalar velocity_x_mm_s{0};
         Scalar velocity_y_mm_s{0};
         Scalar path_speed_mm_s{0};
-        Scalar commanded_mm_s{0};        ///< override × F; 0: not known
+        Scalar way_mm{0};                ///< gone in dt_s
+        Scalar override_ratio{0};
         Scalar programmed_feed_mm_s{0};  ///< F; 0: not known
         Scalar tooth_period_s{0};        ///< 0: not known
     };
 
     /// Whether a sharp turn is noticed in this step.
     bool update(const Motion& measured) {
-        const Motion motion = smoothed(measured);
+        constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
+        const Scalar beyond_s = measured.tooth_period_s - settling_s;
+        const Scalar over_s = beyond_s + beyond_s;
+        if (over_s > measured.dt_s) {
+            return has_turned_in(smoothed(measured, measured.dt_s / over_s));
+        }
+        smooth_ = {measured.velocity_x_mm_s, measured.velocity_y_mm_s, measured.path_speed_mm_s};
+        return has_turned_in(measured);
+    }
+
+  private:
+    bool has_turned_in(const Motion& motion) {
         const bool slowed = has_slowed(motion);
         return has_turned(motion) || slowed;
     }
 
-  private:
     /// What is no number passes through and does not stay.
     static void follow(Scalar& smooth, Scalar now, Scalar share) {
         const Scalar next = smooth + (now - smooth) * share;
-        smooth = share < Scalar(1) && next - next == Scalar(0) ? next : now;
+        smooth = next - next == Scalar(0) ? next : now;
     }
 
-    Motion smoothed(const Motion& m) {
-        constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
-        const Scalar over_s = Scalar(2) * (m.tooth_period_s - settling_s);
-        if (!(over_s > m.dt_s)) {  // nothing to smooth, as is usual
-            smooth_ = {m.velocity_x_mm_s, m.velocity_y_mm_s, m.path_speed_mm_s};
-            return m;
-        }
-        const Scalar share = m.dt_s / over_s;
+    [[gnu::noinline]] Motion smoothed(const Motion& m, Scalar share) {
         follow(smooth_.velocity_x_mm_s, m.velocity_x_mm_s, share);
         follow(smooth_.velocity_y_mm_s, m.velocity_y_mm_s, share);
         follow(smooth_.path_speed_mm_s, m.path_speed_mm_s, share);
@@ -56,11 +60,11 @@ class PathTurn {
         motion.velocity_x_mm_s = smooth_.velocity_x_mm_s;
         motion.velocity_y_mm_s = smooth_.velocity_y_mm_s;
         motion.path_speed_mm_s = smooth_.path_speed_mm_s;
+        motion.way_mm = motion.path_speed_mm_s * motion.dt_s;
         return motion;
     }
 
     bool has_turned(const Motion& m) {
-        constexpr Scalar memory_mm = static_cast<Scalar>(0.5L);
         const Scalar v2 = m.velocity_x_mm_s * m.velocity_x_mm_s + m.velocity_y_mm_s * m.velocity_y_mm_s;
         if (!(v2 > static_cast<Scalar>(0.25L)) || !(m.path_speed_mm_s > Scalar(0))) {
             return false;
@@ -72,11 +76,8 @@ class PathTurn {
         const bool is_near = off_x * off_x + off_y * off_y < static_cast<Scalar>(0.2499L) * v2;
         const bool known = is_near || mean_x_ * mean_x_ + mean_y_ * mean_y_ > Scalar(0);
         const bool turned = !is_near && known && is_beyond_30_degrees(m, v2);
-        Scalar taken{1};
-        if (known && !turned) {
-            const Scalar way_mm = m.path_speed_mm_s * m.dt_s;
-            taken = way_mm / (way_mm + memory_mm);
-        }
+        const Scalar of_memory = m.way_mm + m.way_mm;  // 0.5 mm
+        const Scalar taken = known && !turned && of_memory < Scalar(1) ? of_memory : Scalar(1);
         mean_x_ += off_x * taken;
         mean_y_ += off_y * taken;
         return turned;
@@ -91,15 +92,17 @@ class PathTurn {
     }
 
     bool has_slowed(const Motion& m) {
-        const Scalar lag = static_cast<Scalar>(0.05L) * m.programmed_feed_mm_s;
-        const Scalar expected = m.commanded_mm_s - lag;
+        constexpr Scalar lag = static_cast<Scalar>(0.05L);
+        const Scalar expected = (m.override_ratio - lag) * m.programmed_feed_mm_s;
         if (!(expected > Scalar(0))) {
             return false;
         }
-        const bool at_speed = m.path_speed_mm_s > static_cast<Scalar>(0.8L) * expected;
-        const bool slowed = was_at_speed_ && m.path_speed_mm_s < static_cast<Scalar>(0.6L) * expected;
-        was_at_speed_ = at_speed || (was_at_speed_ && !slowed);
-        return slowed;
+        if (was_at_speed_) {
+            was_at_speed_ = !(m.path_speed_mm_s < static_cast<Scalar>(0.6L) * expected);
+            return !was_at_speed_;
+        }
+        was_at_speed_ = m.path_speed_mm_s > static_cast<Scalar>(0.8L) * expected;
+        return false;
     }
 
     struct {

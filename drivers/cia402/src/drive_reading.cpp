@@ -1,4 +1,5 @@
 #include "cia402/drive_node.hpp"
+#include "cia402/magnitude.hpp"
 
 /// From raw values of a SYNC period to amperes, millimetres per second and counts.
 
@@ -9,8 +10,6 @@ namespace {
 constexpr float rms_per_peak = 0.70710678F;
 /// A difference of positions over more than this many SYNC periods is no speed any more.
 constexpr float longest_gap_periods = 4.0F;
-
-float magnitude(float value) { return value < 0.0F ? -value : value; }
 
 /// The shortest way from one place to the other on a circle of `modulus` counts (0: 2^32).
 std::int64_t shortest_step(std::uint32_t from, std::uint32_t to, std::uint64_t modulus) {

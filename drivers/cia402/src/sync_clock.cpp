@@ -1,5 +1,7 @@
 #include "cia402/sync_clock.hpp"
 
+#include "cia402/magnitude.hpp"
+
 #include <algorithm>
 
 namespace millforce::cia402 {
@@ -23,10 +25,6 @@ constexpr float contradiction_sd2 = 16.0F;
 
 float square(float value) {
     return value * value;
-}
-
-float absolute(float value) {
-    return value < 0.0F ? -value : value;
 }
 
 std::int64_t rounded(float value) {
@@ -82,10 +80,13 @@ void SyncClock::follow_stamp(float periods) {
     ahead_us_per_period_ += speed_gain * off_us / periods;
 }
 
+bool SyncClock::count_follows() const {
+    return has_count_ && since_count_ > 0 && since_count_ <= longest_uncounted_periods;
+}
+
 void SyncClock::restart_counting(std::uint32_t count) {
     const auto turned = static_cast<float>(static_cast<std::int32_t>(count - last_count_));
-    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_uncounted_periods;
-    counts_per_period_ = follows ? turned / static_cast<float>(since_count_) : 0.0F;
+    counts_per_period_ = count_follows() ? turned / static_cast<float>(since_count_) : 0.0F;
     ahead_counts_ = 0.0F;
     followed_ = 0;
     last_count_ = count;
@@ -97,9 +98,8 @@ void SyncClock::on_count(std::uint32_t count) {
     const auto periods = static_cast<float>(since_count_);
     const auto turned = static_cast<float>(static_cast<std::int32_t>(count - last_count_));
     const float off_counts = turned - ahead_counts_ - periods * counts_per_period_;
-    const float speed = absolute(counts_per_period_);
-    const bool follows = has_count_ && since_count_ > 0 && since_count_ <= longest_uncounted_periods;
-    if (!follows || speed < fewest_counts || absolute(off_counts) > largest_change * speed) {
+    const float speed = magnitude(counts_per_period_);
+    if (!count_follows() || speed < fewest_counts || magnitude(off_counts) > largest_change * speed) {
         restart_counting(count);
         return;
     }

@@ -89,27 +89,27 @@ void Clock::fail(ClockState state) {
     state_ = state;
 }
 
-ResetCause take_reset_cause(RccRegisters& rcc) {
+hal::ResetCause take_reset_cause(RccRegisters& rcc) {
     const std::uint32_t flags = rcc.csr;
     set_bits(rcc.csr, remove_flags);
     const auto has = [flags](unsigned bit) { return (flags & (1U << bit)) != 0; };
     if (has(29) || has(30)) {
-        return ResetCause::watchdog;
+        return hal::ResetCause::watchdog;
     }
     if (has(31)) {
-        return ResetCause::low_power;
+        return hal::ResetCause::low_power;
     }
     if (has(28)) {
-        return ResetCause::software;
+        return hal::ResetCause::software;
     }
     // A power-on sets the brown-out flag too; a brown-out alone does not set the other.
     if (has(27)) {
-        return ResetCause::power_on;
+        return hal::ResetCause::power_on;
     }
     if (has(25)) {
-        return ResetCause::brown_out;
+        return hal::ResetCause::brown_out;
     }
-    return has(26) ? ResetCause::pin : ResetCause::unknown;
+    return has(26) ? hal::ResetCause::pin : hal::ResetCause::unknown;
 }
 
 void watch_supply(PwrRegisters& pwr) {

@@ -122,8 +122,10 @@ void CanController::watch_errors() {
     state_ = error_state();
 }
 
+bool CanController::has_room() const { return is_on_bus() && !has_bits(registers_.sr, transmit_full); }
+
 bool CanController::send(const hal::CanFrame& frame) {
-    if (!is_on_bus() || has_bits(registers_.sr, transmit_full)) {
+    if (!has_room()) {
         count(health_.unsent);
         return false;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/cut_estimate.hpp"
 #include "estimation/encoder_angle.hpp"
 #include "estimation/engagement_peaks.hpp"
 #include "estimation/engagement_solver.hpp"
@@ -7,6 +8,7 @@
 #include "estimation/force_memory.hpp"
 #include "estimation/spindle_drive.hpp"
 #include "estimation/synchronous_average.hpp"
+#include "estimation/tooth_force.hpp"
 
 /// From drive signals to forces, engagement and peak force: the chain that the tick runs.
 ///
@@ -16,69 +18,6 @@
 /// No heap, no clock; about 12 KiB with its tables in float. Not thread-safe.
 
 namespace millforce::estimation {
-
-template <typename Scalar>
-struct CutEstimatorSettings {
-    Scalar teeth{4};
-    Scalar cutter_radius_mm{5};
-    Scalar helix_rad{0};
-    Scalar runout_mm{0};             ///< largest difference of two teeth's radii
-    CutSide side = CutSide::unknown;
-    Scalar centre_offset_in_radii{0};
-    Scalar largest_depth_mm{10};     ///< longest depth of cut of the tool's flutes
-    Scalar nominal_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};
-    Scalar assumed_immersion{1};     ///< used for peaks (never to speed up) until an immersion is known
-    Scalar surge_immersion{0};       ///< see FeedControllerParameters::surge_radial_immersion
-    Scalar turn_immersion{0};        ///< … and turn_radial_immersion
-    Scalar tooth_force_limit_N{1000};
-    Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
-    Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
-    Scalar min_samples{12};
-    int solver_values_per_step{0};   ///< of J in one add(); 0: all at once (see add())
-    std::uint32_t encoder_counts_per_rev = 4096;
-};
-
-/// One drive sample, as plain numbers. `present`: bit 0 spindle current, bits 1–3 the axes x, y, z.
-template <typename Scalar>
-struct DriveSignals {
-    Scalar spindle_current_A{0};
-    std::array<Scalar, 3> axis_current_A{};
-    std::array<Scalar, 3> axis_velocity_mm_s{};
-    std::uint32_t present = 0;
-};
-
-template <typename Scalar>
-struct CutEstimate {
-    Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
-    Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
-    Measurement<Scalar> x_N{};                 ///< along the machine's axes, on the workpiece
-    Measurement<Scalar> y_N{};
-    Measurement<Scalar> z_N{};
-    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid where a needed axis stands
-    EngagementEstimate<Scalar> engagement{};
-
-    Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
-    bool tooth_force_is_bound = false;         ///< tooth_force_N is the most that it can be, and may be far above it
-    Scalar least_tooth_force_N{0};  ///< the least that it can be: F_at shared by the widest cut
-    Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
-    Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
-    Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
-    Scalar cutting_share{1};            ///< of F_at: what is not edge force
-    Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
-    /// The force of a tooth at another immersion, at the same depth and feed.
-    struct Change {
-        Scalar ratio{1};          ///< over its force now
-        Scalar cutting_share{1};  ///< of it: what is not edge force
-    };
-    Scalar section_mm2{0};        ///< width × depth that F_at stands for at the known K_s; 0: no F_at
-    Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
-    Change surge{};  ///< to settings.surge_immersion, where that is larger than now
-    Change turn{};   ///< to settings.turn_immersion
-    Scalar feed_mm_s{0};  ///< path speed over the window
-    Scalar feed_per_tooth_mm{0};
-    Scalar spindle_speed_rad_s{0};
-    Scalar window_s{0};
-};
 
 template <typename Scalar>
 class CutEstimator {
@@ -96,15 +35,19 @@ class CutEstimator {
           axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
           solver_(law, solver_settings(settings), settings.side),
           peaks_(law, {peak_settings(settings.side), settings.largest_depth_mm, settings.assumed_immersion,
-                       settings.surge_immersion, settings.turn_immersion}) {}
+                       settings.surge_immersion, settings.turn_immersion}),
+          tooth_force_(settings, law) {
+        read_whole_engagement();
+    }
 
-    /// Adds one sample. Returns true when estimate() is new: a tooth period ended.
+    /// Adds one sample. Returns true when estimate() is new: with each tooth period.
     ///
-    /// With solver_values_per_step each call does one piece of work at most, so that none is long: the forces at the end of
-    /// a tooth period, the peaks with the engagement that is known then (the estimate is new), some values of the solver,
-    /// when it is done the tables at the new engagement, and the peaks anew. The solver is then taken up once a revolution,
-    /// or as soon as the forces have left those that it was given last. (Where tooth periods end so fast that their peaks
-    /// are still waiting at the next end, two pieces are done there.)
+    /// With solver_values_per_step each call does one piece of work at most, so that none is long: at the end of a tooth
+    /// period the tangential force; the axes' forces where they are due (FeedForces); the peaks with the engagement that is
+    /// known; then the estimate is new. One call in between, and what calls are left over, work at the solver. It is taken
+    /// up once a revolution, or as soon as the forces have left those that it was given last; when it is done its tables
+    /// are read, and the peaks worked out anew. Tooth periods that end while another one is in work are in the averages of
+    /// the next.
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
              const DriveSignals<Scalar>& signals) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
@@ -113,24 +56,27 @@ class CutEstimator {
         if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
             reading.event == EncoderEvent::index_slipped || reading.event == EncoderEvent::index_found) {
             average_.restart();
+            periods_ended_ = 0;
             return false;
         }
-        const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, packed(signals), signals.present);
-        if (completed == 0) {
-            return work_on();
+        const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values, signals.present);
+        if (completed > 0) {
+            since_period_s_ = Scalar(0);
+            periods_ended_ += completed;
         }
-        since_period_s_ = Scalar(0);
-        if (!in_portions()) {
-            predict_drifts();
+        if (in_portions()) {
+            // Closing a period is work as well; where every call closes one, it can be no reason to wait.
+            const bool closes_one = completed > 0 && !has_closed_;
+            has_closed_ = completed > 0;
+            if (closes_one && stage_ != Stage::idle) {
+                return false;
+            }
+            return work_on(closes_one);
         }
-        const bool was_waiting = peaks_due_ && !has_peaks_;
-        has_peaks_ = false;
-        update();
-        if (was_waiting) {
-            read_engagement();
-            return work_on();
+        if (completed > 0) {
+            work_at_once();
         }
-        return !peaks_due_;
+        return completed > 0;
     }
 
     /// An immersion that another method tells of the present cut, for the estimates to come; not valid: none.
@@ -140,12 +86,14 @@ class CutEstimator {
     void restart() {
         encoder_.reset();
         average_.restart();
-        estimate_ = {};
+        estimates_[shown_] = {};
+        period_timeout_s_ = Scalar(0);
+        periods_ended_ = 0;
+        stage_ = Stage::idle;
         engagement_ = {};
         search_.cancel();
         search_due_ = false;
-        peaks_due_ = false;
-        engagement_is_new_ = true;
+        unread_parts_ = parts_of_engagement;
     }
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
@@ -155,7 +103,7 @@ class CutEstimator {
         if (window_.revolutions == 0) {
             return false;
         }
-        air_periods_ = air_periods_ + 1;
+        air_periods_ = air_periods_ + estimate().tooth_periods;
         if (air_periods_ < window_.revolutions * static_cast<int>(settings_.teeth)) {
             return false;
         }
@@ -178,11 +126,14 @@ class CutEstimator {
     [[nodiscard]] bool axes_rest() const {
         constexpr Scalar rest_mm_s = static_cast<Scalar>(0.1L);
         const auto rests = [&](Scalar v_mm_s) { return v_mm_s < rest_mm_s && -v_mm_s < rest_mm_s; };
-        return window_.revolutions > 0 && rests(window_.mean[4]) && rests(window_.mean[5]) && rests(window_.mean[6]);
+        return window_.revolutions > 0 && rests(window_.mean[first_velocity]) &&
+               rests(window_.mean[first_velocity + 1]) && rests(window_.mean[first_velocity + 2]);
     }
 
-    [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimate_; }
+    [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimates_[shown_]; }
     [[nodiscard]] Scalar since_period_s() const { return since_period_s_; }
+    /// Tooth periods still end: the last one is no longer ago than three windows.
+    [[nodiscard]] bool spindle_turns() const { return since_period_s_ < period_timeout_s_; }
     [[nodiscard]] Scalar spindle_drift_Nm() const { return spindle_.drift_Nm(); }
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
         return axes_[axis].friction_scale(positive);
@@ -197,14 +148,13 @@ class CutEstimator {
         const PeakFactors<Scalar> factors =
             peak_factors(law_, peak_settings(peaks_.side()), peaks_.now().radial_immersion, peaks_.depth_mm());
         const Scalar peak_per_tooth = factors.threshold_factor();
-        return {estimate_.worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
+        return {estimate().worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
     }
 
   private:
-    static constexpr int channels = 7;
-    static constexpr int first_velocity = 4;
-    using Averager = SynchronousAverage<Scalar, channels, first_velocity>;
-    using Signals = typename Averager::Signals;
+    static constexpr int first_current = DriveSignals<Scalar>::first_current;
+    static constexpr int first_velocity = DriveSignals<Scalar>::first_velocity;
+    using Averager = SynchronousAverage<Scalar, DriveSignals<Scalar>::channels, first_velocity>;
 
     [[nodiscard]] bool in_portions() const { return settings_.solver_values_per_step > 0; }
 
@@ -236,21 +186,13 @@ class CutEstimator {
         return peak;
     }
 
-    [[nodiscard]] static Signals packed(const DriveSignals<Scalar>& signals) {
-        Signals vector;
-        vector << signals.spindle_current_A, signals.axis_current_A[0], signals.axis_current_A[1],
-            signals.axis_current_A[2], signals.axis_velocity_mm_s[0], signals.axis_velocity_mm_s[1],
-            signals.axis_velocity_mm_s[2];
-        return vector;
-    }
-
     using SpindleAverage = typename SpindleDrive<Scalar>::Average;
     [[nodiscard]] SpindleAverage spindle_average(const typename Averager::Window& window) const {
         SpindleAverage spindle;
         set_spindle(spindle, window);
         spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
         // Two half-windows, each bounded by two counts of ± half a count (variance 1/12 each).
-        const Scalar half_s = Scalar(0.5F) * window.duration_s;
+        const Scalar half_s = halved(window.duration_s);
         spindle.acceleration_variance =
             half_s > Scalar(0) ? square(count_rad_ / square(half_s)) * static_cast<Scalar>(0.33L) : Scalar(0);
         return spindle;
@@ -267,7 +209,7 @@ class CutEstimator {
                                                                       std::size_t axis) const {
         const auto k = static_cast<Eigen::Index>(axis);
         typename FeedDrive<Scalar>::Average average;
-        average.current_A = window.mean[1 + k];
+        average.current_A = window.mean[first_current + k];
         average.velocity_mm_s = window.mean[first_velocity + k];
         average.acceleration_mm_s2 = window.slope_per_s[k];
         average.duration_s = window.duration_s;
@@ -276,221 +218,224 @@ class CutEstimator {
         return average;
     }
 
-    void update() {
-        average_.read_window(window_);
-        estimate_ = {};
-        if (window_.revolutions == 0) {
-            return;
-        }
-        estimate_.window_s = window_.duration_s;
-        estimate_.spindle_speed_rad_s = window_.spindle_speed_rad_s;
-        estimate_tangential();
-        estimate_.x_N = axes_[0].force_N(axis_average(window_, 0));
-        estimate_.y_N = axes_[1].force_N(axis_average(window_, 1));
-        estimate_.z_N = axes_[2].force_N(axis_average(window_, 2));
-        estimate_feed();
-        take_up_engagement();
-    }
+    static constexpr int parts_of_engagement = 3;
 
-    void estimate_tangential() {
-        if (!(per_Nm_ > Scalar(0))) {
-            return;
+    /// What is to be done next for the tooth period in work.
+    enum class Stage : unsigned char { idle, axes, peaks, show };
+
+    void work_at_once() {
+        predict_drifts();
+        take_period();
+        if (stage_ == Stage::axes) {
+            take_axes();
+            solver_.solve(search_, asked_, asked_feed_per_tooth_mm_, settings_.side);
+            engagement_ = search_.estimate();
+            read_whole_engagement();
+            take_peaks();
         }
-        SpindleAverage spindle = spindle_average(window_);
-        estimate_.tangential_N = spindle_.force_N(spindle, per_Nm_);
-        set_spindle(spindle, average_.tooth());
-        estimate_.tooth_tangential_N = spindle_.force_N(spindle, per_Nm_);
+        show();
     }
 
     /// The next piece of work. True where the estimate is new by it.
-    bool work_on() {
-        if (engagement_is_new_) {
-            read_engagement();
-            peaks_due_ = peaks_due_ || estimate_.window_s > Scalar(0);
-            return false;
+    bool work_on(bool is_end_of_period) {
+        switch (stage_) {
+            case Stage::axes:
+                take_axes();
+                return false;
+            case Stage::peaks:
+                take_peaks();
+                if (search_.scanning()) {
+                    solve_on();
+                }
+                return false;
+            case Stage::show:
+                show();
+                if (search_.scanning() && estimate().engagement.immersion_valid) {
+                    solve_on();  // where the immersion is known the law's work is short
+                }
+                return true;
+            case Stage::idle:
+                break;
         }
-        if (peaks_due_) {
-            peaks_due_ = false;
-            has_peaks_ = true;
-            estimate_.engagement = engagement_;
-            estimate_peaks();
-            return true;
-        }
-        if (search_due_) {
-            search_due_ = false;
-            predict_drifts();
-            solver_.begin(search_, asked_, estimate_.feed_per_tooth_mm, settings_.side);
-        } else if (search_.done() || !solver_.advance(search_, settings_.solver_values_per_step)) {
-            return false;
-        }
-        if (search_.done()) {
-            engagement_ = search_.estimate();
-            engagement_is_new_ = true;
+        const bool is_engagement_in_work = search_due_ || !search_.done() || unread_parts_ > 0;
+        if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work)) {
+            take_period();
+        } else {
+            work_on_engagement(is_end_of_period);
         }
         return false;
     }
 
-    void read_engagement() {
-        if (engagement_is_new_) {
-            peaks_.take(engagement_, solver_, estimate_.feed_per_tooth_mm);
-            engagement_is_new_ = false;
+    /// What does not belong to a tooth period: a value of the solver, or the reading of its solution.
+    void work_on_engagement(bool is_end_of_period) {
+        if (unread_parts_ == 0) {
+            has_engagements_turn_ = false;
+            solve_on();
+        } else if (!is_end_of_period) {
+            has_engagements_turn_ = false;
+            read_engagement();
+            if (unread_parts_ == 0 && estimate().window_s > Scalar(0)) {
+                work() = estimate();
+                work().tooth_periods = 0;
+                stage_ = Stage::peaks;
+            }
         }
     }
 
-    void estimate_feed() {
-        using std::sqrt;
-        const Scalar v_x = window_.mean[first_velocity];
-        const Scalar v_y = window_.mean[first_velocity + 1];
-        const Scalar speed = sqrt(square(v_x) + square(v_y));
-        estimate_.feed_mm_s = speed;
-        const Scalar teeth_per_s = settings_.teeth * window_.spindle_speed_rad_s / (Scalar(2) * pi<Scalar>);
-        estimate_.feed_per_tooth_mm = teeth_per_s > Scalar(0) ? speed / teeth_per_s : Scalar(0);
-        if (!(speed > Scalar(0))) {
+    void solve_on() {
+        if (search_due_) {
+            search_due_ = false;
+            predict_drifts();
+            solver_.begin(search_, asked_, asked_feed_per_tooth_mm_, settings_.side);
+        } else if (search_.done() || !solver_.advance(search_, settings_.solver_values_per_step)) {
             return;
         }
-        direction_x_ = v_x / speed;
-        direction_y_ = v_y / speed;
+        if (search_.done()) {
+            engagement_ = search_.estimate();
+            unread_parts_ = parts_of_engagement;
+        }
+    }
+
+    /// What every tooth period tells: the tangential force.
+    void take_period() {
+        average_.read_window(window_);
+        CutEstimate<Scalar>& e = work();
+        e = {};
+        e.tooth_periods = periods_ended_;
+        periods_ended_ = 0;
+        period_timeout_s_ = Scalar(0);
+        stage_ = Stage::show;
+        if (window_.revolutions == 0) {
+            return;
+        }
+        period_timeout_s_ = Scalar(3) * window_.duration_s + Scalar(0.02F);
+        e.window_s = window_.duration_s;
+        e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
+        estimate_tangential(e);
+        periods_since_memory_ = periods_since_memory_ + e.tooth_periods;
+        is_new_revolution_ = periods_since_memory_ >= window_.revolutions * static_cast<int>(settings_.teeth);
+        const bool has_axes = estimate().window_s > Scalar(0);
+        const bool axes_are_due =
+            !in_portions() || !has_axes || is_new_revolution_ || !memory_.holds(e.tangential_N);
+        if (!axes_are_due) {
+            static_cast<FeedForces<Scalar>&>(e) = estimate();
+        }
+        stage_ = axes_are_due ? Stage::axes : Stage::peaks;
+    }
+
+    void estimate_tangential(CutEstimate<Scalar>& e) const {
+        if (!(per_Nm_ > Scalar(0))) {
+            return;
+        }
+        SpindleAverage spindle = spindle_average(window_);
+        e.tangential_N = spindle_.force_N(spindle, per_Nm_);
+        set_spindle(spindle, average_.tooth());
+        e.tooth_tangential_N = spindle_.force_N(spindle, per_Nm_);
+    }
+
+    /// The forces along the axes, and the engagement that they ask for.
+    void take_axes() {
+        CutEstimate<Scalar>& e = work();
+        estimate_feed(e);
+        e.x_N = axes_[0].force_N(axis_average(window_, 0));
+        e.y_N = axes_[1].force_N(axis_average(window_, 1));
+        e.z_N = axes_[2].force_N(axis_average(window_, 2));
+        estimate_along_feed(e);
+        take_up_engagement(e);
+        stage_ = Stage::peaks;
+    }
+
+    void take_peaks() {
+        CutEstimate<Scalar>& e = work();
+        if (!(e.feed_mm_s > Scalar(0))) {
+            estimate_feed(e);
+        }
+        e.engagement = engagement_;
+        tooth_force_.fill(e, peaks_, solver_.table(peaks_.side()));
+        stage_ = Stage::show;
+    }
+
+    void show() {
+        shown_ = 1U - shown_;
+        stage_ = Stage::idle;
+        has_engagements_turn_ = true;
+    }
+
+    /// A part of it.
+    void read_engagement() {
+        if (unread_parts_ == 3) {
+            peaks_.take(engagement_, solver_);
+        } else if (unread_parts_ == 2) {
+            peaks_.take_changes(solver_);
+        } else {
+            peaks_.take_bounds(engagement_, solver_, asked_feed_per_tooth_mm_);
+        }
+        --unread_parts_;
+    }
+    void read_whole_engagement() {
+        unread_parts_ = parts_of_engagement;
+        while (unread_parts_ > 0) {
+            read_engagement();
+        }
+    }
+
+    void estimate_feed(CutEstimate<Scalar>& e) const {
+        using std::sqrt;
+        e.feed_mm_s = sqrt(square(window_.mean[first_velocity]) + square(window_.mean[first_velocity + 1]));
+        const Scalar teeth_per_rad = settings_.teeth * turns_per_rad<Scalar>;
+        const Scalar teeth_per_s = teeth_per_rad * window_.spindle_speed_rad_s;
+        e.feed_per_tooth_mm = teeth_per_s > Scalar(0) ? e.feed_mm_s / teeth_per_s : Scalar(0);
+    }
+
+    void estimate_along_feed(CutEstimate<Scalar>& e) {
+        if (!(e.feed_mm_s > Scalar(0))) {
+            return;
+        }
+        direction_x_ = window_.mean[first_velocity] / e.feed_mm_s;
+        direction_y_ = window_.mean[first_velocity + 1] / e.feed_mm_s;
         const auto usable = [](const Measurement<Scalar>& m, Scalar share) {
             return m.valid || square(share) < static_cast<Scalar>(0.001L);
         };
-        if (usable(estimate_.x_N, direction_x_) && usable(estimate_.y_N, direction_y_)) {
-            estimate_.feed_N.valid = true;
-            estimate_.feed_N.value = (estimate_.x_N.valid ? direction_x_ * estimate_.x_N.value : Scalar(0)) +
-                                     (estimate_.y_N.valid ? direction_y_ * estimate_.y_N.value : Scalar(0));
-            estimate_.feed_N.variance = square(direction_x_) * estimate_.x_N.variance +
-                                        square(direction_y_) * estimate_.y_N.variance;
+        if (usable(e.x_N, direction_x_) && usable(e.y_N, direction_y_)) {
+            e.feed_N.valid = true;
+            e.feed_N.value = (e.x_N.valid ? direction_x_ * e.x_N.value : Scalar(0)) +
+                             (e.y_N.valid ? direction_y_ * e.y_N.value : Scalar(0));
+            e.feed_N.variance = square(direction_x_) * e.x_N.variance + square(direction_y_) * e.y_N.variance;
         }
     }
 
-    void take_up_engagement() {
+    void take_up_engagement(const CutEstimate<Scalar>& e) {
         AverageForceMeasurement<Scalar> forces;
-        forces.tangential_N = estimate_.tangential_N;
-        forces.x_N = estimate_.x_N;
-        forces.y_N = estimate_.y_N;
+        forces.tangential_N = e.tangential_N;
+        forces.x_N = e.x_N;
+        forces.y_N = e.y_N;
         forces.feed_direction_x = direction_x_;
         forces.feed_direction_y = direction_y_;
-        periods_since_memory_ = periods_since_memory_ + 1;
-        const bool is_new_revolution = periods_since_memory_ >= window_.revolutions * static_cast<int>(settings_.teeth);
-        periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
-        AverageForceMeasurement<Scalar> blended =
-            memory_.blend(forces, estimate_.feed_mm_s, last_exponent_, is_new_revolution);
-        blended.radial_immersion = told_immersion_;
-        peaks_due_ = true;
-        if (!in_portions()) {
-            solver_.solve(search_, blended, estimate_.feed_per_tooth_mm, settings_.side);
-            engagement_ = search_.estimate();
-            engagement_is_new_ = true;
-            read_engagement();
-            work_on();
-            return;
-        }
+        periods_since_memory_ = is_new_revolution_ ? 0 : periods_since_memory_;
+        const AverageForceMeasurement<Scalar> blended =
+            memory_.blend(forces, e.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution_);
         const bool has_changed = !(memory_.revolutions() > Scalar(1));
-        if (search_.done() && (is_new_revolution || has_changed)) {
+        if (search_.done() && (is_new_revolution_ || has_changed || !in_portions())) {
             asked_ = blended;
-            search_due_ = true;
+            asked_.radial_immersion = told_immersion_;
+            asked_feed_per_tooth_mm_ = e.feed_per_tooth_mm;
+            search_due_ = in_portions();
         }
     }
 
-    /// The peaks are worked out with the immersion that is known, else the last one, else the assumed one.
-    void estimate_peaks() {
-        using std::sqrt;
-        const auto& table = solver_.table(peaks_.side());
-        const auto feed = table.feed(estimate_.feed_per_tooth_mm);
-        const auto model = table.forces(peaks_.here_node(), feed);
-        const bool has_model = model.tangential_N > Scalar(0) && estimate_.feed_per_tooth_mm > Scalar(0);
-        estimate_.cutting_share = has_model ? model.cutting_tangential_N / model.tangential_N : Scalar(1);
-        estimate_.feed_exponent = Scalar(1) + law_.p_s;
-        last_exponent_ = estimate_.feed_exponent * estimate_.cutting_share;
-        if (!estimate_.tangential_N.valid) {
-            return;
-        }
-        const Scalar newest_N = follow_growth();
-        if (has_model) {
-            const Scalar width_per_F_mm_N =
-                peaks_.now().radial_immersion * settings_.cutter_radius_mm / model.tangential_N;
-            estimate_.section_mm2 = estimate_.tangential_N.value * width_per_F_mm_N;
-            estimate_.section_noise_mm2 = sqrt(estimate_.tangential_N.noise) * width_per_F_mm_N;
-        }
-        estimate_tooth_force(newest_N);
-        if (has_model) {
-            const Scalar now_N = model.tangential_N * peaks_.factors().now;
-            if (peaks_.surge_is_wider()) {
-                estimate_.surge = change_to(table.forces(peaks_.surge_node(), feed), peaks_.factors().surge, now_N);
-            }
-            if (peaks_.turn_is_wider()) {
-                estimate_.turn = change_to(table.forces(peaks_.turn_node(), feed), peaks_.factors().turn, now_N);
-            }
-        }
-    }
-
-    /// F_at of the window, or of the last tooth where that is clearly higher; and how fast it grows then.
-    Scalar follow_growth() {
-        using std::sqrt;
-        const Measurement<Scalar>& window = estimate_.tangential_N;
-        const Measurement<Scalar>& tooth = estimate_.tooth_tangential_N;
-        const bool has_risen = tooth.valid && tooth.value - window.value > Scalar(2) * sqrt(tooth.variance);
-        estimate_.newest_tangential_N = has_risen ? tooth.value : window.value;
-        const Scalar half_window_s = Scalar(0.5F) * window_.duration_s;
-        if (has_risen && half_window_s > Scalar(0)) {
-            // The window's middle is half a window old, the last tooth's nearly now.
-            estimate_.tangential_growth_N_per_s = (tooth.value - window.value) / half_window_s;
-        }
-        return estimate_.newest_tangential_N;
-    }
-
-    void estimate_tooth_force(Scalar newest_N) {
-        const EngagementEstimate<Scalar>& e = estimate_.engagement;
-        const typename EngagementPeaks<Scalar>::Factors& factors = peaks_.factors();
-        const Measurement<Scalar>& window = estimate_.tangential_N;
-        const Scalar runout = runout_factor();
-        estimate_.worst_tooth_force_N = newest_N * factors.now * runout;
-        estimate_.least_tooth_force_N = newest_N * factors.slot;
-        const auto bound_by = [&](Scalar bound) {
-            const Scalar ratio = runout * (bound > factors.now ? bound : factors.now);
-            estimate_.tooth_force_N = {true, newest_N * ratio, square(ratio) * window.variance, Scalar(0)};
-            estimate_.tooth_force_is_bound = true;
-        };
-        if (e.immersion_valid) {
-            const Scalar factor_sd = (factors.at_low - factors.at_high) * static_cast<Scalar>(1.0L / 3.92L);
-            estimate_.tooth_force_N = {true, estimate_.worst_tooth_force_N,
-                                       square(runout) * (square(factors.now) * window.variance +
-                                                         square(newest_N) * (square(factor_sd) + square(factors.by_K_s))),
-                                       Scalar(0)};
-        } else if (e.solved && e.depth_at_high_mm > Scalar(0)) {
-            // No estimate of the immersion, but a bound: the narrowest cut and the smallest depth that the forces allow
-            // load one tooth most. Where even that is far from the limit, the force is known well enough.
-            bound_by(factors.bound);
-        } else if (!e.solved && !estimate_.x_N.valid && !estimate_.y_N.valid) {
-            // Axes too slow to show a force would stay so for ever without a bound: the narrowest and shallowest cut.
-            bound_by(factors.narrowest);
-        }
-    }
-
-    /// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
-    [[nodiscard]] Scalar runout_factor() const {
-        using elementary::exp;
-        using elementary::log;
-        if (!(settings_.runout_mm > Scalar(0)) || !(estimate_.feed_per_tooth_mm > Scalar(0))) {
-            return Scalar(1);
-        }
-        const Scalar most = settings_.teeth;  // more than all teeth's chips one tooth cannot take
-        const Scalar chip = clamp(Scalar(1) + settings_.runout_mm / estimate_.feed_per_tooth_mm, Scalar(1), most);
-        return exp(last_exponent_ * log(chip));
-    }
-
-    [[nodiscard]] static typename CutEstimate<Scalar>::Change change_to(
-        const typename EngagementSolver<Scalar>::Table::Forces& forces_then, Scalar factor, Scalar tooth_N_per_mm_now) {
-        return {forces_then.tangential_N * factor / tooth_N_per_mm_now,
-                forces_then.cutting_tangential_N / forces_then.tangential_N};
-    }
+    [[nodiscard]] CutEstimate<Scalar>& work() { return estimates_[1U - shown_]; }
 
     // What each sample touches comes first: near the object's start an access is one instruction.
     Scalar since_period_s_{0};
     Scalar since_prediction_s_{0};
+    Scalar period_timeout_s_{0};  // 0: no window
+    int periods_ended_ = 0;       // that no estimate has taken up
+    bool has_closed_ = false;     // the last call closed a tooth period
+    Stage stage_ = Stage::idle;
+    std::uint8_t shown_ = 0;      // of estimates_; the other one is in work
     bool search_due_ = false;
-    bool peaks_due_ = false;
-    bool has_peaks_ = false;         // of this tooth period's forces
-    bool engagement_is_new_ = true;  // peaks_ has not seen it yet
+    bool has_engagements_turn_ = false;  // before the next tooth period: where teeth pass fast there is no other time
+    int unread_parts_ = 0;  // of engagement_, that peaks_ has not seen yet
 
     CutEstimatorSettings<Scalar> settings_{};
     CuttingLaw<Scalar> law_{};
@@ -503,8 +448,10 @@ class CutEstimator {
     EngagementSolver<Scalar> solver_{};
     typename EngagementSolver<Scalar>::Search search_{};
     EngagementEstimate<Scalar> engagement_{};  // the last that the solver gave
-    AverageForceMeasurement<Scalar> asked_{};      // what it is to be given next
+    AverageForceMeasurement<Scalar> asked_{};  // what it is to be given next
+    Scalar asked_feed_per_tooth_mm_{0};
     EngagementPeaks<Scalar> peaks_{};
+    ToothForce<Scalar> tooth_force_{};
 
     typename Averager::Window window_{};
     typename Averager::Window air_window_{};
@@ -512,8 +459,8 @@ class CutEstimator {
     ForceMemory<Scalar> memory_{};
     Measurement<Scalar> told_immersion_{};
     int periods_since_memory_ = 0;
-    Scalar last_exponent_{Scalar(0.75F)};
-    CutEstimate<Scalar> estimate_{};
+    bool is_new_revolution_ = false;  // no period of the window is one that memory_ has taken
+    std::array<CutEstimate<Scalar>, 2> estimates_{};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
 };

@@ -10,7 +10,7 @@ namespace millforce::estimation {
 /// Tooth peaks per F_at at the engagement that is known, and at those that may come.
 ///
 /// They depend on the engagement alone, which comes once per solution; the forces come with every tooth period. So
-/// take() reads all tables once, and what is left for a tooth period are products. Cost of take(): up to seven readings of
+/// take() and its two other parts read all tables once, and what is left for a tooth period are products. Cost of the three: up to seven readings of
 /// the peak table (peak_factors.hpp), three of the forces' table; what the present engagement does not ask for is not
 /// read. Memory: both sides' peak tables, 2.9 KiB in float.
 /// Not thread-safe.
@@ -57,8 +57,9 @@ class EngagementPeaks {
         up_.build(law, with_side(settings.peak, CutSide::up));
     }
 
-    /// A solution of the engagement. Where it has no immersion the last one stays.
-    void take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver, Scalar feed_per_tooth_mm) {
+    /// A solution of the engagement. Where it has no immersion the last one stays. take_changes() and take_bounds() belong
+    /// to it.
+    void take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver) {
         if (found.immersion_valid) {
             now_ = {found.engagement_rad, found.radial_immersion};
             side_ = found.side;
@@ -68,10 +69,14 @@ class EngagementPeaks {
         const bool has_depth = found.immersion_valid && found.axial_depth_mm > Scalar(0);
         const Scalar usual_mm = last_depth_mm_ > Scalar(0) ? last_depth_mm_ : largest_depth_mm_;
         depth_mm_ = has_depth ? found.axial_depth_mm : usual_mm;
-        const Table& table = solver.table(side_);
-        here_node_ = table.between(now_.theta_rad);
+        here_node_ = solver.table(side_).between(now_.theta_rad);
         factors_.now = factor(side_, now_, depth_mm_);
         factors_.slot = factor(side_, slot_, depth_mm_);
+    }
+
+    /// The second part of take(): the engagements that may come.
+    void take_changes(const EngagementSolver<Scalar>& solver) {
+        const Table& table = solver.table(side_);
         if (surge_is_wider()) {
             surge_node_ = table.between(surge_.theta_rad);
             factors_.surge = factor(side_, surge_, depth_mm_);
@@ -80,8 +85,13 @@ class EngagementPeaks {
             turn_node_ = table.between(turn_.theta_rad);
             factors_.turn = factor(side_, turn_, depth_mm_);
         }
-        read_bounds(found, has_depth);
-        factors_.by_K_s = change_by_K_s(table, feed_per_tooth_mm);
+    }
+
+    /// The third part of take(), with the same solution.
+    void take_bounds(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver,
+                     Scalar feed_per_tooth_mm) {
+        read_bounds(found, found.immersion_valid && found.axial_depth_mm > Scalar(0));
+        factors_.by_K_s = change_by_K_s(solver.table(side_), feed_per_tooth_mm);
     }
 
     [[nodiscard]] const Factors& factors() const { return factors_; }
@@ -128,8 +138,8 @@ class EngagementPeaks {
         if (!(feed_per_tooth_mm > Scalar(0))) {
             return Scalar(0);
         }
-        const auto model = table.forces(here_node_, table.feed(feed_per_tooth_mm));
-        const Scalar shallower_mm = depth_mm_ * (Scalar(1) - sqrt(table.ln_K_s_variance(model)));
+        const Scalar shallower_mm =
+            depth_mm_ * (Scalar(1) - sqrt(table.ln_K_s_variance(here_node_, feed_per_tooth_mm)));
         return factor(side_, now_, shallower_mm) - factors_.now;
     }
 

@@ -24,7 +24,7 @@
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
 /// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions. A solution
-/// takes Nodes + 11 of them for a side that is told and twice as many for one that is not; solve() works them off at
+/// takes Nodes + 13 of them for a side that is told and twice as many for one that is not; solve() works them off at
 /// once, begin() and advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
@@ -101,6 +101,8 @@ class EngagementSolver {
       public:
         [[nodiscard]] bool done() const { return phase_ == Phase::done; }
         [[nodiscard]] const EngagementEstimate<Scalar>& estimate() const { return estimate_; }
+        /// The next value is one at a node of the table, which are the cheapest.
+        [[nodiscard]] bool scanning() const { return phase_ == Phase::scan; }
         /// Gives it up: no estimate.
         void cancel() {
             estimate_ = {};
@@ -109,7 +111,7 @@ class EngagementSolver {
 
       private:
         friend class EngagementSolver;
-        enum class Phase : unsigned char { scan, refine, depth_at_low, depth_at_high, done };
+        enum class Phase : unsigned char { scan, refine, interval, depth_at_low, depth_at_high, depth, done };
         enum class Point : unsigned char { low, middle, high, candidate };
 
         AverageForceMeasurement<Scalar> forces_{};
@@ -233,12 +235,19 @@ class EngagementSolver {
             case Search::Phase::refine:
                 refine(s);
                 break;
+            case Search::Phase::interval:
+                fill_immersion(s);
+                s.phase_ = Search::Phase::depth_at_low;
+                break;
             case Search::Phase::depth_at_low:
                 s.estimate_.depth_at_low_mm = profile_at(s, s.estimate_.engagement_low_rad).depth_mm;
                 s.phase_ = Search::Phase::depth_at_high;
                 break;
             case Search::Phase::depth_at_high:
                 s.estimate_.depth_at_high_mm = profile_at(s, s.estimate_.engagement_high_rad).depth_mm;
+                s.phase_ = Search::Phase::depth;
+                break;
+            case Search::Phase::depth:
                 fill_depth(s);
                 end_side(s);
                 break;
@@ -374,8 +383,7 @@ class EngagementSolver {
                 return;
             }
         }
-        fill_immersion(s);
-        s.phase_ = Search::Phase::depth_at_low;
+        s.phase_ = Search::Phase::interval;
     }
 
     void fill_immersion(Search& s) const {

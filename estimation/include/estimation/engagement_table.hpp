@@ -3,6 +3,7 @@
 #include "estimation/cutting_law.hpp"
 #include "estimation/elementary.hpp"
 #include "estimation/measurement.hpp"
+#include "estimation/stored.hpp"
 
 #include <array>
 #include <cmath>
@@ -50,11 +51,17 @@ class EngagementTable {
 
     void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
                Scalar largest_rad) {
+        using elementary::log;
         law_ = law;
         teeth_ = teeth;
+        has_reference_ = law.reference_chip_thickness_mm > Scalar(0);
+        ln_reference_ = has_reference_ ? log(law.reference_chip_thickness_mm) : Scalar(0);
         step_rad_ = (largest_rad - first_rad) / Scalar(Nodes - 1);
         for (int k = 0; k < Nodes; ++k) {
-            nodes_[static_cast<std::size_t>(k)] = node_at(angle_rad(Scalar(k)), side, centre_offset_in_radii);
+            const Node node = node_at(angle_rad(Scalar(k)), side, centre_offset_in_radii);
+            for (std::size_t j = 0; j < node.size(); ++j) {
+                nodes_[static_cast<std::size_t>(k)][j] = static_cast<Stored<Scalar>>(node[j]);
+            }
         }
     }
 
@@ -70,14 +77,20 @@ class EngagementTable {
             return {};
         }
         const Scalar ln_f = log(feed_per_tooth_mm);
-        const bool has_reference = law_.reference_chip_thickness_mm > Scalar(0);
-        const Scalar per_pitch = teeth_ / (Scalar(2) * pi<Scalar>);
-        return {law_.k_s_N_per_mm2 * exp(law_.p_s * ln_f) * feed_per_tooth_mm * per_pitch, law_.k_1 * exp(law_.p_1 * ln_f),
-                has_reference ? ln_f - log(law_.reference_chip_thickness_mm) : Scalar(0)};
+        constexpr Scalar per_turn = Scalar(1) / (Scalar(2) * pi<Scalar>);
+        return {law_.k_s_N_per_mm2 * exp(law_.p_s * ln_f) * feed_per_tooth_mm * (teeth_ * per_turn),
+                law_.k_1 * exp(law_.p_1 * ln_f), has_reference_ ? ln_f - ln_reference_ : Scalar(0)};
     }
 
     [[nodiscard]] Scalar ln_K_s_variance(const Forces& forces) const {
         return square(law_.K_s_relative_sd) + square(law_.K_s_exponent_sd * forces.ln_t_in_references);
+    }
+    /// The same at a node, f_z > 0, without the forces.
+    [[nodiscard]] Scalar ln_K_s_variance(const Node& node, Scalar feed_per_tooth_mm) const {
+        using elementary::log;
+        Forces at;
+        at.ln_t_in_references = has_reference_ ? log(feed_per_tooth_mm) - ln_reference_ + node[ln_sine] : Scalar(0);
+        return ln_K_s_variance(at);
     }
     [[nodiscard]] Scalar ln_r_1_variance(const Forces& forces) const {
         return square(law_.r_1_relative_sd) + square(law_.r_1_exponent_sd * forces.ln_t_in_references);
@@ -101,21 +114,23 @@ class EngagementTable {
         const Scalar here = Scalar(1) - x * x;
         Node node;
         for (std::size_t j = 0; j < node.size(); ++j) {
-            node[j] = before * nodes_[m - 1][j] + here * nodes_[m][j] + behind * nodes_[m + 1][j];
+            node[j] = before * Scalar(nodes_[m - 1][j]) + here * Scalar(nodes_[m][j]) + behind * Scalar(nodes_[m + 1][j]);
         }
         return node;
     }
 
-    [[nodiscard]] Forces forces(const Node& n, const Feed& feed) const {
+    /// `n`: a Node, or one as the table stores it.
+    template <typename Entries>
+    [[nodiscard]] Forces forces(const Entries& n, const Feed& feed) const {
         const Scalar Gr = feed.G_N_per_mm * feed.r;
         Forces f;
-        f.cutting_tangential_N = feed.G_N_per_mm * n[a_t];
-        f.tangential_N = f.cutting_tangential_N + n[e_t];
-        f.feed_per_ln_r_1_N = Gr * n[b_x];
-        f.normal_per_ln_r_1_N = Gr * n[b_y];
-        f.feed_N = feed.G_N_per_mm * n[a_x] + f.feed_per_ln_r_1_N + n[e_x];
-        f.normal_N = feed.G_N_per_mm * n[a_y] + f.normal_per_ln_r_1_N + n[e_y];
-        f.ln_t_in_references = feed.ln_f_in_references + n[ln_sine];
+        f.cutting_tangential_N = feed.G_N_per_mm * Scalar(n[a_t]);
+        f.tangential_N = f.cutting_tangential_N + Scalar(n[e_t]);
+        f.feed_per_ln_r_1_N = Gr * Scalar(n[b_x]);
+        f.normal_per_ln_r_1_N = Gr * Scalar(n[b_y]);
+        f.feed_N = feed.G_N_per_mm * Scalar(n[a_x]) + f.feed_per_ln_r_1_N + Scalar(n[e_x]);
+        f.normal_N = feed.G_N_per_mm * Scalar(n[a_y]) + f.normal_per_ln_r_1_N + Scalar(n[e_y]);
+        f.ln_t_in_references = feed.ln_f_in_references + Scalar(n[ln_sine]);
         return f;
     }
 
@@ -141,14 +156,16 @@ class EngagementTable {
         node[e_t] = E_t * i.delta_rad;
         node[e_x] = E_t * i.d + E_r * i.c;
         node[e_y] = E_r * i.d - E_t * i.c;
-        node[ln_sine] = law_.reference_chip_thickness_mm > Scalar(0) ? ln_m : Scalar(0);
+        node[ln_sine] = has_reference_ ? ln_m : Scalar(0);
         return node;
     }
 
-    std::array<Node, static_cast<std::size_t>(Nodes)> nodes_{};
+    std::array<std::array<Stored<Scalar>, entries>, static_cast<std::size_t>(Nodes)> nodes_{};
     CuttingLaw<Scalar> law_{};
     Scalar teeth_{1};
     Scalar step_rad_{1};
+    Scalar ln_reference_{0};  // of the law's reference chip thickness
+    bool has_reference_ = false;
 };
 
 }  // namespace millforce::estimation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/detail/fixed_functions.hpp"
+#include "estimation/stored.hpp"
 
 #include <Eigen/Core>
 
@@ -80,6 +81,7 @@ class FixedPoint {
     constexpr FixedPoint& operator/=(FixedPoint other) { return *this = *this / other; }
     friend constexpr auto operator<=>(FixedPoint a, FixedPoint b) = default;
 
+    friend constexpr FixedPoint halved(FixedPoint x) { return from_raw((x.raw_ + 1) >> 1U); }
     friend constexpr FixedPoint abs(FixedPoint x) { return x.raw_ < 0 ? -x : x; }
     friend constexpr FixedPoint sqrt(FixedPoint x) { return seen(detail::raw_sqrt(x.raw_)); }
     friend constexpr FixedPoint sin(FixedPoint x) { return seen(detail::raw_sin(x.raw_)); }
@@ -170,6 +172,11 @@ class FixedPoint {
 
 /// The scalar of images for processors without a floating-point unit.
 using Fixed = FixedPoint<>;
+
+template <typename Policy>
+struct StoredAs<FixedPoint<Policy>> {
+    using Type = float;
+};
 
 [[nodiscard]] inline std::uint32_t saturations() { return CountSaturations::saturations; }
 

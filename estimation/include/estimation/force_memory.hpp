@@ -44,6 +44,11 @@ class ForceMemory {
         return mixed;
     }
 
+    /// The tangential force tells of no change: it agrees with a memory of two revolutions or more, as it is.
+    [[nodiscard]] bool holds(const Measurement<Scalar>& tangential_N) const {
+        return revolutions_ > Scalar(1) && agrees(tangential_N, held_.tangential_N, Scalar(1), allowed_per_noise_);
+    }
+
     [[nodiscard]] Scalar revolutions() const { return revolutions_; }
 
   private:
@@ -66,7 +71,7 @@ class ForceMemory {
 
     [[nodiscard]] bool is_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar carried) const {
         const Scalar along = now.feed_direction_x * held_.feed_direction_x + now.feed_direction_y * held_.feed_direction_y;
-        const Scalar allowed = square(agreement) * (Scalar(1) + Scalar(1) / revolutions_);
+        const Scalar allowed = allowed_per_noise_;
         return along > static_cast<Scalar>(0.998L) && agrees(now.tangential_N, held_.tangential_N, carried, allowed) &&
                agrees(now.x_N, held_.x_N, carried, allowed) && agrees(now.y_N, held_.y_N, carried, allowed);
     }
@@ -88,11 +93,13 @@ class ForceMemory {
         held_ = forces;
         feed_mm_s_ = feed_mm_s;
         revolutions_ = revolutions;
+        allowed_per_noise_ = square(agreement) * (Scalar(1) + Scalar(1) / revolutions);
     }
 
     AverageForceMeasurement<Scalar> held_{};
     Scalar feed_mm_s_{0};
     Scalar revolutions_{0};
+    Scalar allowed_per_noise_{0};  // square of how far a force may be from its memory, over the variance of its noise
 };
 
 }  // namespace millforce::estimation

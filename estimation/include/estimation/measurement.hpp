@@ -17,6 +17,12 @@ constexpr Scalar square(Scalar value) {
     return value * value;
 }
 
+/// In fixed point a shift (found by ADL), not a product.
+template <typename Scalar>
+constexpr Scalar halved(Scalar value) {
+    return value * Scalar(0.5F);
+}
+
 template <typename Scalar>
 constexpr Scalar clamp(Scalar value, Scalar low, Scalar high) {
     return value < low ? low : (value > high ? high : value);

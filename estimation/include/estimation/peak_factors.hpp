@@ -2,6 +2,7 @@
 
 #include "estimation/cutting_law.hpp"
 #include "estimation/measurement.hpp"
+#include "estimation/stored.hpp"
 
 #include <array>
 #include <cmath>
@@ -145,8 +146,8 @@ class ToothPeakTable {
                 const Scalar sweeps = sweeps_of(Scalar(k));
                 const Scalar depth =
                     sweep_rad_per_mm_ > Scalar(0) ? sweeps * engagement_rad / sweep_rad_per_mm_ : Scalar(1);
-                nodes_[index(i)][index(k)] =
-                    peak_factors(law, settings, immersion, depth).tooth * scale_at(immersion, sweeps);
+                const Scalar scaled = peak_factors(law, settings, immersion, depth).tooth * scale_at(immersion, sweeps);
+                nodes_[index(i)][index(k)] = static_cast<Stored<Scalar>>(scaled);
             }
         }
     }
@@ -164,11 +165,11 @@ class ToothPeakTable {
         const Scalar theta = clamp(theta_rad, first_rad, pi<Scalar>);
         const Scalar engagement_rad = side_ == CutSide::centred ? engagement_at(immersion) : theta;
         const Scalar sweeps = axial_depth_mm * sweep_rad_per_mm_ / engagement_rad;
-        const Place across = place((theta - first_rad) / step_rad, ImmersionNodes);
+        const Place across = place((theta - first_rad) * steps_per_rad, ImmersionNodes);
         const Place along = place(node_of(sweeps), SweepNodes);
         const auto between = [&](std::size_t k) {
-            const Scalar low = nodes_[across.node][k];
-            return low + (nodes_[across.node + 1][k] - low) * across.share;
+            const Scalar low(nodes_[across.node][k]);
+            return low + (Scalar(nodes_[across.node + 1][k]) - low) * across.share;
         };
         const Scalar first = between(along.node);
         return (first + (between(along.node + 1) - first) * along.share) / scale_at(immersion, sweeps);
@@ -183,9 +184,12 @@ class ToothPeakTable {
     static constexpr Scalar first_rad = static_cast<Scalar>(0.2L);
     static constexpr Scalar least_immersion = static_cast<Scalar>(0.0199334222L);  // 1 − cos 0.2
     static constexpr Scalar step_rad = (pi<Scalar> - first_rad) / static_cast<Scalar>(ImmersionNodes - 1);
+    static constexpr Scalar steps_per_rad = Scalar(1) / step_rad;
     static constexpr int corner_index = (SweepNodes - 1) / 2;
     static constexpr Scalar corner_node = static_cast<Scalar>(corner_index);
     static constexpr Scalar most_sweeps = static_cast<Scalar>(20);
+    static constexpr Scalar least_inverse = Scalar(1) / most_sweeps;
+    static constexpr Scalar nodes_per_inverse = corner_node / (Scalar(1) - least_inverse);
 
     [[nodiscard]] static Scalar immersion_of(Scalar node) {
         using elementary::cos;
@@ -196,14 +200,14 @@ class ToothPeakTable {
             return node > Scalar(0) ? node / corner_node : static_cast<Scalar>(1e-3L);  // no depth, no force
         }
         const Scalar beyond = (node - corner_node) / corner_node;
-        return Scalar(1) / (Scalar(1) - beyond * (Scalar(1) - Scalar(1) / most_sweeps));
+        return Scalar(1) / (Scalar(1) - beyond * (Scalar(1) - least_inverse));
     }
     [[nodiscard]] static Scalar node_of(Scalar sweeps) {
         if (sweeps <= Scalar(1)) {
             return sweeps * corner_node;
         }
-        const Scalar inverse = sweeps < most_sweeps ? Scalar(1) / sweeps : Scalar(1) / most_sweeps;
-        return corner_node + corner_node * (Scalar(1) - inverse) / (Scalar(1) - Scalar(1) / most_sweeps);
+        const Scalar inverse = sweeps < most_sweeps ? Scalar(1) / sweeps : least_inverse;
+        return corner_node + (Scalar(1) - inverse) * nodes_per_inverse;
     }
     [[nodiscard]] static Place place(Scalar node, int nodes) {
         const Scalar inside = clamp(node, Scalar(0), Scalar(nodes - 1));
@@ -219,7 +223,7 @@ class ToothPeakTable {
     }
     [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-    std::array<std::array<Scalar, static_cast<std::size_t>(SweepNodes)>, static_cast<std::size_t>(ImmersionNodes)>
+    std::array<std::array<Stored<Scalar>, static_cast<std::size_t>(SweepNodes)>, static_cast<std::size_t>(ImmersionNodes)>
         nodes_{};
     Scalar sweep_rad_per_mm_{0};
     Scalar centre_offset_in_radii_{0};

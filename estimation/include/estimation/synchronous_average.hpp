@@ -1,5 +1,7 @@
 #pragma once
 
+#include "estimation/measurement.hpp"
+
 #include <Eigen/Core>
 #include <cstdint>
 
@@ -27,12 +29,14 @@ class SynchronousAverage {
         Scalar max_gap_s{static_cast<Scalar>(0.05L)};  ///< a longer gap between samples starts anew, however slowly the spindle turns
     };
 
-    /// The average over one tooth period or one window.
-    struct Average {
+    /// The means over one tooth period or one window.
+    struct Means {
         Signals mean = Signals::Zero();
         std::uint32_t present = 0;  ///< bit k: signal k was there in every sample of the average
         Scalar duration_s{0};
         Scalar samples{0};
+    };
+    struct Average : Means {
         Scalar spindle_speed_rad_s{0};
     };
 
@@ -65,25 +69,22 @@ class SynchronousAverage {
             return 0;
         }
         int completed = 0;
-        Scalar remaining_rev = turned_rev;
-        Scalar used_share{0};
-        while (turned_rev > Scalar(0) && remaining_rev >= to_boundary_rev_) {
-            const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
-            const Scalar share = step_rev / turned_rev;
-            accumulate(used_share, used_share + share, dt_s, turned_rev, signals, present);
-            used_share += share;
-            remaining_rev -= step_rev;
-            completed += close_period();
-            to_boundary_rev_ = pitch_rev_;
+        if (turned_rev < to_boundary_rev_) {
+            to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - turned_rev);
+            accumulate_whole(dt_s, turned_rev, signals, present);
+        } else {
+            completed = cross_boundaries(dt_s, turned_rev, angle_rev, signals, present);
         }
-        to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - remaining_rev);
-        accumulate(used_share, Scalar(1), dt_s, turned_rev, signals, present);
+        previous_dt_s_ = dt_s;
         remember(signals, present);
         return completed;
     }
 
     /// The tooth period that ended last. Valid after add() returned at least 1 since the last start.
-    [[nodiscard]] const Average& tooth() const { return periods_[last_index()]; }
+    [[nodiscard]] Average tooth() const {
+        const Means& last = periods_[last_index()];
+        return {last, two_pi * pitch_rev_ / last.duration_s};
+    }
     [[nodiscard]] bool has_tooth() const { return periods_seen_ > 0; }
 
     /// The newest whole revolutions that hold at least min_samples. Cost: linear in the periods of the window.
@@ -114,22 +115,40 @@ class SynchronousAverage {
     }
 
   private:
+    int cross_boundaries(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
+        int completed = 0;
+        Scalar remaining_rev = turned_rev;
+        Scalar used_share{0};
+        while (turned_rev > Scalar(0) && remaining_rev >= to_boundary_rev_) {
+            const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
+            const Scalar share = step_rev / turned_rev;
+            accumulate(used_share, used_share + share, dt_s, turned_rev, signals, present);
+            used_share += share;
+            remaining_rev -= step_rev;
+            completed += close_period();
+            to_boundary_rev_ = pitch_rev_;
+        }
+        to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - remaining_rev);
+        accumulate(used_share, Scalar(1), dt_s, turned_rev, signals, present);
+        return completed;
+    }
+
     [[nodiscard]] bool gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
         if (!(dt_s > Scalar(0)) || dt_s > settings_.max_gap_s) {
             return true;
         }
         // A sample interval that was twice the last one is a missed sample; it may hide at most half a tooth.
-        if (!(previous_dt_s_ > Scalar(0)) || !(dt_s > Scalar(1.5F) * previous_dt_s_)) {
+        if (!(previous_dt_s_ > Scalar(0)) || !(dt_s > previous_dt_s_ + halved(previous_dt_s_))) {
             return false;
         }
-        return turned_rev - turned_rev * previous_dt_s_ / dt_s > Scalar(0.5F) * pitch_rev_;
+        return turned_rev - turned_rev * previous_dt_s_ / dt_s > halved(pitch_rev_);
     }
 
     /// From the angle to the next tooth boundary. Rounding may put the angle on the wrong side of a boundary; the
     /// distance expected from counting on tells which one is meant. May be negative: the boundary has just passed.
     [[nodiscard]] Scalar distance_to_boundary(Scalar angle_rev, Scalar expected_rev) const {
         const Scalar distance = pitch_rev_ - offset_in_pitch(angle_rev);
-        const Scalar half_pitch_rev = Scalar(0.5F) * pitch_rev_;
+        const Scalar half_pitch_rev = halved(pitch_rev_);
         if (distance - expected_rev > half_pitch_rev) {
             return distance - pitch_rev_;
         }
@@ -148,39 +167,45 @@ class SynchronousAverage {
         previous_present_ = present;
     }
 
-    /// Adds the part from share `from` to share `to` of the interval between the previous sample and this one.
-    void accumulate(Scalar from, Scalar to, Scalar dt_s, Scalar turned_rev, const Signals& signals,
-                    std::uint32_t present) {
+    /// Adds a whole interval between the previous sample and this one, as is usual.
+    void accumulate_whole(Scalar dt_s, Scalar turned_rev, const Signals& signals, std::uint32_t present) {
+        const Scalar half_rev = halved(turned_rev);
+        for (int k = 0; k < Channels; ++k) {
+            sum_[k] += (previous_signals_[k] + signals[k]) * half_rev;
+        }
+        add_interval(Scalar(1), dt_s, turned_rev, present);
+    }
+
+    /// Adds the part from share `from` to share `to` of it.
+    [[gnu::noinline]] void accumulate(Scalar from, Scalar to, Scalar dt_s, Scalar turned_rev, const Signals& signals,
+                                      std::uint32_t present) {
         const Scalar width = to - from;
         if (width <= Scalar(0)) {
             return;
         }
         const Scalar part_rev = width * turned_rev;
-        if (from == Scalar(0) && to == Scalar(1)) {
-            const Scalar half_rev = Scalar(0.5F) * part_rev;  // a whole interval, which is usual
-            sum_ += (previous_signals_ + signals) * half_rev;
-        } else {
-            const Scalar middle = Scalar(0.5F) * (from + to);
-            for (int k = 0; k < Channels; ++k) {
-                sum_[k] += (previous_signals_[k] + (signals[k] - previous_signals_[k]) * middle) * part_rev;
-            }
+        const Scalar middle = halved(from + to);
+        for (int k = 0; k < Channels; ++k) {
+            sum_[k] += (previous_signals_[k] + (signals[k] - previous_signals_[k]) * middle) * part_rev;
         }
-        turned_rev_ += part_rev;
-        duration_s_ += width * dt_s;
-        samples_ += width;
+        add_interval(width, width * dt_s, part_rev, present);
+    }
+
+    void add_interval(Scalar samples, Scalar duration_s, Scalar turned_rev, std::uint32_t present) {
+        turned_rev_ += turned_rev;
+        duration_s_ += duration_s;
+        samples_ += samples;
         present_ &= present & previous_present_;
-        previous_dt_s_ = dt_s;
     }
 
     int close_period() {
         int completed = 0;
         if (period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0)) {
-            Average& period = periods_[periods_seen_ % MaxPeriods];
+            Means& period = periods_[periods_seen_ % MaxPeriods];
             period.mean = sum_ * (Scalar(1) / turned_rev_);
             period.present = present_;
             period.duration_s = duration_s_;
             period.samples = samples_;
-            period.spindle_speed_rad_s = turned_rev_ * two_pi / duration_s_;
             periods_seen_ = periods_seen_ + 1U == 2U * MaxPeriods ? MaxPeriods : periods_seen_ + 1U;
             completed = 1;
         }
@@ -208,7 +233,7 @@ class SynchronousAverage {
         Signals sum = Signals::Zero();
         const int half = (count + 1) / 2;
         for (int k = 0; k < count; ++k) {
-            const Average& period = at(k);
+            const Means& period = at(k);
             add_to(sum, period.mean, 0);
             present &= period.present;
             samples += period.samples;
@@ -229,7 +254,7 @@ class SynchronousAverage {
         const Scalar pitch_rad = two_pi * pitch_rev_;
         const Scalar half_rad = Scalar(half) * pitch_rad;
         window.spindle_speed_rad_s = Scalar(count) * pitch_rad / duration_s;
-        const Scalar apart_s = duration_s - Scalar(0.5F) * (newer_duration_s + older_duration_s);
+        const Scalar apart_s = duration_s - halved(newer_duration_s + older_duration_s);
         if (apart_s > Scalar(0)) {
             window.spindle_acceleration_rad_s2 =
                 (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
@@ -252,7 +277,7 @@ class SynchronousAverage {
         return periods_seen_ < MaxPeriods ? static_cast<int>(periods_seen_) : MaxPeriods;
     }
     /// The period that ended `back` periods before the last one.
-    [[nodiscard]] const Average& at(int back) const {
+    [[nodiscard]] const Means& at(int back) const {
         return periods_[(periods_seen_ - 1U - static_cast<std::uint32_t>(back)) % MaxPeriods];
     }
 
@@ -275,7 +300,7 @@ class SynchronousAverage {
     Signals previous_signals_ = Signals::Zero();
     std::uint32_t previous_present_ = 0;
 
-    Average periods_[static_cast<std::size_t>(MaxPeriods)];  // last: what each sample touches lies near the start
+    Means periods_[static_cast<std::size_t>(MaxPeriods)];  // last: what each sample touches lies near the start
 };
 
 }  // namespace millforce::estimation

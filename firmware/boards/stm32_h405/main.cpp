@@ -75,7 +75,7 @@ firmware::BlockError load(firmware::Parameters<float>& parameters) {
 stm32_h405::StartReport report_of_start() {
     stm32_h405::StartReport report;
     report.cause = stm32::take_reset_cause(at<stm32::RccRegisters>(stm32::address::rcc));
-    report.had_processor_fault = kept_fault.magic == fault_was_kept && report.cause == stm32::ResetCause::software;
+    report.had_processor_fault = kept_fault.magic == fault_was_kept && report.cause == hal::ResetCause::software;
     report.fault_program_counter = kept_fault.program_counter;
     kept_fault.magic = 0;
     return report;
@@ -122,7 +122,7 @@ void millforce::board::on_processor_fault(const FaultRecord& record) {
     } else if (running_controller != nullptr) {
         // Some milliseconds: three frames at 125 kbit/s. The watchdog would end it, too.
         std::uint32_t looks = 100'000;
-        running_controller->give_up(stm32_h405::Reason::processor_fault, record.program_counter,
+        running_controller->give_up(emergency::Reason::processor_fault, record.program_counter,
                                     [&looks] { return --looks != 0; });
     }
     reset_processor();

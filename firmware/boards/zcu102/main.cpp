@@ -3,6 +3,7 @@
 #include "common/processor.hpp"
 #include "firmware/parameter_block.hpp"
 #include "zcu102/bus_controller.hpp"
+#include "zynqmp/reset_cause.hpp"
 
 extern "C" {
 extern const std::uint8_t _parameters[];  // firmware/boards/zcu102/memory.ld
@@ -11,6 +12,11 @@ extern const std::uint8_t _parameters[];  // firmware/boards/zcu102/memory.ld
 namespace {
 
 using namespace millforce;
+
+template <typename Registers>
+Registers& at(std::uintptr_t address) {
+    return *reinterpret_cast<Registers*>(address);
+}
 
 /// Of the processor's cycle counter: 500 on the chip; the emulator's counts nanoseconds.
 constexpr std::uint32_t cycles_per_us = MILLFORCE_CYCLES_PER_US;
@@ -34,7 +40,7 @@ std::uint64_t now_us() {
     return us;
 }
 
-/// Silence: a CNC that hears nothing holds the feed.
+/// Silence: a CNC that hears nothing holds the feed. Where the watchdog runs it ends in a reset.
 [[noreturn]] void stay_silent() {
     for (;;) {
         asm volatile("wfi");
@@ -54,9 +60,12 @@ void millforce::board::run_image() {
     if (cia402::check(settings.drives) != cia402::SettingsError::none) {
         stay_silent();
     }
-    auto& registers = *reinterpret_cast<zynqmp::CanRegisters*>(zynqmp::address::can0);
-    static zcu102::BusController controller(registers, settings, parameters);
-    controller.start(zynqmp::kbit_1000);
+    namespace address = zynqmp::address;
+    static zcu102::BusController controller({.can = at<zynqmp::CanRegisters>(address::can0),
+                                             .watchdog = at<zynqmp::WatchdogRegisters>(address::watchdog),
+                                             .errors = at<zynqmp::ErrorRegisters>(address::errors)},
+                                            settings, parameters);
+    controller.start(zynqmp::kbit_1000, zynqmp::take_reset_cause(at<zynqmp::Register>(address::reset_reason)));
     for (;;) {
         controller.poll(now_us());
         asm volatile("yield");  // an emulator of several processors on one goes on to the next

@@ -175,17 +175,21 @@ class ForceControlTick {
     }
 
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
-        estimation::DriveSignals<Scalar> signals;
-        const bool has_current =
-            (sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A);
-        signals.spindle_current_A = has_current ? Scalar(sample.spindle_current_A) : Scalar(0);
-        signals.present = has_current ? 1U : 0U;
+        using Signals = estimation::DriveSignals<Scalar>;
+        Signals signals;
+        const auto take = [&](int channel, float value) { signals.values[channel] = Scalar(value); };
+        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A)) {
+            signals.present = 1U;
+            take(0, sample.spindle_current_A);
+        }
         for (std::size_t k = 0; k < hal::axis_count; ++k) {
-            const bool there = (sample.present & hal::axis_mask(k)) != 0 && hal::is_finite(sample.axis_current_A[k]) &&
-                               hal::is_finite(sample.axis_velocity_mm_s[k]);
-            signals.axis_current_A[k] = there ? Scalar(sample.axis_current_A[k]) : Scalar(0);
-            signals.axis_velocity_mm_s[k] = there ? Scalar(sample.axis_velocity_mm_s[k]) : Scalar(0);
-            signals.present |= there ? 2U << k : 0U;
+            if ((sample.present & hal::axis_mask(k)) != 0 && hal::is_finite(sample.axis_current_A[k]) &&
+                hal::is_finite(sample.axis_velocity_mm_s[k])) {
+                const int axis = static_cast<int>(k);
+                signals.present |= 2U << k;
+                take(Signals::first_current + axis, sample.axis_current_A[k]);
+                take(Signals::first_velocity + axis, sample.axis_velocity_mm_s[k]);
+            }
         }
         return signals;
     }
@@ -198,11 +202,12 @@ class ForceControlTick {
                                     ? estimate.tangential_N.valid && estimate.tangential_N.value < half_contact_N
                                     : estimator_.axes_rest();
         // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
-        air_periods_ = rapid || (in_air && looks_idle) ? air_periods_ + 1 : 0;
+        air_periods_ = rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
         // The first windows after a change hold a mixture of air and cut.
-        if (air_periods_ > 2 * static_cast<int>(control_parameters_.teeth)) {
+        const int enough = 2 * static_cast<int>(control_parameters_.teeth) + 1;
+        if (air_periods_ >= enough) {
             was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
-            air_periods_ = 2 * static_cast<int>(control_parameters_.teeth);
+            air_periods_ = enough;
         } else {
             estimator_.leave_air();
         }
@@ -219,7 +224,7 @@ class ForceControlTick {
         constexpr Scalar turn = Scalar(2) * estimation::pi<Scalar>;
         const Scalar turns_per_s = e.spindle_speed_rad_s / turn;
         const Scalar path_mm_s =
-            sqrt(estimation::square(e.feed_mm_s) + estimation::square(signals.axis_velocity_mm_s[2]));
+            sqrt(estimation::square(e.feed_mm_s) + estimation::square(signals.velocity_mm_s(2)));
         const Scalar estimated_depth_mm = e.engagement.depth_valid ? e.engagement.axial_depth_mm : Scalar(0);
         const estimation::RoughnessConditions<Scalar> cut{
             Scalar(60) * turns_per_s, turns_per_s > Scalar(0) ? path_mm_s / turns_per_s : Scalar(0), tool_diameter_mm_,
@@ -247,16 +252,14 @@ class ForceControlTick {
         input_.operator_override = Scalar(program.operator_override);
         input_.rapid = program.rapid;
         input_.feed_hold = program.feed_hold;
-        const auto& v = signals.axis_velocity_mm_s;
-        const Scalar plane2 = v[0] * v[0] + v[1] * v[1];
-        const Scalar axial2 = v[2] * v[2];
+        input_.velocity_x_mm_s = signals.velocity_mm_s(0);
+        input_.velocity_y_mm_s = signals.velocity_mm_s(1);
+        const Scalar plane2 = estimation::square(input_.velocity_x_mm_s) + estimation::square(input_.velocity_y_mm_s);
+        const Scalar axial2 = estimation::square(signals.velocity_mm_s(2));
         input_.path_speed_mm_s = sqrt(plane2 + axial2);
-        input_.velocity_x_mm_s = v[0];
-        input_.velocity_y_mm_s = v[1];
         input_.plunging = axial2 > plane2 && axial2 > Scalar(0.25F);
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
-        const Scalar period_timeout_s = Scalar(3) * e.window_s + Scalar(0.02F);
-        input_.cut.spindle_turning = e.window_s > Scalar(0) && estimator_.since_period_s() < period_timeout_s;
+        input_.cut.spindle_turning = estimator_.spindle_turns();
         input_.cut.force_valid = e.tangential_N.valid && input_.cut.spindle_turning;
     }
 
@@ -281,6 +284,7 @@ class ForceControlTick {
             const Scalar lead_s = reaction_s_ + Scalar(0.5F) * e.window_s;
             cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
         }
+        cut.tooth_periods = Scalar(e.tooth_periods);
         cut.cutting_share = e.cutting_share;
         cut.surge_ratio = e.surge.ratio;
         cut.surge_cutting_share = e.surge.cutting_share;

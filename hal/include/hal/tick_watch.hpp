@@ -12,6 +12,11 @@ namespace millforce::hal {
            !(feed_override.ratio - feed_override.ratio == 0.0F);
 }
 
+/// Whether a tick may feed a watchdog, once its heartbeat has gone on.
+[[nodiscard]] constexpr bool is_within_limits(const FeedOverride& feed_override, float largest_ratio) {
+    return feed_override.ratio >= 0.0F && feed_override.ratio <= largest_ratio;
+}
+
 /// Tells a controller that ticks from one that stands still: by its heartbeat, not by being called.
 class TickWatch {
   public:

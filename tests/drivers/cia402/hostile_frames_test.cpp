@@ -39,7 +39,6 @@ hal::CanFrame nearly_right(std::mt19937& random) {
     return f;
 }
 
-
 }  // namespace
 
 TEST_GROUP(HostileFrames){};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "iio/adc_currents.hpp"
+#include "sim/files/temporary_folder.hpp"
 
 /// A folder that looks as a device of Linux IIO does, with a FIFO in the place of /dev/iio:device0.
 
@@ -20,31 +21,23 @@ namespace millforce::iio::test {
 
 class FakeTree {
   public:
-    FakeTree() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "millforce-iio-XXXXXX").string();
-        root_ = ::mkdtemp(pattern.data());
-    }
-    ~FakeTree() { std::filesystem::remove_all(root_); }
-    FakeTree(const FakeTree&) = delete;
-    FakeTree& operator=(const FakeTree&) = delete;
-
     void write(const std::string& file, const std::string& text) const {
-        const std::filesystem::path path = root_ / file;
+        const std::filesystem::path path = folder_.path(file);
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path) << text;
     }
     [[nodiscard]] std::string read(const std::string& file) const {
         std::string line;
-        std::ifstream in(root_ / file);
+        std::ifstream in(folder_.path(file));
         std::getline(in, line);
         return line;
     }
-    void remove(const std::string& file) const { std::filesystem::remove_all(root_ / file); }
-    [[nodiscard]] Path path(const std::string& file) const { return Path((root_ / file).string()); }
-    [[nodiscard]] std::string name(const std::string& file) const { return (root_ / file).string(); }
+    void remove(const std::string& file) const { std::filesystem::remove_all(folder_.path(file)); }
+    [[nodiscard]] Path path(const std::string& file) const { return Path(name(file)); }
+    [[nodiscard]] std::string name(const std::string& file) const { return folder_.path(file).string(); }
 
   private:
-    std::filesystem::path root_;
+    millforce::test::TemporaryFolder folder_;
 };
 
 /// Two 12-bit channels, voltage0 and voltage3, and a timestamp: 16 bytes a scan.

@@ -6,6 +6,7 @@
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce::stm32;
+using millforce::hal::ResetCause;
 
 TEST_GROUP(Stm32Clock) {
     static constexpr std::uint32_t crystal_hz = 8'000'000;

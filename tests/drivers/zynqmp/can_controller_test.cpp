@@ -114,7 +114,9 @@ TEST(ZynqCan, bytes_behind_the_length_are_not_taken_and_a_length_above_8_is_8) {
 
 TEST(ZynqCan, a_full_queue_drops_the_frame_and_counts_it) {
     start_on_bus();
+    CHECK_TRUE(can.has_room());
     set_status(1U << 10U);  // TXFLL
+    CHECK_FALSE(can.has_room());
     CHECK_FALSE(can.send({}));
     UNSIGNED_LONGS_EQUAL(1, can.health().unsent);
     set_status(0);

@@ -3,18 +3,18 @@
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce;
-using stm32_h405::Reason;
+using emergency::Reason;
 using stm32_h405::StartReport;
 
 TEST_GROUP(AnalogueController) {};
 
 TEST(AnalogueController, says_boot_up_and_its_reset_first) {
-    BoardBench board({stm32::ResetCause::pin, firmware::BlockError::none, false, 0});
+    BoardBench board({hal::ResetCause::pin, firmware::BlockError::none, false, 0});
     board.run(2);
     const auto emergency = board.emergency(Reason::started);
     CHECK_TRUE(emergency.has_value());
     UNSIGNED_LONGS_EQUAL(0, BoardBench::code_of(*emergency));
-    UNSIGNED_LONGS_EQUAL(stm32::ResetCause::pin, BoardBench::detail_of(*emergency));
+    UNSIGNED_LONGS_EQUAL(hal::ResetCause::pin, BoardBench::detail_of(*emergency));
     bool has_boot_up = false;
     for (const auto& frame : board.frames) {
         has_boot_up = has_boot_up || (frame.id == 0x77E && frame.length == 1 && frame.data[0] == 0);
@@ -29,10 +29,10 @@ TEST(AnalogueController, a_reset_by_watchdog_brown_out_or_fault_is_an_error) {
         std::uint32_t code, detail;
     };
     const Case cases[] = {
-        {{stm32::ResetCause::watchdog}, Reason::started, 0x6010, 5},
-        {{stm32::ResetCause::brown_out}, Reason::started, 0x3200, 2},
-        {{stm32::ResetCause::unknown}, Reason::started, 0x1000, 0},
-        {{stm32::ResetCause::software, firmware::BlockError::none, true, 0x0800'1234}, Reason::processor_fault, 0x6100,
+        {{hal::ResetCause::watchdog}, Reason::started, 0x6010, 5},
+        {{hal::ResetCause::brown_out}, Reason::started, 0x3200, 2},
+        {{hal::ResetCause::unknown}, Reason::started, 0x1000, 0},
+        {{hal::ResetCause::software, firmware::BlockError::none, true, 0x0800'1234}, Reason::processor_fault, 0x6100,
          0x0800'1234},
     };
     for (const Case& c : cases) {
@@ -94,7 +94,7 @@ TEST(AnalogueController, a_cut_is_estimated_and_answered_as_by_the_tick_alone) {
 }
 
 TEST(AnalogueController, without_parameters_the_feed_is_held_and_the_bus_knows_why) {
-    BoardBench board({stm32::ResetCause::power_on, firmware::BlockError::bad_values, false, 0});
+    BoardBench board({hal::ResetCause::power_on, firmware::BlockError::bad_values, false, 0});
     board.run(50);
     CHECK_TRUE(board.seen_by_cnc().is_alive);
     CHECK_TRUE(board.seen_by_cnc().hold);

@@ -18,7 +18,7 @@ class BoardBench {
     static constexpr std::uint32_t period_us = 1000;
     static constexpr unsigned scans_per_period = 8;
 
-    explicit BoardBench(const millforce::stm32_h405::StartReport& report = {millforce::stm32::ResetCause::power_on,
+    explicit BoardBench(const millforce::stm32_h405::StartReport& report = {millforce::hal::ResetCause::power_on,
                                                                            millforce::firmware::BlockError::none, false, 0})
         : parameters(millforce::instructions::machine_and_tool()) {
         controller.emplace(peripherals(), wiring);
@@ -66,7 +66,7 @@ class BoardBench {
     [[nodiscard]] millforce::override_frame::ReceivedOverride seen_by_cnc() const { return cnc.current(now_us); }
 
     /// The newest EMCY of a reason.
-    [[nodiscard]] std::optional<millforce::hal::CanFrame> emergency(millforce::stm32_h405::Reason reason) const {
+    [[nodiscard]] std::optional<millforce::hal::CanFrame> emergency(millforce::emergency::Reason reason) const {
         std::optional<millforce::hal::CanFrame> found;
         for (const auto& frame : frames) {
             if (frame.id == 0x80U + 126U && frame.data[3] == static_cast<std::uint8_t>(reason)) {

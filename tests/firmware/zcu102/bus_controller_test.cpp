@@ -1,5 +1,12 @@
-#include "drivers/zynqmp/fake_can.hpp"
 #include "zcu102/bus_controller.hpp"
+#include "drivers/zynqmp/fake_can.hpp"
+#include "hal/tick_watch.hpp"
+#include "instructions/machine_and_tool.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
 
 #include <CppUTest/TestHarness.h>
 
@@ -9,7 +16,7 @@ namespace {
 
 /// A bus whose drives are asked for nothing: this controller makes the SYNC alone.
 firmware::Parameters<float> with_a_bus() {
-    firmware::Parameters<float> parameters;
+    firmware::Parameters<float> parameters = bench::machine_and_tool();
     auto& bus = parameters.machine.bus;
     bus.produces_sync = 1.0F;
     parameters.machine.spindle_rated_current_A = 10.0F;
@@ -29,10 +36,12 @@ TEST_GROUP(Zcu102Bus) {
     firmware::Parameters<float> parameters = with_a_bus();
     firmware::CanControllerSettings settings =
         firmware::can_controller_settings(parameters.machine, zcu102::bus_objects);
-    zcu102::BusController controller{chip.registers, settings, parameters};
+    zynqmp::WatchdogRegisters watchdog{};
+    zynqmp::ErrorRegisters errors{};
+    zcu102::BusController controller{{chip.registers, watchdog, errors}, settings, parameters};
 
     /// Frames with this id that leave until then.
-    int frames_until(std::uint64_t& now_us, std::uint64_t end_us, std::uint32_t id) {
+    int frames_until(std::uint64_t & now_us, std::uint64_t end_us, std::uint32_t id) {
         int frames = 0;
         for (; now_us < end_us; now_us += 50) {
             chip.registers.transmit.identifier = 0;
@@ -44,6 +53,165 @@ TEST_GROUP(Zcu102Bus) {
     }
 };
 
+/// The same with drives that answer each SYNC: a spindle that turns, axes at rest. An emergency is the last frame of
+/// its poll, and so the one that is seen.
+TEST_GROUP(Zcu102Guard) {
+    FakeZynqCan chip;
+    zynqmp::WatchdogRegisters watchdog{};
+    zynqmp::ErrorRegisters errors{};
+    firmware::Parameters<float> parameters = with_a_bus();
+    std::optional<zcu102::BusController> controller;
+    std::uint64_t now_us = 0;
+    bool drives_answer = true;
+    std::uint32_t answered = 0;
+    std::optional<hal::CanFrame> newest_override;
+    std::array<std::optional<hal::CanFrame>, emergency::reason_count> emergencies;
+    int feeds = 0;
+
+    void start(hal::ResetCause cause) {
+        controller.emplace(zcu102::Peripherals{chip.registers, watchdog, errors},
+                           firmware::can_controller_settings(parameters.machine, zcu102::bus_objects), parameters);
+        controller->start(zynqmp::kbit_1000, cause);
+        chip.react();
+    }
+    void poll() {
+        now_us += 50;
+        chip.registers.transmit.identifier = 0;
+        watchdog.restart = 0;
+        controller->poll(now_us);
+        chip.react();
+        feeds += watchdog.restart == 0x1999U ? 1 : 0;
+        note_sent();
+    }
+    void note_sent() {
+        hal::CanFrame frame;
+        frame.id = chip.registers.transmit.identifier >> 21U;
+        for (unsigned k = 0; k < 8U; ++k) {
+            const std::uint32_t word = k < 4U ? chip.registers.transmit.data1 : chip.registers.transmit.data2;
+            frame.data[k] = static_cast<std::uint8_t>(word >> (24U - 8U * (k % 4U)));
+        }
+        if (frame.id == 0x080U + override_frame::default_node_id) {
+            emergencies[frame.data[3]] = frame;
+        } else if (frame.id == override_frame::default_id) {
+            newest_override = frame;
+        }
+    }
+    void run_ms(int duration_ms) {
+        for (const std::uint64_t end_us = now_us + static_cast<std::uint64_t>(duration_ms) * 1000U; now_us < end_us;) {
+            poll();
+            const std::uint32_t syncs = controller->controller().drives().health().syncs;
+            if (drives_answer && syncs != answered) {
+                answer_sync();
+                answered = syncs;
+            }
+        }
+    }
+    void answer_sync() {
+        spindle_count += 546;
+        const std::uint32_t turned = __builtin_bswap32(spindle_count);
+        constexpr std::uint32_t no_current_operation_enabled = 0x0000'3706U;
+        const auto arrive = [this](std::uint32_t id, std::uint32_t length, std::uint32_t data1, std::uint32_t data2) {
+            chip.arrive(id << 21U, length, data1, data2);
+            poll();
+        };
+        arrive(0x181, 8, turned, no_current_operation_enabled);
+        arrive(0x281, 6, 0, 0);
+        for (std::uint32_t axis = 0x182; axis <= 0x184; ++axis) {
+            arrive(axis, 8, 0, no_current_operation_enabled);
+        }
+    }
+    [[nodiscard]] std::uint32_t code_of(emergency::Reason reason) const {
+        const auto& frame = emergencies[static_cast<std::size_t>(reason)];
+        CHECK_TRUE_TEXT(frame.has_value(), "no such emergency");
+        return static_cast<std::uint32_t>(frame->data[0] | frame->data[1] << 8U);
+    }
+    [[nodiscard]] std::uint32_t detail_of(emergency::Reason reason) const {
+        return emergencies[static_cast<std::size_t>(reason)]->data[4];
+    }
+    [[nodiscard]] bool is_held() const {
+        return newest_override.has_value() && (newest_override->data[2] & 1U) != 0;
+    }
+
+    std::uint32_t spindle_count = 0;
+};
+
+TEST(Zcu102Guard, the_bus_is_told_why_the_chip_has_started) {
+    struct Case {
+        hal::ResetCause cause;
+        std::uint32_t code;
+    };
+    for (const Case& c : {Case{hal::ResetCause::watchdog, 0x6010}, Case{hal::ResetCause::power_on, 0},
+                          Case{hal::ResetCause::unknown, 0x1000}}) {
+        emergencies = {};
+        chip = {};
+        start(c.cause);
+        run_ms(10);
+        UNSIGNED_LONGS_EQUAL(c.code, code_of(emergency::Reason::started));
+        UNSIGNED_LONGS_EQUAL(c.cause, detail_of(emergency::Reason::started));
+    }
+}
+
+TEST(Zcu102Guard, the_watchdog_waits_for_the_first_tick_and_is_fed_once_by_each) {
+    drives_answer = false;
+    start(hal::ResetCause::power_on);
+    run_ms(50);
+    UNSIGNED_LONGS_EQUAL(0, watchdog.mode);
+    drives_answer = true;
+    run_ms(10);
+    UNSIGNED_LONGS_EQUAL(0xABC1C3, watchdog.mode);
+    const std::uint32_t ticks_before = controller->controller().ticks();
+    feeds = 0;
+    run_ms(100);
+    const std::uint32_t ticks = controller->controller().ticks() - ticks_before;
+    DOUBLES_EQUAL(100, ticks, 2);
+    LONGS_EQUAL(ticks, feeds);
+    UNSIGNED_LONGS_EQUAL(0xABC1C3, watchdog.mode);
+}
+
+TEST(Zcu102Guard, drives_that_fall_silent_are_told_twice_and_are_no_reason_for_a_reset) {
+    start(hal::ResetCause::power_on);
+    run_ms(50);
+    CHECK_FALSE(emergencies[static_cast<std::size_t>(emergency::Reason::inputs_missing)].has_value());
+    drives_answer = false;
+    run_ms(100);
+    feeds = 0;
+    run_ms(100);
+    CHECK_COMPARE(feeds, >=, 95);
+    UNSIGNED_LONGS_EQUAL(0x5000, code_of(emergency::Reason::inputs_missing));
+    UNSIGNED_LONGS_EQUAL(0, detail_of(emergency::Reason::inputs_missing));
+    UNSIGNED_LONGS_EQUAL(0xFF00, code_of(emergency::Reason::tick_fault));
+    UNSIGNED_LONGS_EQUAL(control::Fault::stale_input, detail_of(emergency::Reason::tick_fault));
+    CHECK_TRUE(is_held());
+}
+
+TEST(Zcu102Guard, a_bus_that_is_off_is_no_reason_for_a_reset_and_is_told_when_it_is_back) {
+    start(hal::ResetCause::power_on);
+    run_ms(50);
+    chip.registers.isr = 1U << 9U;
+    feeds = 0;
+    for (int part = 0; part < 5; ++part) {
+        run_ms(18);
+        CHECK_COMPARE(feeds, >, 0);
+        feeds = 0;
+    }
+    run_ms(50);
+    UNSIGNED_LONGS_EQUAL(0x8140, code_of(emergency::Reason::bus_was_off));
+    UNSIGNED_LONGS_EQUAL(1, detail_of(emergency::Reason::bus_was_off));
+}
+
+TEST(Zcu102Guard, a_ratio_beyond_the_limits_is_not_healthy) {
+    hal::FeedOverride output;
+    for (const float ratio : {0.0F, 0.1F, 1.5F}) {
+        output.ratio = ratio;
+        CHECK_TRUE(hal::is_within_limits(output, 1.5F));
+    }
+    for (const float ratio :
+         {-0.001F, 1.501F, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        output.ratio = ratio;
+        CHECK_FALSE(hal::is_within_limits(output, 1.5F));
+    }
+}
+
 TEST(Zcu102Bus, the_usual_mapping_and_the_table_s_numbers_make_settings_that_pass) {
     CHECK_TRUE(cia402::SettingsError::none == cia402::check(settings.drives));
     UNSIGNED_LONGS_EQUAL(0x181, settings.drives.drives[0].pdos[0].id);
@@ -54,7 +222,7 @@ TEST(Zcu102Bus, the_usual_mapping_and_the_table_s_numbers_make_settings_that_pas
 
 TEST(Zcu102Bus, a_SYNC_leaves_each_millisecond_and_counts_as_heard) {
     std::uint64_t now_us = 0;
-    controller.start(zynqmp::kbit_1000);
+    controller.start(zynqmp::kbit_1000, hal::ResetCause::power_on);
     chip.react();
     const int syncs = frames_until(now_us, 100'000, 0x080);
     CHECK_COMPARE(syncs, >=, 95);
@@ -65,7 +233,7 @@ TEST(Zcu102Bus, a_SYNC_leaves_each_millisecond_and_counts_as_heard) {
 
 TEST(Zcu102Bus, after_bus_off_it_is_silent_for_a_tenth_of_a_second_and_joins_again) {
     std::uint64_t now_us = 0;
-    controller.start(zynqmp::kbit_1000);
+    controller.start(zynqmp::kbit_1000, hal::ResetCause::power_on);
     chip.react();
     frames_until(now_us, 10'000, 0x080);
     chip.registers.isr = 1U << 9U;

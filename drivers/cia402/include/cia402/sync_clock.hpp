@@ -41,6 +41,7 @@ class SyncClock {
   private:
     void restart_at(std::uint64_t stamp_us);
     void follow_stamp(float periods);
+    [[nodiscard]] bool count_follows() const;  ///< a count so soon after the last that their difference is a speed
     void restart_counting(std::uint32_t count);
     void learn(float by_counts_us);
     void weigh(float by_counts_us);

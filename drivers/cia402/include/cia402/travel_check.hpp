@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cia402/magnitude.hpp"
+
 namespace millforce::cia402 {
 
 /// Whether an axis goes as far by its velocity object as by its position object. A factor of 60 (rpm for rev/s), 10 or
@@ -30,8 +32,6 @@ class TravelCheck {
     [[nodiscard]] bool disagrees() const { return disagrees_; }
 
   private:
-    static float magnitude(float value) { return value < 0.0F ? -value : value; }
-
     float by_velocity_mm_ = 0.0F;
     float by_position_mm_ = 0.0F;
     float elapsed_s_ = 0.0F;

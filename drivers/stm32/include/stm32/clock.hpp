@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "hal/reset_cause.hpp"
 #include "stm32/registers.hpp"
 
 /// System clock of an STM32F405: 168 MHz from a crystal. RM0090 7.2, 3.5.
@@ -46,23 +47,8 @@ class Clock {
     ClockState state_ = ClockState::crystal_starting;
 };
 
-/// Why the processor started.
-enum class ResetCause : std::uint8_t {
-    unknown = 0,
-    power_on = 1,
-    brown_out = 2,  ///< the supply fell below the option bytes' level and came back
-    pin = 3,
-    software = 4,
-    watchdog = 5,
-    low_power = 6,
-};
-constexpr const char* name(ResetCause cause) {
-    constexpr const char* names[] = {"unknown", "power on", "brown-out", "reset pin", "software", "watchdog", "low power"};
-    return names[static_cast<unsigned>(cause) % 7U];
-}
-
 /// Reads the flags and clears them, so that the next start tells its own cause. RM0090 7.3.21
-ResetCause take_reset_cause(RccRegisters& rcc);
+hal::ResetCause take_reset_cause(RccRegisters& rcc);
 
 /// Watches the supply: the comparator at 2.9 V, the highest level. RM0090 5.4
 void watch_supply(PwrRegisters& pwr);

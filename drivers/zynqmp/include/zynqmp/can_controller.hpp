@@ -61,6 +61,7 @@ class CanController {
 
     [[nodiscard]] CanState state() const { return state_; }
     [[nodiscard]] bool is_on_bus() const { return state_ >= CanState::running && state_ != CanState::bus_off; }
+    [[nodiscard]] bool has_room() const;
     [[nodiscard]] const CanHealth& health() const { return health_; }
 
   private:

@@ -26,10 +26,30 @@ struct CanRegisters {
 static_assert(offsetof(CanRegisters, isr) == 0x1C && offsetof(CanRegisters, transmit) == 0x30);
 static_assert(offsetof(CanRegisters, receive) == 0x50 && offsetof(CanRegisters, afr) == 0x60);
 
+/// UG1087, module SWDT
+struct WatchdogRegisters {
+    Register mode, control, restart, status;
+};
+
+/// UG1087, module PMU_GLOBAL from ERROR_STATUS_1 on: what an error of the system ends in. Ones set their bits in the enable
+/// registers, and in disable registers beside them they clear them; ERROR_EN_1 is read and written.
+struct ErrorRegisters {
+    Register status_1;
+    Register reserved_534[14];
+    Register system_reset_enable_1;
+    Register reserved_570[12];
+    Register enable_1;
+};
+static_assert(offsetof(ErrorRegisters, system_reset_enable_1) == 0x56C - 0x530);
+static_assert(offsetof(ErrorRegisters, enable_1) == 0x5A0 - 0x530);
+
 /// UG1085 table 10-7
 namespace address {
 inline constexpr std::uintptr_t can0 = 0xFF06'0000U;
 inline constexpr std::uintptr_t can1 = 0xFF07'0000U;
+inline constexpr std::uintptr_t watchdog = 0xFF15'0000U;
+inline constexpr std::uintptr_t reset_reason = 0xFF5E'0220U;
+inline constexpr std::uintptr_t errors = 0xFFD8'0530U;
 }  // namespace address
 
 }  // namespace millforce::zynqmp

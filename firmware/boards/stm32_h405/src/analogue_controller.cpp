@@ -2,7 +2,12 @@
 
 #include <algorithm>
 
+#include "hal/tick_watch.hpp"
+
 namespace millforce::stm32_h405 {
+
+using emergency::Reason;
+using emergency::error_code;
 
 namespace {
 
@@ -55,17 +60,7 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
 }
 
 void AnalogueController::tell_start(const StartReport& report) {
-    constexpr std::uint16_t watchdog_reset = 0x6010;
-    constexpr std::uint16_t generic_error = 0x1000;
-    std::uint16_t code = 0;
-    if (report.cause == stm32::ResetCause::watchdog) {
-        code = watchdog_reset;
-    } else if (report.cause == stm32::ResetCause::brown_out) {
-        code = error_code(Reason::supply_low);
-    } else if (report.cause == stm32::ResetCause::unknown) {
-        code = generic_error;
-    }
-    emergencies_.tell(Reason::started, code, static_cast<std::uint32_t>(report.cause));
+    emergencies_.tell_start(report.cause);
     if (report.had_processor_fault) {
         emergencies_.tell(Reason::processor_fault, error_code(Reason::processor_fault), report.fault_program_counter);
     }
@@ -170,8 +165,8 @@ hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
 }
 
 bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {
-    return tick_.has_value() && output.heartbeat == output_.heartbeat + 1U && output.ratio >= 0.0F &&
-           output.ratio <= largest_ratio_;
+    return tick_.has_value() && output.heartbeat == output_.heartbeat + 1U &&
+           hal::is_within_limits(output, largest_ratio_);
 }
 
 bool AnalogueController::send_last_words(Reason reason, std::uint32_t detail) {

@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <optional>
 
+#include "emergency/emergencies.hpp"
 #include "firmware/parameter_block.hpp"
 #include "firmware/tick.hpp"
 #include "hal/drive_sample.hpp"
+#include "hal/reset_cause.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_receiver.hpp"
 #include "stm32/clock.hpp"
 #include "stm32/timers.hpp"
 #include "stm32/watchdog.hpp"
-#include "stm32_h405/emergency.hpp"
 #include "stm32_h405/motion.hpp"
 #include "stm32_h405/wiring.hpp"
 
@@ -42,7 +43,7 @@ namespace millforce::stm32_h405 {
 
 /// What is known before the controller starts.
 struct StartReport {
-    stm32::ResetCause cause = stm32::ResetCause::unknown;
+    hal::ResetCause cause = hal::ResetCause::unknown;
     firmware::BlockError parameters = firmware::BlockError::none;
     bool had_processor_fault = false;
     std::uint32_t fault_program_counter = 0;
@@ -61,7 +62,7 @@ class AnalogueController {
     /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is asked
     /// while frames are on their way, and says when to wait no longer.
     template <typename Patience>
-    bool give_up(Reason reason, std::uint32_t detail, Patience has_patience) {
+    bool give_up(emergency::Reason reason, std::uint32_t detail, Patience has_patience) {
         can_.abort_all();
         while (!can_.is_all_sent() && has_patience()) {
         }
@@ -83,7 +84,7 @@ class AnalogueController {
     void tell_start(const StartReport& report);
     void receive_frames(std::uint64_t now_us);
     void send_frames();
-    bool send_last_words(Reason reason, std::uint32_t detail);
+    bool send_last_words(emergency::Reason reason, std::uint32_t detail);
     void run_tick(std::uint64_t now_us);
     void take_sample(std::uint64_t now_us);
     [[nodiscard]] bool is_at_rest() const;
@@ -99,7 +100,7 @@ class AnalogueController {
     stm32::Watchdog watchdog_;
     override_frame::OverrideSender sender_;
     program_status::ProgramStatusReceiver program_;
-    Emergencies emergencies_;
+    emergency::Emergencies emergencies_;
     std::array<AxisVelocity, hal::axis_count> velocities_{};
     EncoderWatch encoder_watch_{0};
     std::array<hal::CanFilter, 1> filters_;

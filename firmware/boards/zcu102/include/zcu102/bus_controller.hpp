@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "emergency/emergencies.hpp"
 #include "firmware_can/bus_settings.hpp"
 #include "firmware_can/can_controller.hpp"
+#include "hal/reset_cause.hpp"
 #include "zynqmp/can_controller.hpp"
+#include "zynqmp/watchdog.hpp"
 
-/// The controller of a Zynq UltraScale+ whose drives and CNC are on its CAN bus: firmware::CanController over the chip's
-/// CAN controller.
+/// The controller of a Zynq UltraScale+ whose drives and CNC are on its CAN bus: firmware::CanController over the
+/// chip's CAN controller.
 
 namespace millforce::zcu102 {
 
@@ -34,16 +37,39 @@ inline constexpr firmware::BusObjects bus_objects = [] {
     return firmware::BusObjects{spindle, axis, axis, axis};
 }();
 
-/// poll() as often as possible: a frame's time is that of the poll which fetched it. A frame that was sent counts as heard
-/// then: this CAN controller does not hear its own. After bus-off the bus is joined again 100 ms later; meanwhile no
-/// override goes out, and the CNC holds the feed by itself. No heap. One thread.
+struct Peripherals {
+    zynqmp::CanRegisters& can;
+    zynqmp::WatchdogRegisters& watchdog;
+    zynqmp::ErrorRegisters& errors;
+};
+
+/// Not short, since the CNC stops the feed by itself after 20 ms of silence; longer than the longest work beside the
+/// tick, the fit of a flute profile (estimation/flute_profile_fit.hpp).
+inline constexpr std::uint32_t watchdog_us = 200'000;
+inline constexpr std::uint32_t watchdog_clock_MHz = 100;
+
+/// poll() as often as possible: it fetches one frame, whose time is that of the poll, so that a babbling node delays
+/// nothing else. A frame that was sent counts as heard then: this CAN controller does not hear its own. After bus-off
+/// the bus is joined again 100 ms later; meanwhile no override goes out, and the CNC holds the feed by itself. No heap.
+/// One thread.
+///
+/// The first healthy tick starts the watchdog, and healthy ticks feed it: the heartbeat went on and the ratio is within
+/// the limits. Frames drive the ticks. Where none passes for 5 ms, not even an own one, no tick is due, and polling
+/// feeds: a reset would not bring the bus back. A ratio beyond the limits holds the feed until the reset.
+///
+/// | what happens | on the bus, from emergency/emergencies.hpp |
+/// |---|---|
+/// | start | boot-up, EMCY with the reset's cause, 0x6010 after a watchdog |
+/// | a sample lacks something, once the ticks have begun | EMCY 0x5000 |
+/// | fault of the tick | the override frame's fault, EMCY 0xFF00 |
+/// | bus-off | silence, EMCY 0x8140 when it is back |
+/// | fault of the processor, a tick that hangs or answers nonsense | silence, reset, EMCY 0x6010 after it |
 class BusController {
   public:
-    BusController(zynqmp::CanRegisters& registers, const firmware::CanControllerSettings& settings,
-                  const firmware::Parameters<float>& parameters)
-        : can_(registers), controller_(settings, parameters) {}
+    BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
+                  const firmware::Parameters<float>& parameters);
 
-    void start(const zynqmp::CanBitTiming& timing);
+    void start(const zynqmp::CanBitTiming& timing, hal::ResetCause cause);
     void poll(std::uint64_t now_us);
 
     [[nodiscard]] const zynqmp::CanController& can() const { return can_; }
@@ -51,11 +77,22 @@ class BusController {
 
   private:
     void rejoin_after_bus_off(std::uint64_t now_us);
+    void exchange_frames(std::uint64_t now_us);
+    void guard_ticks(std::uint64_t now_us);
+    void feed_watchdog();
+    void tell_what_is_wrong();
 
     zynqmp::CanController can_;
+    zynqmp::Watchdog watchdog_;
+    emergency::Emergencies emergencies_;
     zynqmp::CanBitTiming timing_{};
     firmware::CanController controller_;
+    float largest_ratio_;
     std::uint64_t on_bus_us_ = 0;  ///< last time that the controller was not off the bus
+    std::uint64_t heard_us_ = 0;   ///< of the newest frame, own ones too
+    bool has_sent_ = false;        ///< the boot-up comes before any emergency
+    std::uint32_t healthy_ticks_ = 0;
+    std::uint32_t bus_offs_ = 0;
 };
 
 }  // namespace millforce::zcu102

@@ -1,6 +1,6 @@
-#include "stm32_h405/emergency.hpp"
+#include "emergency/emergencies.hpp"
 
-namespace millforce::stm32_h405 {
+namespace millforce::emergency {
 
 std::uint16_t error_code(Reason reason) {
     constexpr std::array<std::uint16_t, reason_count> codes{
@@ -26,6 +26,20 @@ void Emergencies::set(Reason reason, bool is_there, std::uint32_t detail) {
 void Emergencies::tell(Reason reason, std::uint16_t code, std::uint32_t detail) {
     entries_[static_cast<std::size_t>(reason)] = {code, detail};
     untold_ |= bit(reason);
+}
+
+void Emergencies::tell_start(hal::ResetCause cause) {
+    constexpr std::uint16_t watchdog_reset = 0x6010;
+    constexpr std::uint16_t generic_error = 0x1000;
+    std::uint16_t code = 0;
+    if (cause == hal::ResetCause::watchdog) {
+        code = watchdog_reset;
+    } else if (cause == hal::ResetCause::brown_out) {
+        code = error_code(Reason::supply_low);
+    } else if (cause == hal::ResetCause::unknown) {
+        code = generic_error;
+    }
+    tell(Reason::started, code, static_cast<std::uint32_t>(cause));
 }
 
 bool Emergencies::take_frame(hal::CanFrame& frame) {
@@ -55,4 +69,4 @@ hal::CanFrame Emergencies::frame_of(Reason reason, std::uint16_t code, std::uint
     return frame;
 }
 
-}  // namespace millforce::stm32_h405
+}  // namespace millforce::emergency

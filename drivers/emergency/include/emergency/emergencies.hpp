@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "hal/can_frame.hpp"
+#include "hal/reset_cause.hpp"
 
 /// Why, on the bus: CANopen emergency frames (CiA 301, 7.2.7), id 0x80 + node.
 ///
@@ -15,13 +16,13 @@
 /// | 3 | Reason |
 /// | 4…7 | detail, U32 |
 
-namespace millforce::stm32_h405 {
+namespace millforce::emergency {
 
 enum class Reason : std::uint8_t {
-    started = 0,          ///< detail: stm32::ResetCause. An error after a watchdog, a brown-out or an unknown cause
+    started = 0,          ///< detail: hal::ResetCause. An error after a watchdog, a brown-out or an unknown cause
     processor_fault = 1,  ///< detail: program counter; told at the fault and after the reset that it causes
     no_parameters = 2,    ///< detail: firmware::BlockError
-    supply_low = 3,       ///< below 2.9 V
+    supply_low = 3,       ///< below the voltage that the board watches for
     inputs_missing = 4,   ///< detail: hal::Present of what is there
     tick_fault = 5,       ///< detail: control::Fault
     bus_was_off = 6,      ///< detail: how many times since the start; told when it is back
@@ -37,6 +38,7 @@ class Emergencies {
     void set(Reason reason, bool is_there, std::uint32_t detail);
     /// Tells an event that has no end.
     void tell(Reason reason, std::uint16_t code, std::uint32_t detail);
+    void tell_start(hal::ResetCause cause);
     [[nodiscard]] bool has(Reason reason) const { return (there_ & bit(reason)) != 0; }
     /// True once for each frame that is to be sent.
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
@@ -58,4 +60,4 @@ class Emergencies {
 /// CiA 301, table 26.
 std::uint16_t error_code(Reason reason);
 
-}  // namespace millforce::stm32_h405
+}  // namespace millforce::emergency

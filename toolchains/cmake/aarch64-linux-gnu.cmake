@@ -1,7 +1,0 @@
-# CMake toolchain file for 64-bit Arm under Linux; what is built runs here under qemu's user mode.
-set(CMAKE_SYSTEM_NAME Linux)
-set(CMAKE_SYSTEM_PROCESSOR aarch64)
-set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
-set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
-set(CMAKE_CROSSCOMPILING_EMULATOR "qemu-aarch64;-L;/usr/aarch64-linux-gnu")
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
