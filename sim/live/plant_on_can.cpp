@@ -120,6 +120,10 @@ void PlantOnCan::send_all() {
 OverrideSource::PlantSteps PlantOnCan::plant_steps(const PlantSteps& usual) {
     const double elapsed_s = 1e-6 * static_cast<double>(std::max<std::uint64_t>(due_us_ - plant_us_, 1));
     plant_us_ = due_us_;
+    if (settings_.computes_ahead && syncs_ != stepped_syncs_) {
+        stepped_syncs_ = syncs_;
+        return usual;
+    }
     const int count = std::max(1, static_cast<int>(std::lround(elapsed_s / usual.step_s)));
     return {count, elapsed_s / count};
 }

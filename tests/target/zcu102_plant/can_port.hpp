@@ -20,7 +20,12 @@ class BarePort final : public sim::CanPort {
   public:
     BarePort() { can_.start(zynqmp::kbit_1000); }
 
-    [[nodiscard]] std::uint64_t now_us() override { return timer_us(); }
+    /// Until then no time passes.
+    void begin_time() {
+        began_us_ = timer_us();
+        time_passes_ = true;
+    }
+    [[nodiscard]] std::uint64_t now_us() override { return time_passes_ ? timer_us() - began_us_ : 0; }
     void poll(std::uint64_t now_us) override {
         can_.poll();
         hal::CanFrame frame;
@@ -42,14 +47,22 @@ class BarePort final : public sim::CanPort {
         sent += can_.send(frame) ? 1U : 0U;
     }
     void wait(std::uint64_t timeout_us) override {
-        const std::uint64_t end_us = timer_us() + timeout_us;
+        const std::uint64_t end_us = now_us() + timeout_us;
         std::uint64_t time_us = 0;
         do {
             let_time_pass();
-            time_us = timer_us();
+            time_us = now_us();
             poll(time_us);
         } while (heard_.empty() && time_us < end_us);
     }
+    /// The controller takes a frame at each of its rounds: enough of them for the drives' PDOs and the tick behind them.
+    static void let_controller_work() {
+        constexpr unsigned rounds = 16;
+        for (unsigned k = 0; k < rounds; ++k) {
+            asm volatile("yield" ::: "memory");
+        }
+    }
+
     [[nodiscard]] bool is_on_bus() const { return can_.is_on_bus(); }
     [[nodiscard]] std::uint64_t lost() const { return can_.health().unsent + can_.health().overruns; }
 
@@ -62,17 +75,19 @@ class BarePort final : public sim::CanPort {
         hal::CanFrame frame;
     };
 
-    /// The registers are looked at every 3 µs or so: each look costs the emulator more than the waiting, but what the
-    /// drives latch late is noise in the spindle's acceleration.
+    /// The registers are looked at every 4 µs: each look costs an emulator more than the waiting, and nothing is cheaper to
+    /// it than what does nothing.
     static void let_time_pass() {
-        for (unsigned k = 0; k < 1500; ++k) {
-            asm volatile("" ::: "memory");
+        for (unsigned k = 0; k < 4; ++k) {
+            asm volatile(".rept 1000\n nop\n .endr" ::: "memory");
         }
         asm volatile("yield");
     }
 
     zynqmp::CanController can_{*reinterpret_cast<zynqmp::CanRegisters*>(zynqmp::address::can1)};
     std::deque<Heard> heard_{};
+    std::uint64_t began_us_ = 0;
+    bool time_passes_ = false;
 };
 
 }  // namespace millforce::target

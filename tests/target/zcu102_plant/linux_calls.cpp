@@ -1,6 +1,6 @@
 // The few system calls that a static C++ program makes, served on a bare Cortex-A53: memory out of what lies behind the
 // image, files of the host to read, a console to write to, the generic timer as clock. Any other is named on the console
-// and fails. Runs inside the exception: without the FPU, whose registers are the program's.
+// and ends the run. Runs inside the exception: without the FPU, whose registers are the program's.
 
 #include <asm/stat.h>
 #include <asm/unistd.h>
@@ -95,12 +95,13 @@ long read_file(long descriptor, std::uint64_t bytes, long count) {
 }
 
 long seek_file(long descriptor, long offset, long whence) {
-    if (!is_file(descriptor)) {
+    constexpr long origin_count = 3;
+    if (!is_file(descriptor) || whence < 0 || whence >= origin_count) {
         return bad_argument;
     }
     File& file = files[descriptor - first_file];
-    const long origins[] = {0, file.position, file.length};
-    file.position = origins[whence % 3] + offset;
+    const long origins[origin_count] = {0, file.position, file.length};
+    file.position = origins[whence] + offset;
     host(sys_seek, descriptor - first_file, file.position);
     return file.position;
 }
@@ -178,7 +179,7 @@ long move_break(std::uint64_t end) {
 /// What is unmapped is lost: an allocator maps large blocks alone, and few.
 long map_memory(std::uint64_t bytes) {
     const std::uint64_t whole = (bytes + page_bytes - 1U) & ~(page_bytes - 1U);
-    if (whole > mappings_begin - static_cast<std::uint64_t>(move_break(0))) {
+    if (whole < bytes || whole > mappings_begin - static_cast<std::uint64_t>(move_break(0))) {
         return out_of_memory;
     }
     mappings_begin -= whole;
@@ -289,7 +290,7 @@ long serve(const long* x) {
     say("system call ");
     say(static_cast<unsigned long>(x[8]));
     say(" is not served\n");
-    return no_such_call;
+    target::exit_emulator(6);
 }
 
 void end_by_fault(unsigned long syndrome, unsigned long at, unsigned long address) {
