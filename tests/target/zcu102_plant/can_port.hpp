@@ -75,10 +75,10 @@ class BarePort final : public sim::CanPort {
         hal::CanFrame frame;
     };
 
-    /// The registers are looked at every 4 µs: each look costs an emulator more than the waiting, and nothing is cheaper to
+    /// The registers are looked at every 8 µs: each look costs an emulator more than the waiting, and nothing is cheaper to
     /// it than what does nothing.
     static void let_time_pass() {
-        for (unsigned k = 0; k < 4; ++k) {
+        for (unsigned k = 0; k < 8; ++k) {
             asm volatile(".rept 1000\n nop\n .endr" ::: "memory");
         }
         asm volatile("yield");

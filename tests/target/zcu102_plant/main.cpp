@@ -26,7 +26,7 @@ namespace {
 using namespace millforce;
 
 /// A good part of a period would make the controller's SYNC late; a small one costs the emulator time.
-constexpr std::uint64_t turn_us = 50;
+constexpr std::uint64_t turn_us = 100;
 constexpr std::uintptr_t parameters_of_r5f = 0x00F0'0000;  // firmware/boards/zcu102/memory.ld
 
 sim::PlantOnCanSettings plant_settings(const sim::Scenario& scenario) {
@@ -60,6 +60,7 @@ class PlantOnBoard final : public sim::PlantOnCan {
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
         if (!is_on_) {
             is_on_ = true;
+            calls_before_ = host_calls();
             wire.begin_time();
             start_controller(scenario_);
             target::take_turns(turn_us);
@@ -69,6 +70,9 @@ class PlantOnBoard final : public sim::PlantOnCan {
         return answer;
     }
 
+    /// Of the host, since the board was switched on.
+    [[nodiscard]] unsigned long calls() const { return host_calls() - calls_before_; }
+
     target::BarePort& wire;
 
   private:
@@ -77,6 +81,7 @@ class PlantOnBoard final : public sim::PlantOnCan {
 
     const sim::Scenario& scenario_;
     bool is_on_ = false;
+    unsigned long calls_before_ = 0;
 };
 
 void mill(const char* scenario_file) {
@@ -87,9 +92,8 @@ void mill(const char* scenario_file) {
         target::exit_emulator(5);
     }
     PlantOnBoard plant(scenario, std::move(port));
-    const unsigned long calls_before = host_calls();
     const sim::RunFigures figures = sim::simulate(scenario, plant, "zcu102").result.figures;
-    const unsigned long calls = host_calls() - calls_before;
+    const unsigned long calls = plant.calls();
     fmt::print("finished = {}\n", figures.finished);
     fmt::print("time_s = {}\n", figures.time_s);
     fmt::print("peak_over_limit = {}\n", figures.peak_over_limit);
