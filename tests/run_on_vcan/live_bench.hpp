@@ -68,15 +68,9 @@ class LiveFolder {
     [[nodiscard]] std::vector<std::string> plant_words() const {
         return {"simulate", file("scenario.toml"), "--bus", "vcan0", "--out", file("out")};
     }
-    /// Waits for a text in the run's log of conditions; false after twenty seconds.
+    /// Waits for a text in the run's log of conditions.
     [[nodiscard]] bool logged(const std::string& part) const {
-        for (int k = 0; k < 400; ++k) {
-            if (text("run.jsonl").find(part) != std::string::npos) {
-                return true;
-            }
-            sleep_ms(50);
-        }
-        return false;
+        return wait_until([&] { return text("run.jsonl").find(part) != std::string::npos; });
     }
 
   private:

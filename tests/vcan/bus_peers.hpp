@@ -5,15 +5,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "socketcan/can_socket.hpp"
@@ -105,20 +108,59 @@ inline std::vector<std::string> lines_of(const std::string& file) {
     return lines;
 }
 
+/// How long a peer may take: a virtual kernel on a busy host pauses for seconds.
+inline constexpr int patience_ms = 30'000;
+
+/// Looks every 10 ms; false where it does not hold for so long.
+inline bool wait_until(const std::function<bool()>& holds) {
+    const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
+    while (!holds()) {
+        if (socketcan::monotonic_us() > end_us) {
+            return false;
+        }
+        sleep_ms(10);
+    }
+    return true;
+}
+
 /// `candump -L` of an interface into a file, from when the constructor returns.
 class Candump {
   public:
-    explicit Candump(const std::string& interface)
-        : file_(temporary_file("candump")), process_("stdbuf -oL candump -L " + interface + " >" + file_) {
-        sleep_ms(100);
+    Candump(const std::string& interface, std::string file)
+        : file_(std::move(file)),
+          receivers_before_(receivers()),
+          process_("stdbuf -oL candump -L " + interface + " >" + file_) {
+        wait_until([&] { return receivers() > receivers_before_; });
     }
-    ~Candump() { unlink(file_.c_str()); }
+    explicit Candump(const std::string& interface) : Candump(interface, temporary_file("candump")) {
+        is_file_temporary_ = true;
+    }
+    ~Candump() {
+        if (is_file_temporary_) {
+            unlink(file_.c_str());
+        }
+    }
     Candump(const Candump&) = delete;
     Candump& operator=(const Candump&) = delete;
 
-    /// Frames as `123#1122`, without time and interface.
+    /// Waits for so many frames that begin with this.
+    [[nodiscard]] bool has(const std::string& begin, int count = 1) const {
+        return wait_until([&] {
+            const std::vector<std::string> all = frames();
+            return std::count_if(all.begin(), all.end(), [&](const auto& it) { return it.starts_with(begin); }) >= count;
+        });
+    }
+    /// Waits until the bus has been quiet for half a second.
+    [[nodiscard]] bool is_quiet() const {
+        std::uintmax_t size = 0;
+        return wait_until([&] {
+            const std::uintmax_t before = std::exchange(size, std::filesystem::file_size(file_));
+            sleep_ms(500);
+            return before == size && size > 0;
+        });
+    }
+    /// Those so far as `123#1122`, without time and interface.
     [[nodiscard]] std::vector<std::string> frames() const {
-        sleep_ms(50);
         std::vector<std::string> frames = lines_of(file_);
         for (std::string& line : frames) {
             line = line.substr(line.rfind(' ') + 1);
@@ -127,7 +169,12 @@ class Candump {
     }
 
   private:
+    /// Sockets that the kernel gives every frame.
+    static std::size_t receivers() { return lines_of("/proc/net/can/rcvlist_all").size(); }
+
     std::string file_;
+    bool is_file_temporary_ = false;
+    std::size_t receivers_before_;
     Child process_;
 };
 
@@ -152,9 +199,9 @@ class Listener {
             step();
         }
     }
-    /// Until it holds; false after two seconds.
+    /// Until it holds; false where it does not.
     bool run_until(const std::function<bool()>& holds) {
-        const std::uint64_t end_us = socketcan::monotonic_us() + 2'000'000;
+        const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
         while (!holds()) {
             if (socketcan::monotonic_us() > end_us) {
                 return false;

@@ -21,13 +21,12 @@ TEST(DrivesAndCnc, four_drives_are_started_and_sampled_without_a_lost_count) {
         CHECK(machine.run_until([&] { return machine.all_operational(4); }));
         machine.run_ms(50);
         machine.samples.clear();
-        machine.run_ms(1000);
+        // How many are complete is this machine's affair: a virtual kernel on a busy host pauses for milliseconds.
+        CHECK(machine.run_until([&] { return samples_with_everything(machine.samples) >= 200; }));
         const int all = static_cast<int>(machine.samples.size());
         const int complete = samples_with_everything(machine.samples);
         std::printf("\n    four drives, SYNC every %u us: %d of %d samples complete, %u SYNCs skipped", period_us,
                     complete, all, machine.bus.health().syncs_skipped);
-        // How many come in time is this machine's affair: a virtual kernel on a busy host pauses for milliseconds.
-        CHECK(complete > all / 4);
         check_counts(machine.samples);
         UNSIGNED_LONGS_EQUAL(0, machine.socket.health().overruns);
         UNSIGNED_LONGS_EQUAL(0, machine.socket.health().send_failures);
@@ -41,8 +40,7 @@ TEST(DrivesAndCnc, drives_that_vanish_are_lost_and_come_back_by_themselves) {
     drives.send_signal(SIGSTOP);
     CHECK(machine.run_until([&] { return machine.all_are(2, NodeState::lost); }));
     machine.samples.clear();
-    machine.run_ms(50);
-    CHECK(!machine.samples.empty());
+    CHECK(machine.run_until([&] { return machine.samples.size() >= 5; }));
     UNSIGNED_LONGS_EQUAL(0, machine.samples.back().present);
     drives.send_signal(SIGCONT);
     CHECK(machine.run_until([&] { return machine.all_operational(2); }));
@@ -64,11 +62,11 @@ TEST(DrivesAndCnc, reaches_a_cnc_and_a_controller_that_stops_is_a_hold) {
     const Child controller(run_controller);
     Cnc cnc;
     CHECK(cnc.run_until_alive(true));
-    DOUBLES_EQUAL(0.8, cnc.current().ratio, 1e-4);
-    CHECK_FALSE(cnc.current().hold);
+    DOUBLES_EQUAL(0.8, cnc.last().ratio, 1e-4);
+    CHECK_FALSE(cnc.last().hold);
     controller.send_signal(SIGSTOP);
     CHECK(cnc.run_until_alive(false));
-    CHECK(cnc.current().hold);
+    CHECK(cnc.last().hold);
     controller.send_signal(SIGCONT);
     CHECK(cnc.run_until_alive(true));
 }

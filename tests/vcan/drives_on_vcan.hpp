@@ -163,7 +163,7 @@ class BusOnVcan {
         }
     }
     bool run_until(const std::function<bool()>& holds) {
-        const std::uint64_t end_us = socketcan::monotonic_us() + 5'000'000;
+        const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
         while (!holds()) {
             if (socketcan::monotonic_us() > end_us) {
                 return false;

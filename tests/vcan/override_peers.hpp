@@ -29,18 +29,24 @@ class Cnc {
   public:
     Cnc() : listener_(on(peer_interface())), receiver_(settings()) {}
     bool run_until_alive(bool expected) {
+        return run_until([&] { return last_.is_alive == expected; });
+    }
+    bool run_until_taken(std::size_t frames) {
+        return run_until([&] { return taken_ >= frames; });
+    }
+    /// What was known when the wait ended: by now the time-out may be over.
+    [[nodiscard]] const override_frame::ReceivedOverride& last() const { return last_; }
+
+  private:
+    bool run_until(const std::function<bool()>& holds) {
         return listener_.run_until([&] {
             for (; taken_ < listener_.frames.size(); ++taken_) {
                 receiver_.on_frame(listener_.frames[taken_], listener_.times_us[taken_]);
             }
-            return current().is_alive == expected;
+            last_ = receiver_.current(socketcan::monotonic_us());
+            return holds();
         });
     }
-    [[nodiscard]] override_frame::ReceivedOverride current() const {
-        return receiver_.current(socketcan::monotonic_us());
-    }
-
-  private:
     static override_frame::OverrideReceiverSettings settings() {
         override_frame::OverrideReceiverSettings settings;
         settings.timeout_us = 100'000;
@@ -48,6 +54,7 @@ class Cnc {
     }
     Listener listener_;
     override_frame::OverrideReceiver receiver_;
+    override_frame::ReceivedOverride last_{};
     std::size_t taken_ = 0;
 };
 
