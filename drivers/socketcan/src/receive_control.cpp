@@ -68,22 +68,23 @@ std::int64_t StampClock::unix_offset_us() {
     return offset_us_;
 }
 
-/// A stamp that does not fit tells that the clock was set, or that this program did not run for long: only a measurement
-/// tells which, and a kept offset is better than one that is a few µs off.
+/// A stamp that does not fit tells that the clock was set, or that this program did not run for long, before it read the
+/// time or after: only a measurement tells which, and a kept offset is better than one that is a few µs off.
 std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t now_us) {
-    const auto near_us = static_cast<std::int64_t>(now_us);
+    auto near_us = static_cast<std::int64_t>(now_us);
     const auto is_plausible = [&](std::int64_t time_us) {
         return time_us > 0 && time_us <= near_us + longest_age_us && time_us >= near_us - longest_age_us;
     };
     std::int64_t time_us = microseconds(stamp) - unix_offset_us();
     if (!is_plausible(time_us)) {
+        near_us = static_cast<std::int64_t>(monotonic_us());
         const std::int64_t kept_us = offset_us_;
         measure();
         offset_us_ = std::abs(offset_us_ - kept_us) < clock_was_set_us ? kept_us : offset_us_;
         time_us = microseconds(stamp) - offset_us_;
     }
     const bool is_past = time_us > 0 && time_us <= near_us + longest_age_us;
-    return is_past ? static_cast<std::uint64_t>(time_us) : now_us;
+    return static_cast<std::uint64_t>(is_past ? time_us : near_us);
 }
 
 }  // namespace millforce::socketcan

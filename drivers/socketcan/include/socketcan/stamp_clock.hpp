@@ -9,7 +9,8 @@ namespace millforce::socketcan {
 /// exactly as the kernel, and every other listener, has them. Taken anew where the clock was set.
 class StampClock {
   public:
-    /// `now_us`: a monotonic time within the last second; it tells whether the clock was set.
+    /// `now_us`: a monotonic time not long ago; it tells whether the clock was set. Where the program has paused since,
+    /// or the clock was set, the time is read anew.
     [[nodiscard]] std::uint64_t monotonic_from(const timespec& stamp, std::uint64_t now_us);
     /// What a time of this clock lacks to the time since 1970.
     [[nodiscard]] std::int64_t unix_offset_us();
