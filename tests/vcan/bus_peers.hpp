@@ -123,13 +123,13 @@ inline bool wait_until(const std::function<bool()>& holds) {
     return true;
 }
 
-/// `candump -L` of an interface into a file, from when the constructor returns.
+/// `candump -L` of an interface into a file, from when the constructor returns; with room for all that comes in a pause.
 class Candump {
   public:
     Candump(const std::string& interface, std::string file)
         : file_(std::move(file)),
           receivers_before_(receivers()),
-          process_("stdbuf -oL candump -L " + interface + " >" + file_) {
+          process_("stdbuf -oL candump -L -r 16000000 " + interface + " >" + file_) {
         wait_until([&] { return receivers() > receivers_before_; });
     }
     explicit Candump(const std::string& interface) : Candump(interface, temporary_file("candump")) {
