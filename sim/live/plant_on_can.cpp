@@ -28,18 +28,30 @@ hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::Pr
     const std::uint64_t time_us = now_us();
     machine_.set(sample);
     cnc_.set(program, time_us);
-    if (sync_is_pending_) {
-        sync_is_pending_ = false;
-        longest_delay_us_ = std::max(longest_delay_us_, clock_.real_us(time_us > due_us_ ? time_us - due_us_ : 0));
-        machine_.on_frame(sync_, time_us);
+    if (!settings_.computes_ahead) {
+        answer_sync();
     }
     machine_.poll(time_us);
     cnc_.poll(time_us);
     send_all();
     await_sync();
+    if (settings_.computes_ahead) {
+        answer_sync();
+        send_all();
+    }
     const override_frame::ReceivedOverride got = cnc_.feed_override(due_us_);
     is_ready_ = is_ready_ || got.is_alive;
     return {got.ratio, got.hold, got.state, got.fault, 0};
+}
+
+void PlantOnCan::answer_sync() {
+    if (!sync_is_pending_) {
+        return;
+    }
+    const std::uint64_t time_us = now_us();
+    sync_is_pending_ = false;
+    longest_delay_us_ = std::max(longest_delay_us_, clock_.real_us(time_us > due_us_ ? time_us - due_us_ : 0));
+    machine_.on_frame(sync_, time_us);
 }
 
 /// Until the next SYNC, or until the plant has to go on without one. `due_us_` is the time of it.
@@ -108,6 +120,10 @@ void PlantOnCan::send_all() {
 OverrideSource::PlantSteps PlantOnCan::plant_steps(const PlantSteps& usual) {
     const double elapsed_s = 1e-6 * static_cast<double>(std::max<std::uint64_t>(due_us_ - plant_us_, 1));
     plant_us_ = due_us_;
+    if (settings_.computes_ahead && syncs_ != stepped_syncs_) {
+        stepped_syncs_ = syncs_;
+        return usual;
+    }
     const int count = std::max(1, static_cast<int>(std::lround(elapsed_s / usual.step_s)));
     return {count, elapsed_s / count};
 }

@@ -19,6 +19,10 @@ struct PlantOnCanSettings {
     std::uint32_t sync_id = 0x080;
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
     BusTime time{};
+    /// The sample that answers a SYNC was computed before it: a plant whose computing takes a good part of a period does
+    /// not answer late. Each SYNC is one period then, as drives latch on clocks of their own that follow it: when it is
+    /// heard tells more of the computing than of the SYNC. Else it is computed when the SYNC has told its time.
+    bool computes_ahead = false;
 };
 
 /// The simulated machine's side of a real CAN interface: its drives and its CNC, in real time, nothing shared with the
@@ -42,6 +46,7 @@ class PlantOnCan : public OverrideSource {
 
   private:
     [[nodiscard]] std::uint64_t now_us() const { return clock_.of_monotonic(port_->now_us()); }
+    void answer_sync();
     void await_sync();
     bool receive_until_sync();
     void send_all();
@@ -59,6 +64,7 @@ class PlantOnCan : public OverrideSource {
     std::uint64_t due_us_;    ///< where it is to stand at the next sample
     bool is_ready_ = false;
     std::uint64_t syncs_ = 0;
+    std::uint64_t stepped_syncs_ = 0;
     std::uint64_t longest_delay_us_ = 0;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 /// What programs of the zcu102's Cortex-A53 have in place of a C library.
@@ -12,9 +11,6 @@ long semihosting(long operation, const void* argument);
 long start_processor(long processor, std::uintptr_t address);
 /// Given by the program.
 void run();
-/// The compiler's own.
-void* memset(void* to, int value, std::size_t count);
-void* memcpy(void* to, const void* from, std::size_t count);
 }
 
 namespace millforce::target {

@@ -1,0 +1,123 @@
+// The plant of the bus in the loop, on the Cortex-A53 of an emulated zcu102: SCENARIO.toml. It lays the controller's
+// parameters where a boot loader would, starts the Cortex-R5F, mills, and prints the figures as TOML. Exit codes: 0 milled,
+// 2 bad input, 3 the R5F does not start, 5 no CAN controller, 6 a system call that is not served, 68 a fault.
+
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
+#include "firmware/parameter_block.hpp"
+#include "live/plant_on_can.hpp"
+#include "live/plant_wiring.hpp"
+#include "loop/scenario.hpp"
+#include "loop/simulation.hpp"
+#include "target/zcu102/a53.hpp"
+#include "target/zcu102_plant/can_port.hpp"
+#include "target/zcu102_plant/host_calls.hpp"
+#include "target/zcu102_plant/turns.hpp"
+
+namespace {
+
+using namespace millforce;
+
+/// A good part of a period would make the controller's SYNC late; a small one costs the emulator time.
+constexpr std::uint64_t turn_us = 100;
+constexpr std::uintptr_t parameters_of_r5f = 0x00F0'0000;  // firmware/boards/zcu102/memory.ld
+
+sim::PlantOnCanSettings plant_settings(const sim::Scenario& scenario) {
+    const auto bus = sim::read_machine_bus(scenario.machine_file);
+    if (!bus) {
+        throw sim::InputError(fmt::format("{}: no [bus]", scenario.machine_file));
+    }
+    sim::PlantOnCanSettings settings;
+    settings.interface = "zcu102";
+    settings.machine = sim::drives_on_bus(scenario, *bus);
+    settings.cnc = sim::cnc_on_bus(scenario, *bus);
+    settings.sync_id = bus->drives.sync_id;
+    settings.computes_ahead = true;
+    return settings;
+}
+
+void start_controller(const sim::Scenario& scenario) {
+    const firmware::ParameterBlock block = firmware::encoded(scenario.parameters, 1);
+    std::memcpy(reinterpret_cast<void*>(parameters_of_r5f), block.data(), block.size());
+    if (start_processor(target::cortex_r5f, target::image_of_r5f) != 0) {
+        target::exit_emulator(3);
+    }
+}
+
+/// The board is switched on when the plant is there: time begins with its first sample.
+class PlantOnBoard final : public sim::PlantOnCan {
+  public:
+    PlantOnBoard(const sim::Scenario& scenario, std::unique_ptr<target::BarePort> port)
+        : PlantOnBoard(scenario, *port, std::move(port)) {}
+
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
+        if (!is_on_) {
+            is_on_ = true;
+            calls_before_ = host_calls();
+            wire.begin_time();
+            start_controller(scenario_);
+            target::take_turns(turn_us);
+        }
+        const hal::FeedOverride answer = PlantOnCan::step(sample, program);
+        target::BarePort::let_controller_work();
+        return answer;
+    }
+
+    /// Of the host, since the board was switched on.
+    [[nodiscard]] unsigned long calls() const { return host_calls() - calls_before_; }
+
+    target::BarePort& wire;
+
+  private:
+    PlantOnBoard(const sim::Scenario& scenario, target::BarePort& bare, std::unique_ptr<sim::CanPort> port)
+        : PlantOnCan(plant_settings(scenario), std::move(port)), wire(bare), scenario_(scenario) {}
+
+    const sim::Scenario& scenario_;
+    bool is_on_ = false;
+    unsigned long calls_before_ = 0;
+};
+
+void mill(const char* scenario_file) {
+    const sim::Scenario scenario = sim::read_scenario(scenario_file);
+    auto port = std::make_unique<target::BarePort>();
+    port->poll(0);
+    if (!port->is_on_bus()) {
+        target::exit_emulator(5);
+    }
+    PlantOnBoard plant(scenario, std::move(port));
+    const sim::RunFigures figures = sim::simulate(scenario, plant, "zcu102").result.figures;
+    const unsigned long calls = plant.calls();
+    fmt::print("finished = {}\n", figures.finished);
+    fmt::print("time_s = {}\n", figures.time_s);
+    fmt::print("peak_over_limit = {}\n", figures.peak_over_limit);
+    fmt::print("late_over_limit_s = {}\n", figures.late_over_limit_s);
+    fmt::print("teeth_broken = {}\n", figures.teeth_broken);
+    fmt::print("syncs = {}\n", plant.syncs());
+    fmt::print("sent = {}\n", plant.wire.sent);
+    fmt::print("received = {}\n", plant.wire.received);
+    fmt::print("lost = {}\n", plant.wire.lost());
+    fmt::print("longest_delay_us = {}\n", plant.longest_delay_us());
+    fmt::print("calls_of_host = {}\n", calls);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        if (argc != 2) {
+            throw sim::InputError("expected SCENARIO.toml");
+        }
+        mill(argv[1]);
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print("{}\n", error.what());
+        return 2;
+    }
+}
