@@ -66,7 +66,9 @@ class PlantOnBoard final : public sim::PlantOnCan {
             start_controller(scenario_);
             target::take_turns(turn_us);
         }
-        longest_computing_us = std::max(longest_computing_us, wire.now_us() - answered_us_);
+        if (is_ready()) {
+            longest_computing_us = std::max(longest_computing_us, wire.now_us() - answered_us_);
+        }
         const hal::FeedOverride answer = PlantOnCan::step(sample, program);
         target::BarePort::let_controller_work();
         answered_us_ = wire.now_us();
