@@ -59,6 +59,7 @@ TEST(BusInTheLoop, a_Cortex_R5F_mills_a_part_with_nothing_but_frames_between) {
     CHECK_TRUE(sim::bounds_hold(figures));
     DOUBLES_EQUAL(0.0, count("lost"), 0.0);
     DOUBLES_EQUAL(0.0, count("calls_of_host"), 0.0);  // from the R5F's start to the end of the cut
+    CHECK_COMPARE(count("longest_delay_us"), <, 1000.0);  // a period: the plant keeps up with the bus
     CHECK_COMPARE(count("syncs"), >, 1e3 * figures.time_s);  // none was missed: the spindle's start comes on top
     CHECK_COMPARE(count("sent"), >, 4.0 * count("syncs"));  // a PDO of each drive
     CHECK_COMPARE(count("received"), >, count("syncs"));

@@ -18,7 +18,7 @@ Registers& at(std::uintptr_t address) {
     return *reinterpret_cast<Registers*>(address);
 }
 
-/// Of the processor's cycle counter: 500 on the chip; the emulator's counts nanoseconds.
+/// Of the processor's cycle counter: 500 on the chip; the emulator's counts its nanoseconds.
 constexpr std::uint32_t cycles_per_us = MILLFORCE_CYCLES_PER_US;
 
 /// PMCR, PMCNTENSET: Armv7-R Architecture Reference Manual C12
@@ -28,7 +28,7 @@ void start_cycle_counter() {
     asm volatile("mcr p15, 0, %0, c9, c12, 0\n mcr p15, 0, %1, c9, c12, 1" : : "r"(enable), "r"(cycle_counter));
 }
 
-/// 64 bits out of the counter's 32; at least once in its round of 4 s.
+/// 64 bits out of the counter's 32; at least once in its round, 8 s on the chip.
 std::uint64_t now_us() {
     static std::uint64_t us = 0;
     static std::uint32_t counted = 0;

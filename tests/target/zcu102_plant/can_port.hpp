@@ -3,16 +3,16 @@
 #include <deque>
 
 #include "live/can_port.hpp"
+#include "target/zcu102_plant/emulated_time.hpp"
 #include "zynqmp/can_controller.hpp"
 
 namespace millforce::target {
 
-/// The generic timer: Arm Architecture Reference Manual D11
+/// By the generic timer, which counts the emulator's time.
 inline std::uint64_t timer_us() {
     std::uint64_t count = 0;
-    std::uint64_t frequency_hz = 0;
-    asm volatile("isb\n mrs %0, cntvct_el0\n mrs %1, cntfrq_el0" : "=r"(count), "=r"(frequency_hz));
-    return count * 1'000'000U / frequency_hz;
+    asm volatile("isb\n mrs %0, cntvct_el0" : "=r"(count));
+    return count * 1000U / timer_counts_per_ms();
 }
 
 /// The plant's end of the bus: CAN 1.
@@ -78,7 +78,7 @@ class BarePort final : public sim::CanPort {
     /// The registers are looked at every 8 µs: each look costs an emulator more than the waiting, and nothing is cheaper to
     /// it than what does nothing.
     static void let_time_pass() {
-        for (unsigned k = 0; k < 8; ++k) {
+        for (unsigned k = 0; k < 8 * emulated_ns_per_us / 1000; ++k) {
             asm volatile(".rept 1000\n nop\n .endr" ::: "memory");
         }
         asm volatile("yield");

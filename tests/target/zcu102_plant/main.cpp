@@ -2,6 +2,7 @@
 // parameters where a boot loader would, starts the Cortex-R5F, mills, and prints the figures as TOML. Exit codes: 0 milled,
 // 2 bad input, 3 the R5F does not start, 5 no CAN controller, 6 a system call that is not served, 68 a fault.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -65,8 +66,12 @@ class PlantOnBoard final : public sim::PlantOnCan {
             start_controller(scenario_);
             target::take_turns(turn_us);
         }
+        if (is_ready()) {
+            longest_computing_us = std::max(longest_computing_us, wire.now_us() - answered_us_);
+        }
         const hal::FeedOverride answer = PlantOnCan::step(sample, program);
         target::BarePort::let_controller_work();
+        answered_us_ = wire.now_us();
         return answer;
     }
 
@@ -74,6 +79,7 @@ class PlantOnBoard final : public sim::PlantOnCan {
     [[nodiscard]] unsigned long calls() const { return host_calls() - calls_before_; }
 
     target::BarePort& wire;
+    std::uint64_t longest_computing_us = 0;  ///< of a sample, with the turns that were given away meanwhile
 
   private:
     PlantOnBoard(const sim::Scenario& scenario, target::BarePort& bare, std::unique_ptr<sim::CanPort> port)
@@ -82,6 +88,7 @@ class PlantOnBoard final : public sim::PlantOnCan {
     const sim::Scenario& scenario_;
     bool is_on_ = false;
     unsigned long calls_before_ = 0;
+    std::uint64_t answered_us_ = 0;
 };
 
 void mill(const char* scenario_file) {
@@ -104,6 +111,7 @@ void mill(const char* scenario_file) {
     fmt::print("received = {}\n", plant.wire.received);
     fmt::print("lost = {}\n", plant.wire.lost());
     fmt::print("longest_delay_us = {}\n", plant.longest_delay_us());
+    fmt::print("longest_computing_us = {}\n", plant.longest_computing_us);
     fmt::print("calls_of_host = {}\n", calls);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "target/zcu102_plant/emulated_time.hpp"
+
 namespace millforce::target {
 
 /// From now on the program is interrupted by the virtual timer after each `turn_us` to let the other processor go on, which
@@ -17,9 +19,7 @@ inline void take_turns(std::uint64_t turn_us) {
     set(distributor + 0x100, virtual_timer);    // GICD_ISENABLER0
     set(processor_interface + 0x004, 0xFF);     // GICC_PMR: all priorities
     set(processor_interface + 0x000, 1);        // GICC_CTLR
-    std::uint64_t frequency_hz = 0;
-    asm volatile("mrs %0, cntfrq_el0" : "=r"(frequency_hz));
-    const std::uint64_t ticks = turn_us * frequency_hz / 1'000'000U;
+    const std::uint64_t ticks = turn_us * timer_counts_per_ms() / 1000U;
     asm volatile("msr tpidr_el1, %0\n msr cntv_tval_el0, %0\n msr cntv_ctl_el0, %1\n isb\n msr daifclr, #2"
                  :
                  : "r"(ticks), "r"(std::uint64_t{1})
