@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "cutting/revolution_load.hpp"
-#include "estimation/peak_factors.hpp"
+#include "reproduce/hwang_plots.hpp"
 #include "reproduce/hwang_table.hpp"
+#include "reproduce/hwang_thresholds.hpp"
 #include "reproduce/reproduction.hpp"
 
 /// Hwang, Oh, Kwon and Chu: radial immersion from force drops. Every cut of Table 1 is milled by the plant (edge
@@ -337,43 +337,6 @@ void add_drives(const DriveResult& drives, Reproduction& out) {
                            static_cast<double>(drives.along_x.estimates), Judged::at_most, 0.0});
 }
 
-/// What the total force may be, per what one tooth may bear (the paper's introduction): from the model at the
-/// estimated immersion, and from the plant at the true one, without runout.
-struct ThresholdPoint {
-    double immersion = 0.0;
-    double estimated = 0.0;
-    double cautious = 0.0;  ///< at two standard deviations below the estimate
-    double truth = 0.0;
-};
-
-std::vector<ThresholdPoint> thresholds(const TableResult& row, const BenchCut& row_cut,
-                                       const FloatForceDropCalibration::Result& calibrated) {
-    const auto& k = calibrated.coefficients.parameters;
-    const auto law = estimation::linear_edge_law(k(0), k(1), k(2), k(3));
-    estimation::PeakFactorSettings<float> settings;
-    settings.teeth = static_cast<float>(row_cut.teeth);
-    settings.cutter_radius_mm = static_cast<float>(0.5 * row_cut.diameter_mm);
-    settings.nominal_feed_per_tooth_mm = static_cast<float>(row_cut.feed_per_tooth_mm);
-    settings.side = estimation::CutSide::up;
-    std::vector<ThresholdPoint> points;
-    for (const TableCut& milled : row) {
-        BenchCut cut = row_cut;
-        cut.runout_mm = 0.0;
-        const CuttingForce plant(bench_cutter(cut), cut.material.coefficients, {.resolution = {.axial_slices = 6}});
-        const RevolutionLoad load =
-            revolution_load(plant, cut.feed_per_tooth_mm, bench_engagement(cut, milled.immersion));
-        const auto factor_at = [&](double immersion) {
-            return static_cast<double>(estimation::peak_factors(law, settings, static_cast<float>(immersion),
-                                                                static_cast<float>(cut.axial_depth_mm))
-                                           .threshold_factor());
-        };
-        const double sd = static_cast<double>(milled.runs.back().estimate.radial_immersion_sd);
-        points.push_back({milled.immersion, factor_at(milled.mean()), factor_at(milled.mean() - 2.0 * sd),
-                          load.peak_total_N / load.peak_tooth_N});
-    }
-    return points;
-}
-
 /// At immersion 0.5 the next tooth's edge force comes in at once: the threshold has a step there, and an estimate a
 /// hundredth too large stands on its other side. That point is judged by the cautious threshold alone.
 void add_thresholds(const std::vector<ThresholdPoint>& points, Reproduction& out) {
@@ -392,144 +355,6 @@ void add_thresholds(const std::vector<ThresholdPoint>& points, Reproduction& out
                            "", unknown, largest_excess, Judged::at_most, 0.02});
     out.figures.push_back({"Threshold at immersion 0.8 over that at 0.2: what a fixed one would give away", "", unknown,
                            points.back().estimated / points.front().estimated, Judged::at_least, 1.2});
-}
-
-Plot::Series diagonal_line() {
-    return {"true", Plot::Series::Style::line, {0.2, 0.8}, {0.2, 0.8}};
-}
-
-/// Figs. 9–14: one plot per group of rows.
-void add_table_plots(const std::vector<TableRow>& rows, const std::vector<TableResult>& results, Reproduction& out) {
-    int paper_figure = 9;
-    for (std::size_t k = 0; k < rows.size();) {
-        Plot plot{.title = fmt::format("Estimated immersion by {} (Fig. {})", rows[k].group, paper_figure),
-                  .x_label = "true immersion",
-                  .y_label = "estimated immersion",
-                  .caption = "Each point is one estimate from four revolutions; the line is the truth.",
-                  .series = {diagonal_line()}};
-        const std::string group = rows[k].group;
-        for (; k < rows.size() && rows[k].group == group; ++k) {
-            Plot::Series series{describe(rows[k].cut), Plot::Series::Style::points, {}, {}};
-            for (const TableCut& cut : results[k]) {
-                for (const ForceDropRun& run : cut.runs) {
-                    if (run.estimate.valid()) {
-                        series.x.push_back(cut.immersion);
-                        series.y.push_back(static_cast<double>(run.estimate.radial_immersion));
-                    }
-                }
-            }
-            plot.series.push_back(std::move(series));
-        }
-        out.plots.push_back(std::move(plot));
-        ++paper_figure;
-    }
-}
-
-void add_varying_plot(const std::vector<ForceDropRun>& runs, Reproduction& out) {
-    Plot::Series truth{"true", Plot::Series::Style::line, {}, {}};
-    Plot::Series estimate{"estimate", Plot::Series::Style::points, {}, {}};
-    Plot::Series low{"two standard deviations below", Plot::Series::Style::band_low, {}, {}};
-    Plot::Series high{"two standard deviations above", Plot::Series::Style::band_high, {}, {}};
-    for (const ForceDropRun& run : runs) {
-        truth.x.push_back(run.revolution);
-        truth.y.push_back(run.immersion);
-        if (run.estimate.valid()) {
-            const double ours = static_cast<double>(run.estimate.radial_immersion);
-            const double sd = static_cast<double>(run.estimate.radial_immersion_sd);
-            for (Plot::Series* series : {&estimate, &low, &high}) {
-                series->x.push_back(run.revolution);
-            }
-            estimate.y.push_back(ours);
-            low.y.push_back(ours - 2.0 * sd);
-            high.y.push_back(ours + 2.0 * sd);
-        }
-    }
-    out.plots.push_back({.title = "Continuously varying immersion (Fig. 15)",
-                         .x_label = "revolution",
-                         .y_label = "immersion",
-                         .caption = "One estimate per revolution. About immersion 0.5 one tooth enters where another "
-                                    "leaves: the deviation grows there, or there is no estimate.",
-                         .series = {low, high, truth, estimate}});
-}
-
-void add_edge_plot(const std::vector<TableResult>& ours, const std::vector<TableResult>& without, Reproduction& out) {
-    Plot plot{.title = "The edge force at work: the paper's equations with and without it",
-              .x_label = "true immersion",
-              .y_label = "estimated immersion",
-              .caption =
-                  "Rows 1 to 10 by Eqs. 6, 11 and 12 alone. Left in, the edge force spreads the estimates, most at "
-                  "small immersion, where its share is largest.",
-              .series = {diagonal_line()}};
-    const auto add = [&](const char* name, const std::vector<TableResult>& results) {
-        Plot::Series series{name, Plot::Series::Style::points, {}, {}};
-        for (std::size_t k = 0; k < 10 && k < results.size(); ++k) {
-            for (const TableCut& cut : results[k]) {
-                for (const ForceDropRun& run : cut.runs) {
-                    if (run.estimate.by_direction.valid) {
-                        series.x.push_back(cut.immersion);
-                        series.y.push_back(static_cast<double>(run.estimate.by_direction.immersion()));
-                    }
-                }
-            }
-        }
-        plot.series.push_back(std::move(series));
-    };
-    add("edge force left in", without);
-    add("edge force taken out", ours);
-    out.plots.push_back(std::move(plot));
-}
-
-void add_drive_plot(const DriveResult& drives, Reproduction& out) {
-    Plot::Series series{"from the feed drives", Plot::Series::Style::points, {}, {}};
-    for (const TableCut& cut : drives.diagonal) {
-        for (const ForceDropRun& run : cut.runs) {
-            if (run.estimate.valid()) {
-                series.x.push_back(cut.immersion);
-                series.y.push_back(static_cast<double>(run.estimate.radial_immersion));
-            }
-        }
-    }
-    out.plots.push_back({.title = "Immersion from feed-drive currents, 200 rpm, 3 inserts",
-                         .x_label = "true immersion",
-                         .y_label = "estimated immersion",
-                         .caption = "No force sensor: current and velocity of both axes, feed along the diagonal.",
-                         .series = {diagonal_line(), series}});
-}
-
-void add_signal_plot(Reproduction& out) {
-    const BenchCut cut{.material = steel_SM45C(), .immersion = 0.5};
-    Plot::Series x{"F_x", Plot::Series::Style::line, {}, {}};
-    Plot::Series y{"F_y", Plot::Series::Style::line, {}, {}};
-    for (const BenchSample& sample : bench_samples(cut, {.seed = hwang_seed}, 1.0)) {
-        for (Plot::Series* series : {&x, &y}) {
-            series->x.push_back(360.0 * sample.angle_rev);
-        }
-        x.y.push_back(sample.fx_N);
-        y.y.push_back(sample.fy_N);
-    }
-    out.plots.push_back({.title = "What the estimator sees: one revolution at immersion 0.5 (Fig. 4)",
-                         .x_label = "spindle angle, degrees",
-                         .y_label = "force, N",
-                         .caption =
-                             "Three inserts, behind the 300 Hz low-pass, with noise and runout. Each sudden end is a "
-                             "tooth that leaves: its height is that tooth's force.",
-                         .series = {x, y}});
-}
-
-void add_threshold_plot(const std::vector<ThresholdPoint>& points, Reproduction& out) {
-    Plot::Series ours{"from the estimated immersion", Plot::Series::Style::points, {}, {}};
-    Plot::Series truth{"plant", Plot::Series::Style::line, {}, {}};
-    for (const ThresholdPoint& point : points) {
-        ours.x.push_back(point.immersion);
-        ours.y.push_back(point.estimated);
-        truth.x.push_back(point.immersion);
-        truth.y.push_back(point.truth);
-    }
-    out.plots.push_back({.title = "Threshold against immersion, 6 inserts (introduction)",
-                         .x_label = "true immersion",
-                         .y_label = "allowed total force per allowed tooth force",
-                         .caption = "With more teeth in cut the total may be larger without a tooth bearing more.",
-                         .series = {truth, ours}});
 }
 
 std::vector<std::string> hwang_deviations() {
@@ -591,11 +416,11 @@ Reproduction reproduce_hwang() {
     add_drives(drives, out);
     add_thresholds(threshold_points, out);
 
-    add_signal_plot(out);
+    add_signal_plot(hwang_seed, out);
     add_table_plots(rows, ours, out);
     add_varying_plot(varying, out);
     add_edge_plot(ours, without, out);
-    add_drive_plot(drives, out);
+    add_drive_plot(drives.diagonal, out);
     add_threshold_plot(threshold_points, out);
     out.deviations = hwang_deviations();
     return out;
