@@ -111,16 +111,20 @@ inline std::vector<std::string> lines_of(const std::string& file) {
 /// How long a peer may take: a virtual kernel on a busy host pauses for seconds.
 inline constexpr int patience_ms = 30'000;
 
-/// Looks every 10 ms; false where it does not hold for so long.
-inline bool wait_until(const std::function<bool()>& holds) {
+/// Does a step at a time until it holds; false where it does not for so long.
+template <typename Holds, typename Step>
+bool step_until(Holds holds, Step step) {
     const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
     while (!holds()) {
         if (socketcan::monotonic_us() > end_us) {
             return false;
         }
-        sleep_ms(10);
+        step();
     }
     return true;
+}
+inline bool wait_until(const std::function<bool()>& holds) {
+    return step_until(holds, [] { sleep_ms(10); });
 }
 
 /// `candump -L` of an interface into a file, from when the constructor returns; with room for all that comes in a pause.
@@ -201,14 +205,7 @@ class Listener {
     }
     /// Until it holds; false where it does not.
     bool run_until(const std::function<bool()>& holds) {
-        const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
-        while (!holds()) {
-            if (socketcan::monotonic_us() > end_us) {
-                return false;
-            }
-            step();
-        }
-        return true;
+        return step_until(holds, [this] { step(); });
     }
 
     socketcan::CanSocket socket;

@@ -121,10 +121,10 @@ TEST(CanSocket, a_full_send_queue_is_a_state_that_ends_when_the_bus_takes_frames
     Listener listener(on("vcan0"));
     LONGS_EQUAL(0, shell("tc qdisc add dev vcan0 root tbf rate 16kbit burst 100 limit 300"));
     int sent = 0;
-    while (sent < 10'000 && listener.socket.send(frame_of(0x10, {1, 2, 3, 4, 5, 6, 7, 8}))) {
+    while (sent < 1000 && listener.socket.send(frame_of(0x10, {1, 2, 3, 4, 5, 6, 7, 8}))) {
         ++sent;
     }
-    CHECK(sent > 0 && sent < 10'000);
+    CHECK(sent > 0 && sent < 100);
     CHECK(listener.socket.health().send_queue_full);
     LONGS_EQUAL(ENOBUFS, listener.socket.health().last_error);
     CHECK(listener.socket.is_up());

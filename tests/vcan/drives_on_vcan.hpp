@@ -163,14 +163,7 @@ class BusOnVcan {
         }
     }
     bool run_until(const std::function<bool()>& holds) {
-        const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
-        while (!holds()) {
-            if (socketcan::monotonic_us() > end_us) {
-                return false;
-            }
-            step();
-        }
-        return true;
+        return step_until(holds, [this] { step(); });
     }
     [[nodiscard]] bool all_operational(std::size_t drives) const {
         return all_are(drives, cia402::NodeState::operational);
