@@ -76,6 +76,25 @@ TEST(SynchronousAverage, removes_the_tooth_ripple_without_beating_against_the_sa
     }
 }
 
+TEST(SynchronousAverage, takes_windows_of_one_length_where_a_revolution_has_just_enough_samples) {
+    constexpr int counts_per_rev = 1024;
+    constexpr int samples_per_rev = 12;
+    Average average({.teeth = 3, .min_samples = static_cast<float>(samples_per_rev)});
+    int last_count = 0;
+    int windows = 0;
+    for (int k = 1; k < 6000; ++k) {
+        const int count = counts_per_rev * k / samples_per_rev;
+        const auto turned_rev = static_cast<float>(count - last_count) / static_cast<float>(counts_per_rev);
+        last_count = count;
+        const auto angle_rev = static_cast<float>(count % counts_per_rev) / static_cast<float>(counts_per_rev);
+        if (average.add(1e-3F, turned_rev, angle_rev, Average::Signals::Zero(), 3U) > 0 && k > 100) {
+            LONGS_EQUAL(1, average.window().revolutions);
+            ++windows;
+        }
+    }
+    CHECK(windows > 1000);
+}
+
 TEST(SynchronousAverage, gives_one_average_per_tooth_period) {
     Spindle spindle{10.0, 1e-3, 4};
     Average average({.teeth = 4, .min_samples = 6.0F});

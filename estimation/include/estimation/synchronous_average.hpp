@@ -102,7 +102,7 @@ class SynchronousAverage {
                 samples += at(count + k).samples;
             }
             count += settings_.teeth;
-            if (samples >= settings_.min_samples) {
+            if (samples > settings_.min_samples - sum_error_samples) {
                 wanted = count;
             }
         }
@@ -281,6 +281,8 @@ class SynchronousAverage {
         return periods_[(periods_seen_ - 1U - static_cast<std::uint32_t>(back)) % MaxPeriods];
     }
 
+    /// What a sum of shares may fall short of a whole number of samples by, by rounding and by the encoder's counts.
+    static constexpr Scalar sum_error_samples = static_cast<Scalar>(0.05L);
     static constexpr Scalar two_pi = static_cast<Scalar>(6.28318530717958647692L);
 
     Settings settings_;
