@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "can_frames.hpp"
 #include "cia402/drive_bus.hpp"
 #include "override_frame/override_receiver.hpp"
 
@@ -14,6 +15,7 @@
 namespace {
 
 namespace hal = millforce::hal;
+using millforce::frame_of_length;
 using millforce::cia402::BusSettings;
 using millforce::cia402::DriveBus;
 using millforce::cia402::MappedObject;
@@ -46,14 +48,6 @@ struct Receivers {
     OverrideReceiver cnc{millforce::override_frame::OverrideReceiverSettings{}};
 };
 
-hal::CanFrame frame_of(std::uint32_t id, std::uint8_t length, std::uint8_t first = 0) {
-    hal::CanFrame frame;
-    frame.id = id;
-    frame.length = length;
-    frame.data[0] = first;
-    return frame;
-}
-
 }  // namespace
 
 /// What callgrind counts: its --toggle-collect names this function. With a PDO goes its share of the sample.
@@ -73,22 +67,22 @@ int main() {
     hal::DriveSample sample;
     std::uint64_t time_us = 0;
     for (std::uint32_t role = 0; role < drives; ++role) {
-        bus.on_frame(frame_of(0x701 + role, 1, 0x05), time_us);
+        bus.on_frame(frame_of_length(0x701 + role, 1, 0x05), time_us);
     }
     std::uint64_t complete = 0;
     std::uint64_t alive = 0;
     for (std::uint64_t k = 0; k < syncs; ++k) {
         time_us += 1000;
         bus.poll(time_us);
-        bus.on_frame(frame_of(0x080, 0), time_us);
+        bus.on_frame(frame_of_length(0x080, 0), time_us);
         for (std::uint32_t role = 0; role < drives; ++role) {
-            const hal::CanFrame pdo = frame_of(0x181 + role, 8, static_cast<std::uint8_t>(k));
+            const hal::CanFrame pdo = frame_of_length(0x181 + role, 8, static_cast<std::uint8_t>(k));
             CALLGRIND_ZERO_STATS;
             complete += counted_step(receivers, true, pdo, time_us + 100 * (role + 1), sample) ? 1U : 0U;
             CALLGRIND_DUMP_STATS_AT("pdo");
         }
         CALLGRIND_ZERO_STATS;
-        counted_step(receivers, true, frame_of(0x3A5, 8), time_us + 600, sample);
+        counted_step(receivers, true, frame_of_length(0x3A5, 8), time_us + 600, sample);
         CALLGRIND_DUMP_STATS_AT("foreign");
         const hal::CanFrame out = millforce::override_frame::encode({0.8F, false, 3, 0, static_cast<std::uint32_t>(k)},
                                                                     millforce::override_frame::default_id);

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "can_frames.hpp"
 #include "socketcan/can_socket.hpp"
 
 /// The other side of a vcan interface: can-utils, iproute2, and processes of our own.
@@ -224,14 +225,5 @@ class Listener {
         }
     }
 };
-
-inline hal::CanFrame frame_of(std::uint32_t id, std::initializer_list<int> bytes) {
-    hal::CanFrame frame;
-    frame.id = id;
-    for (const int byte : bytes) {
-        frame.data[frame.length++] = static_cast<std::uint8_t>(byte);
-    }
-    return frame;
-}
 
 }  // namespace millforce::vcan

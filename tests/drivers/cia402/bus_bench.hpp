@@ -7,6 +7,7 @@
 
 #include "bus/canopen_drive.hpp"
 #include "bus/loopback_bus.hpp"
+#include "can_frames.hpp"
 
 /// The driver as master or listener and simulated drives on one bus in memory.
 
@@ -119,15 +120,6 @@ class TwoDrives : public BusBench {
 
 inline bool has(const hal::DriveSample& sample, hal::Present quantity) {
     return (sample.present & hal::mask(quantity)) != 0;
-}
-
-inline hal::CanFrame frame(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
-    hal::CanFrame f;
-    f.id = id;
-    for (const std::uint8_t byte : bytes) {
-        f.data[f.length++] = byte;
-    }
-    return f;
 }
 
 }  // namespace millforce::cia402::bench

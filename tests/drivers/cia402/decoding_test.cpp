@@ -91,7 +91,7 @@ TEST(Settings, that_are_wrong_make_a_bus_that_does_nothing) {
     hal::CanFrame sent;
     for (std::uint64_t now_us = 0; now_us < 10'000; now_us += 100) {
         bus.poll(now_us);
-        bus.on_frame(frame(0x181, {0, 0, 0, 0, 0, 0, 0, 0}), now_us);
+        bus.on_frame(frame_of(0x181, {0, 0, 0, 0, 0, 0, 0, 0}), now_us);
     }
     CHECK_FALSE(bus.take_frame(sent));
 }
@@ -119,13 +119,13 @@ TEST(Sdo, an_answer_is_used_only_if_it_answers_what_was_asked) {
     client.ask({0x6075, 0, 0, 0}, 0);
     CHECK(client.take_frame(request));
     UNSIGNED_LONGS_EQUAL(0x605, request.id);
-    client.on_frame(frame(0x585, {0x43, 0x76, 0x60, 0, 1, 2, 3, 4}), rejects);  // another object
-    client.on_frame(frame(0x585, {0x43, 0x75, 0x60, 1, 1, 2, 3, 4}), rejects);  // another subindex
-    client.on_frame(frame(0x585, {0x60, 0x75, 0x60, 0, 0, 0, 0, 0}), rejects);  // a write's answer
-    client.on_frame(frame(0x585, {0x43, 0x75, 0x60, 0}), rejects);
+    client.on_frame(frame_of(0x585, {0x43, 0x76, 0x60, 0, 1, 2, 3, 4}), rejects);  // another object
+    client.on_frame(frame_of(0x585, {0x43, 0x75, 0x60, 1, 1, 2, 3, 4}), rejects);  // another subindex
+    client.on_frame(frame_of(0x585, {0x60, 0x75, 0x60, 0, 0, 0, 0, 0}), rejects);  // a write's answer
+    client.on_frame(frame_of(0x585, {0x43, 0x75, 0x60, 0}), rejects);
     CHECK(client.state() == SdoState::pending);
     UNSIGNED_LONGS_EQUAL(4, rejects.total());
-    client.on_frame(frame(0x585, {0x4B, 0x75, 0x60, 0, 0x10, 0x27, 0xEE, 0xEE}), rejects);  // two bytes
+    client.on_frame(frame_of(0x585, {0x4B, 0x75, 0x60, 0, 0x10, 0x27, 0xEE, 0xEE}), rejects);  // two bytes
     CHECK(client.state() == SdoState::done);
     UNSIGNED_LONGS_EQUAL(10'000, client.value());
 }
@@ -136,7 +136,7 @@ TEST(Sdo, a_segmented_answer_is_aborted) {
     hal::CanFrame sent;
     client.ask({0x1008, 0, 0, 0}, 0);
     CHECK(client.take_frame(sent));
-    client.on_frame(frame(0x585, {0x41, 0x08, 0x10, 0, 20, 0, 0, 0}), rejects);
+    client.on_frame(frame_of(0x585, {0x41, 0x08, 0x10, 0, 20, 0, 0, 0}), rejects);
     CHECK(client.state() == SdoState::aborted);
     CHECK(client.take_frame(sent));
     UNSIGNED_LONGS_EQUAL(0x80, sent.data[0]);

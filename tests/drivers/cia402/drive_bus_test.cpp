@@ -269,9 +269,9 @@ TEST(DriveBus, a_listener_sends_nothing_and_reads_what_the_cnc_started) {
     const int cnc = machine.wire.attach([](const hal::CanFrame&, std::uint64_t) {});
     machine.spindle().set_current_A(6.0);
     machine.run_ms(5);
-    machine.wire.send(cnc, frame(0x000, {0x01, 0x00}), machine.now_us);
+    machine.wire.send(cnc, frame_of(0x000, {0x01, 0x00}), machine.now_us);
     for (int k = 0; k < 20; ++k) {
-        machine.wire.send(cnc, frame(0x080, {}), machine.now_us);
+        machine.wire.send(cnc, frame_of(0x080, {}), machine.now_us);
         machine.run_ms(1);
     }
     hal::CanFrame sent;
@@ -374,7 +374,7 @@ TEST(DriveBus, by_event_pdos_are_used_until_they_are_stale) {
     settings.drives[1].node_id = 0;
     BusBench machine(settings);
     machine.run_ms(5);
-    machine.inject(frame(0x181, {0, 1, 0, 0, 0xF4, 0x01, 0x37, 0x02}));
+    machine.inject(frame_of(0x181, {0, 1, 0, 0, 0xF4, 0x01, 0x37, 0x02}));
     machine.run_ms(3);
     CHECK(has(machine.samples.back(), hal::Present::spindle_current));
     DOUBLES_EQUAL(6.0, machine.samples.back().spindle_current_A, 1e-5);

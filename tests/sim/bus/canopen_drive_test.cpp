@@ -1,4 +1,5 @@
 #include "bus/canopen_drive.hpp"
+#include "can_frames.hpp"
 
 #include <initializer_list>
 #include <random>
@@ -9,15 +10,6 @@ using namespace millforce;
 using sim::CanopenDrive;
 
 namespace {
-
-hal::CanFrame frame(std::uint32_t id, std::initializer_list<unsigned> bytes) {
-    hal::CanFrame f;
-    f.id = id;
-    for (const unsigned byte : bytes) {
-        f.data[f.length++] = static_cast<std::uint8_t>(byte);
-    }
-    return f;
-}
 
 std::uint32_t last_four(const hal::CanFrame& f) {
     return static_cast<std::uint32_t>(f.data[4]) | static_cast<std::uint32_t>(f.data[5]) << 8U |
@@ -36,7 +28,7 @@ TEST_GROUP(CanopenDrive) {
         return drive.take_frames();
     }
     std::uint32_t abort_code(std::initializer_list<unsigned> request) {
-        const auto answers = hears(frame(0x603, request));
+        const auto answers = hears(frame_of(0x603, request));
         CHECK_EQUAL(1U, answers.size());
         UNSIGNED_LONGS_EQUAL(0x583, answers[0].id);
         return answers[0].data[0] == 0x80 ? last_four(answers[0]) : 0;
@@ -44,7 +36,7 @@ TEST_GROUP(CanopenDrive) {
 };
 
 TEST(CanopenDrive, answers_a_read_with_size_and_value) {
-    const auto answers = hears(frame(0x603, {0x40, 0x75, 0x60, 0, 0, 0, 0, 0}));
+    const auto answers = hears(frame_of(0x603, {0x40, 0x75, 0x60, 0, 0, 0, 0, 0}));
     CHECK_EQUAL(1U, answers.size());
     UNSIGNED_LONGS_EQUAL(0x43, answers[0].data[0]);
     UNSIGNED_LONGS_EQUAL(12'000, last_four(answers[0]));
@@ -62,27 +54,27 @@ TEST(CanopenDrive, refuses_with_the_code_that_the_standard_gives) {
 }
 
 TEST(CanopenDrive, sends_pdos_at_sync_when_it_is_operational_and_not_before) {
-    CHECK_EQUAL(0U, hears(frame(0x080, {})).size());
-    CHECK_EQUAL(0U, hears(frame(0x000, {0x01, 4})).size());  // another node is started
-    CHECK_EQUAL(0U, hears(frame(0x080, {})).size());
-    hears(frame(0x000, {0x01, 3}));
+    CHECK_EQUAL(0U, hears(frame_of(0x080, {})).size());
+    CHECK_EQUAL(0U, hears(frame_of(0x000, {0x01, 4})).size());  // another node is started
+    CHECK_EQUAL(0U, hears(frame_of(0x080, {})).size());
+    hears(frame_of(0x000, {0x01, 3}));
     drive.set_position(-2);
     drive.set_current_A(-6.0);
-    const auto sent = hears(frame(0x080, {}));
+    const auto sent = hears(frame_of(0x080, {}));
     CHECK_EQUAL(1U, sent.size());
     UNSIGNED_LONGS_EQUAL(0x183, sent[0].id);
     const std::array<std::uint8_t, 8> expected{0xFE, 0xFF, 0xFF, 0xFF, 0x0C, 0xFE, 0x37, 0x02};
     CHECK(sent[0].data == expected);
-    hears(frame(0x000, {0x02, 0}));
-    CHECK_EQUAL(0U, hears(frame(0x080, {})).size());
+    hears(frame_of(0x000, {0x02, 0}));
+    CHECK_EQUAL(0U, hears(frame_of(0x080, {})).size());
 }
 
 TEST(CanopenDrive, sends_a_pdo_at_every_third_sync_where_its_type_says_so) {
     UNSIGNED_LONGS_EQUAL(0, abort_code({0x2F, 0x00, 0x18, 2, 3, 0, 0, 0}));
-    hears(frame(0x000, {0x01, 3}));
+    hears(frame_of(0x000, {0x01, 3}));
     std::size_t sent = 0;
     for (int k = 0; k < 30; ++k) {
-        sent += hears(frame(0x080, {})).size();
+        sent += hears(frame_of(0x080, {})).size();
     }
     CHECK_EQUAL(10U, sent);
 }
@@ -99,7 +91,7 @@ TEST(CanopenDrive, produces_its_heartbeat_and_boots_when_it_is_reset) {
         }
     }
     LONGS_EQUAL(10, heartbeats);
-    const auto boot = hears(frame(0x000, {0x81, 0}));
+    const auto boot = hears(frame_of(0x000, {0x81, 0}));
     CHECK_EQUAL(1U, boot.size());
     UNSIGNED_LONGS_EQUAL(0, boot[0].data[0]);
     UNSIGNED_LONGS_EQUAL(0, drive.object(0x1017, 0));
@@ -114,7 +106,7 @@ TEST(CanopenDrive, saturates_currents_at_sixteen_bits) {
 
 TEST(CanopenDrive, without_power_says_nothing) {
     drive.set_power(false);
-    CHECK_EQUAL(0U, hears(frame(0x603, {0x40, 0x75, 0x60, 0, 0, 0, 0, 0})).size());
+    CHECK_EQUAL(0U, hears(frame_of(0x603, {0x40, 0x75, 0x60, 0, 0, 0, 0, 0})).size());
     drive.raise_emergency(0x1000, 1);
     CHECK_EQUAL(0U, drive.take_frames().size());
     drive.set_power(true);

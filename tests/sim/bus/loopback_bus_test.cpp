@@ -1,4 +1,5 @@
 #include "bus/loopback_bus.hpp"
+#include "can_frames.hpp"
 
 #include <vector>
 
@@ -6,17 +7,6 @@
 
 using namespace millforce;
 using sim::LoopbackBus;
-
-namespace {
-
-hal::CanFrame frame_with(std::uint32_t id, std::uint8_t length) {
-    hal::CanFrame f;
-    f.id = id;
-    f.length = length;
-    return f;
-}
-
-}  // namespace
 
 TEST_GROUP(LoopbackBus) {
     LoopbackBus bus{1e6};
@@ -31,7 +21,7 @@ TEST_GROUP(LoopbackBus) {
 
 TEST(LoopbackBus, the_lowest_id_of_those_that_wait_goes_first) {
     for (const std::uint32_t id : {0x300U, 0x200U, 0x100U}) {
-        bus.send(first, frame_with(id, 8), 0);
+        bus.send(first, frame_of_length(id, 8), 0);
     }
     bus.advance_to(1000);
     CHECK_EQUAL(3U, ids.size());
@@ -40,8 +30,8 @@ TEST(LoopbackBus, the_lowest_id_of_those_that_wait_goes_first) {
 }
 
 TEST(LoopbackBus, frames_take_the_time_of_their_bits) {
-    bus.send(first, frame_with(0x100, 8), 0);
-    bus.send(first, frame_with(0x200, 0), 0);
+    bus.send(first, frame_of_length(0x100, 8), 0);
+    bus.send(first, frame_of_length(0x200, 0), 0);
     bus.advance_to(100);
     CHECK(times_us.empty());
     bus.advance_to(1000);
@@ -50,7 +40,7 @@ TEST(LoopbackBus, frames_take_the_time_of_their_bits) {
 }
 
 TEST(LoopbackBus, nobody_hears_itself) {
-    bus.send(second, frame_with(0x100, 8), 0);
+    bus.send(second, frame_of_length(0x100, 8), 0);
     bus.advance_to(1000);
     CHECK(ids.empty());
     UNSIGNED_LONGS_EQUAL(1, bus.delivered());
@@ -61,7 +51,7 @@ TEST(LoopbackBus, a_fault_loses_doubles_or_delays_frames) {
         return LoopbackBus::Fate{f.id == 0x100 ? 0 : 2, f.id == 0x300 ? 500ULL : 0ULL, f};
     });
     for (const std::uint32_t id : {0x100U, 0x300U, 0x200U}) {
-        bus.send(first, frame_with(id, 1), 0);
+        bus.send(first, frame_of_length(id, 1), 0);
     }
     bus.advance_to(1000);
     CHECK_EQUAL(4U, ids.size());

@@ -1,3 +1,4 @@
+#include "can_frames.hpp"
 #include "live/plant_on_can.hpp"
 
 #include <algorithm>
@@ -43,14 +44,6 @@ class ScriptedPort final : public sim::CanPort {
     std::uint64_t now_us_ = 0;
 };
 
-hal::CanFrame frame_of(std::uint32_t id, std::uint8_t length, std::uint8_t first = 0) {
-    hal::CanFrame frame;
-    frame.id = id;
-    frame.length = length;
-    frame.data[0] = first;
-    return frame;
-}
-
 constexpr std::uint32_t sync_id = 0x080;
 constexpr std::uint32_t first_pdo_of_spindle = 0x181;
 
@@ -60,9 +53,9 @@ struct PlantOnScript {
         auto owned = std::make_unique<ScriptedPort>();
         port = owned.get();
         constexpr std::uint8_t start_all = 1;
-        port->script.push_back({1, frame_of(0x000, 2, start_all)});
+        port->script.push_back({1, frame_of_length(0x000, 2, start_all)});
         for (const std::uint64_t time_us : sync_times_us) {
-            port->script.push_back({time_us, frame_of(sync_id, 0)});
+            port->script.push_back({time_us, frame_of_length(sync_id, 0)});
         }
         sim::PlantOnCanSettings settings;
         settings.computes_ahead = computes_ahead;
