@@ -8,8 +8,6 @@
 #include <optional>
 
 #include "files/input_error.hpp"
-#include "files/machine_bus.hpp"
-#include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "host/commands.hpp"
 #include "host/results_folder.hpp"
@@ -107,23 +105,14 @@ void print_broken_bound(const RunFigures& figures) {
 /// The controller is another process, behind the bus.
 std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const BusPace& pace,
                                                   const Scenario& scenario) {
-    const auto bus = read_machine_bus(scenario.machine_file);
-    if (!bus) {
-        throw InputError(
-            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … for --bus",
-                        scenario.machine_file));
-    }
-    PlantOnCanSettings settings;
+    PlantOnCanSettings settings = plant_on_bus(scenario, interface);
     socketcan::CanSocketSettings socket;
     if (!socket.set_interface(interface)) {
         throw InputError(
             fmt::format("--bus: '{}', expected a CAN interface of at most 15 characters, e.g. vcan0", interface));
     }
-    settings.interface = interface;
-    settings.machine = drives_on_bus(scenario, *bus);
-    settings.cnc = cnc_on_bus(scenario, *bus);
-    settings.sync_id = bus->drives.sync_id;
-    settings.time = {pace.slow_motion, pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us};
+    settings.time.slowness = pace.slow_motion;
+    settings.time.in_lock_step = pace.lock_step;
     return std::make_unique<PlantOnCan>(settings, std::make_unique<SocketPort>(socket));
 }
 

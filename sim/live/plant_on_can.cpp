@@ -83,7 +83,7 @@ bool PlantOnCan::receive_until_sync() {
     while (port_->receive(frame, stamp_us)) {
         clock_.on_frame(frame);
         const std::uint64_t time_us = clock_.of_monotonic(stamp_us);
-        if (frame.id == settings_.sync_id && !frame.extended && !frame.remote) {
+        if (frame.id == settings_.time.sync_id && !frame.extended && !frame.remote) {
             sync_ = frame;
             sync_is_pending_ = true;
             due_us_ = std::max(time_us, plant_us_);

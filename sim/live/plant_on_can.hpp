@@ -16,7 +16,6 @@ struct PlantOnCanSettings {
     std::string interface;  ///< for messages
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
-    std::uint32_t sync_id = 0x080;
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
     BusTime time{};
     /// The sample that answers a SYNC was computed before it: a plant whose computing takes a good part of a period does

@@ -1,6 +1,11 @@
 #include "live/plant_wiring.hpp"
 
+#include <fmt/format.h>
+
 #include <numbers>
+
+#include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
 
 namespace millforce::sim {
 
@@ -43,6 +48,21 @@ CncOnBusSettings cnc_on_bus(const Scenario& scenario, const MachineBus& bus) {
     settings.feed_override.node_id = bus.feed_override.node_id;
     settings.feed_override.largest_ratio = scenario.parameters.machine.cnc.override_max + 0.001F;
     settings.program_status_id = bus.program.id;
+    return settings;
+}
+
+PlantOnCanSettings plant_on_bus(const Scenario& scenario, const std::string& interface) {
+    const auto bus = read_machine_bus(scenario.machine_file);
+    if (!bus) {
+        throw InputError(fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] …",
+                                     scenario.machine_file));
+    }
+    PlantOnCanSettings settings;
+    settings.interface = interface;
+    settings.machine = drives_on_bus(scenario, *bus);
+    settings.cnc = cnc_on_bus(scenario, *bus);
+    settings.time.sync_id = bus->drives.sync_id;
+    settings.time.sync_period_us = bus->drives.sync_period_us;
     return settings;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
+
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
 #include "files/machine_bus.hpp"
+#include "live/plant_on_can.hpp"
 #include "loop/scenario.hpp"
 
 namespace millforce::sim {
@@ -12,5 +15,9 @@ MachineOnBusSettings drives_on_bus(const Scenario& scenario, const MachineBus& b
 
 /// The simulated CNC of a scenario's machine on the same bus.
 CncOnBusSettings cnc_on_bus(const Scenario& scenario, const MachineBus& bus);
+
+/// Both, as the scenario's machine file has them on an interface; InputError where no drive of it is on a bus. Its time is
+/// the clock's.
+PlantOnCanSettings plant_on_bus(const Scenario& scenario, const std::string& interface);
 
 }  // namespace millforce::sim

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
 #include "firmware/parameter_block.hpp"
 #include "live/plant_on_can.hpp"
 #include "live/plant_wiring.hpp"
@@ -31,15 +30,7 @@ constexpr std::uint64_t turn_us = 100;
 constexpr std::uintptr_t parameters_of_r5f = 0x00F0'0000;  // firmware/boards/zcu102/memory.ld
 
 sim::PlantOnCanSettings plant_settings(const sim::Scenario& scenario) {
-    const auto bus = sim::read_machine_bus(scenario.machine_file);
-    if (!bus) {
-        throw sim::InputError(fmt::format("{}: no [bus]", scenario.machine_file));
-    }
-    sim::PlantOnCanSettings settings;
-    settings.interface = "zcu102";
-    settings.machine = sim::drives_on_bus(scenario, *bus);
-    settings.cnc = sim::cnc_on_bus(scenario, *bus);
-    settings.sync_id = bus->drives.sync_id;
+    sim::PlantOnCanSettings settings = sim::plant_on_bus(scenario, "zcu102");
     settings.computes_ahead = true;
     return settings;
 }
