@@ -1,4 +1,4 @@
-"""motion.txt, LinuxCNC's own record of a session: one row per servo cycle (sim/linuxcnc/recording.hal)."""
+"""LinuxCNC's own records of a session, one row per servo cycle: motion.txt, answers.txt (sim/linuxcnc/recording.hal)."""
 from typing import NamedTuple
 
 FEED_MOTION = 2  # motion.motion-type of G1
@@ -28,13 +28,21 @@ class Cycle(NamedTuple):
         return self.motion == FEED_MOTION
 
 
-def read(path):
+class Answer(NamedTuple):
+    """answers.txt: what stood on the pins once the controller had answered all samples so far."""
+    number: int
+    heartbeat: int
+    answered: int
+    override: float
+
+
+def read(path, row=Cycle):
     cycles = []
     with open(path, encoding="ascii") as file:
         for line in file:
             words = line.split()
-            if len(words) == len(Cycle._fields):  # the last line may be cut off
-                cycles.append(Cycle(*(kind(word) for kind, word in zip(Cycle.__annotations__.values(), words))))
+            if len(words) == len(row._fields):  # the last line may be cut off
+                cycles.append(row(*(kind(word) for kind, word in zip(row.__annotations__.values(), words))))
     assert len(cycles) > 1000, f"{path}: {len(cycles)} rows"
     gaps = [a.number for a, b in zip(cycles, cycles[1:]) if b.number != a.number + 1]
     assert not gaps, f"{path}: the sampler lost rows after {gaps[:3]}"
