@@ -64,6 +64,79 @@ TEST(CutTrend, ends_a_millimetre_after_a_step_down) {
     DOUBLES_EQUAL(1.0, way_mm, 0.1);
 }
 
+namespace {
+
+/// A wall: the section grows three times over 3 mm, after `steady_mm` of a steady cut. The ways at which the cut is first
+/// and last called growing, from the wall on; negative: never.
+struct Growth {
+    double first_mm = -1.0;
+    double last_mm = -1.0;
+};
+Growth growth_at_a_wall(double steady_mm, double noise_share) {
+    constexpr double step_mm = 0.02;
+    Trend trend;
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    Growth seen;
+    for (double s = -steady_mm; s < 12.0; s += step_mm) {
+        const double section = 10.0 + 20.0 * std::fmin(std::fmax(s / 3.0, 0.0), 1.0);
+        const double noise = noise_share * section;
+        trend.update(static_cast<float>(section + noise * normal(random)), static_cast<float>(noise),
+                     static_cast<float>(step_mm));
+        if (trend.growing()) {
+            seen.first_mm = seen.first_mm < 0.0 ? s : seen.first_mm;
+            seen.last_mm = s;
+        }
+    }
+    return seen;
+}
+
+}  // namespace
+
+TEST(CutTrend, sees_a_wall_from_its_first_half_millimetre_until_it_is_behind) {
+    const Growth clean = growth_at_a_wall(5.0, 0.0);
+    DOUBLES_EQUAL(0.25, clean.first_mm, 0.25);
+    CHECK(clean.last_mm > 3.0);
+    CHECK(clean.last_mm < 7.0);
+    const Growth noisy = growth_at_a_wall(5.0, 0.05);
+    DOUBLES_EQUAL(0.5, noisy.first_mm, 0.5);
+    CHECK(noisy.last_mm > 3.0);
+    CHECK(noisy.last_mm < 7.0);
+}
+
+TEST(CutTrend, takes_the_growth_of_an_entry_for_no_surge) {
+    CHECK(growth_at_a_wall(0.0, 0.0).first_mm < 0.0);
+}
+
+TEST(CutTrend, sees_no_growth_in_a_steady_cut_or_a_ramp_in_depth) {
+    for (const double slope : {0.0, 7.0 / 110.0}) {
+        Trend trend;
+        std::mt19937 random(7);
+        std::normal_distribution<double> normal;
+        int growing = 0;
+        for (int k = 0; k < 4000; ++k) {
+            const double section = 5.0 + slope * 0.02 * k;
+            trend.update(static_cast<float>(section * (1.0 + 0.03 * normal(random))), static_cast<float>(0.03 * section),
+                         0.02F);
+            growing += trend.growing() ? 1 : 0;
+        }
+        LONGS_EQUAL(0, growing);
+    }
+}
+
+TEST(CutTrend, forgets_a_growth_with_the_cut) {
+    Trend trend;
+    for (int k = 0; k < 100; ++k) {
+        trend.update(10.0F, 0.0F, 0.05F);
+    }
+    trend.update(13.0F, 0.0F, 0.05F);
+    CHECK(trend.growing());
+    trend.forget_growth();
+    CHECK_FALSE(trend.growing());
+    trend.update(16.0F, 0.0F, 0.05F);
+    CHECK_FALSE(trend.growing());
+}
+
 TEST(CutTrend, is_not_moved_by_what_is_no_number) {
     Trend trend;
     trend.update(10.0F, 0.2F, 0.05F);

@@ -113,6 +113,44 @@ TEST(FeedLaw, lowers_the_feed_so_that_a_surge_stays_below_its_share_of_the_limit
     DOUBLES_EQUAL(1.0, static_cast<double>(force_at(output.ratio, 1500.0F, 0.8F, 0.75F) / allowed_N), 2e-4);
 }
 
+namespace {
+
+/// The override before, within and behind 3 mm over which the section goes from 10 mm² to another; the estimate takes the
+/// surge for over from the start of it.
+struct Overrides {
+    float before, highest_within, behind;
+};
+Overrides over_3_mm_to(float section_mm2) {
+    Parameters p = immediate();
+    p.recovery_per_rev = Parameters{}.recovery_per_rev;
+    p.surge_radial_immersion = 1.0F;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 400.0F;
+    input.cut.surge_ratio = 3.0F;
+    input.cut.section_mm2 = 10.0F;
+    Controller controller(p);
+    bring_into_cut(controller, input);
+    Overrides seen{repeat(controller, input, 1000).ratio, 0.0F, 0.0F};
+    input.cut.surge_ratio = 1.0F;
+    constexpr int steps = 150;
+    for (int k = 0; k < steps; ++k) {
+        input.cut.section_mm2 += (section_mm2 - 10.0F) / steps;
+        seen.highest_within = std::fmax(seen.highest_within, controller.step(input).ratio);
+    }
+    seen.behind = repeat(controller, input, 1000).ratio;
+    return seen;
+}
+
+}  // namespace
+
+TEST(FeedLaw, keeps_the_feed_that_meets_a_surge_until_the_cut_has_stopped_growing) {
+    const Overrides wall = over_3_mm_to(30.0F);
+    CHECK(wall.behind > 2.0F * wall.before);
+    CHECK(wall.highest_within < wall.before + 0.25F * (wall.behind - wall.before));
+    const Overrides steady = over_3_mm_to(10.0F);
+    CHECK(steady.highest_within > wall.before + 0.75F * (wall.behind - wall.before));
+}
+
 TEST(FeedLaw, ignores_surges_where_none_can_come) {
     Input input = in_contact();
     const float calm = settled_ratio(immediate(), input);

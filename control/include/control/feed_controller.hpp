@@ -395,10 +395,11 @@ class FeedController {
                             is_finite(cut.surge_ratio) && is_finite(cut.surge_cutting_share);
         if (cut.fresh && usable) {
             set_demand(input);
-        }
-        if (cut.fresh && usable) {
             trend_.update(cut.section_mm2, cut.section_noise_mm2, way_since_estimate_mm_);
             way_since_estimate_mm_ = Scalar(0);
+            if (state_ != CutState::in_cut) {
+                trend_.forget_growth();  // an entry has its own ceiling
+            }
         }
         if (!usable || !cut.tooth_force_valid) {
             wish.cap(ratio_, Limit::no_estimate);
@@ -406,8 +407,18 @@ class FeedController {
         if (trend_.fading()) {
             wish.cap(ratio_, Limit::surge);
         }
+        cap_in_surge(wish);
         wish.cap(demand_, demand_limit_);
         cap_after_turn(wish, input, usable);
+    }
+
+    /// The surge that may come is under way: the feed that was to meet it holds until it is over.
+    void cap_in_surge(Wish& wish) {
+        if (parameters_.surge_radial_immersion > Scalar(0) && trend_.growing()) {
+            wish.cap(ratio_before_growth_, Limit::surge);
+        } else {
+            ratio_before_growth_ = ratio_;
+        }
     }
 
     void set_demand(const ControlInput<Scalar>& input) {
@@ -504,6 +515,7 @@ class FeedController {
     Scalar stopped_s_{0};
     Scalar overload_revolutions_{0};
     CutTrend<Scalar> trend_{};
+    Scalar ratio_before_growth_{0};
     Scalar way_since_estimate_mm_{0};
     PathTurn<Scalar> turn_{};
     Scalar turn_travel_left_mm_{0};

@@ -9,10 +9,11 @@ namespace millforce::estimation {
 
 /// Averages over as many revolutions as the cut stays the same.
 ///
-/// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones as long as
-/// every force agrees with its memory within `agreement` standard deviations of their noise and the feed keeps its
-/// direction. Where one does not, the cut has changed and the memory starts anew: no lag behind a change, little noise
-/// without one. Only noise shrinks by averaging; what is common to all windows (gain, friction, drift) stays whole.
+/// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones. The memory
+/// fades with disagreement: a force within two standard deviations of its noise leaves it whole, one at four deviations
+/// or a feed in another direction leaves nothing, and it starts anew: no lag behind a change, little noise without one.
+/// In between it fades by the square, so that no last digit decides. Only noise shrinks by averaging; what is common to
+/// all windows (gain, friction, drift) stays whole.
 template <typename Scalar>
 class ForceMemory {
   public:
@@ -23,10 +24,10 @@ class ForceMemory {
     AverageForceMeasurement<Scalar> blend(const AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent,
                                           bool is_new_revolution) {
         const Scalar carried = revolutions_ > Scalar(0) ? carried_by(feed_mm_s_, feed_mm_s, exponent) : Scalar(1);
-        if (revolutions_ > Scalar(0) && !is_same_cut(now, carried)) {
-            clear();
+        if (revolutions_ > Scalar(0)) {
+            revolutions_ *= share_of_same_cut(now, carried);
         }
-        if (!(revolutions_ > Scalar(0))) {
+        if (revolutions_ < forgotten_revolutions) {
             remember(now, feed_mm_s, Scalar(1));
             return now;
         }
@@ -46,21 +47,38 @@ class ForceMemory {
 
     /// The tangential force tells of no change: it agrees with a memory of two revolutions or more, as it is.
     [[nodiscard]] bool holds(const Measurement<Scalar>& tangential_N) const {
-        return revolutions_ > Scalar(1) && agrees(tangential_N, held_.tangential_N, Scalar(1), allowed_per_noise_);
+        if (!(revolutions_ > Scalar(1)) || tangential_N.valid != held_.tangential_N.valid) {
+            return false;
+        }
+        const Scalar off_N = tangential_N.value - held_.tangential_N.value;
+        return !tangential_N.valid || square(off_N) <= square(holding_deviations) * variance_per_noise() * tangential_N.noise;
     }
 
     [[nodiscard]] Scalar revolutions() const { return revolutions_; }
 
   private:
     static constexpr int longest_revolutions = 8;
-    static constexpr Scalar agreement = static_cast<Scalar>(3);
+    static constexpr Scalar forgotten_revolutions = static_cast<Scalar>(0.01L);
+    static constexpr Scalar holding_deviations = static_cast<Scalar>(3);
+    static constexpr Scalar whole_deviations = static_cast<Scalar>(2);
+    static constexpr Scalar nothing_deviations = static_cast<Scalar>(4);
 
-    [[nodiscard]] static bool agrees(const Measurement<Scalar>& now, const Measurement<Scalar>& held, Scalar carried,
-                              Scalar allowed_per_noise) {
-        if (now.valid != held.valid) {
-            return false;
+    /// Variance of a force's difference from its memory, over the variance of its noise.
+    [[nodiscard]] Scalar variance_per_noise() const { return Scalar(1) + Scalar(1) / revolutions_; }
+
+    [[nodiscard]] static Scalar share_of_agreement(const Measurement<Scalar>& now, const Measurement<Scalar>& held,
+                                                   Scalar carried, Scalar per_noise) {
+        if (!now.valid || !held.valid) {
+            return now.valid == held.valid ? Scalar(1) : Scalar(0);
         }
-        return !now.valid || square(now.value - held.value * carried) <= allowed_per_noise * now.noise;
+        constexpr Scalar whole = square(whole_deviations);
+        constexpr Scalar nothing = square(nothing_deviations);
+        const Scalar off = square(now.value - held.value * carried);
+        const Scalar variance = per_noise * now.noise;
+        if (off <= whole * variance) {
+            return Scalar(1);
+        }
+        return off < nothing * variance ? (nothing - off / variance) / (nothing - whole) : Scalar(0);
     }
 
     [[nodiscard]] static Scalar carried_by(Scalar from_feed, Scalar to_feed, Scalar exponent) {
@@ -69,11 +87,15 @@ class ForceMemory {
         return from_feed > Scalar(0) && to_feed > Scalar(0) ? exp(exponent * log(to_feed / from_feed)) : Scalar(1);
     }
 
-    [[nodiscard]] bool is_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar carried) const {
+    [[nodiscard]] Scalar share_of_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar carried) const {
         const Scalar along = now.feed_direction_x * held_.feed_direction_x + now.feed_direction_y * held_.feed_direction_y;
-        const Scalar allowed = allowed_per_noise_;
-        return along > static_cast<Scalar>(0.998L) && agrees(now.tangential_N, held_.tangential_N, carried, allowed) &&
-               agrees(now.x_N, held_.x_N, carried, allowed) && agrees(now.y_N, held_.y_N, carried, allowed);
+        if (!(along > static_cast<Scalar>(0.998L))) {
+            return Scalar(0);
+        }
+        const Scalar per_noise = variance_per_noise();
+        return share_of_agreement(now.tangential_N, held_.tangential_N, carried, per_noise) *
+               share_of_agreement(now.x_N, held_.x_N, carried, per_noise) *
+               share_of_agreement(now.y_N, held_.y_N, carried, per_noise);
     }
 
     void carry(Scalar carried) {
@@ -93,13 +115,11 @@ class ForceMemory {
         held_ = forces;
         feed_mm_s_ = feed_mm_s;
         revolutions_ = revolutions;
-        allowed_per_noise_ = square(agreement) * (Scalar(1) + Scalar(1) / revolutions);
     }
 
     AverageForceMeasurement<Scalar> held_{};
     Scalar feed_mm_s_{0};
     Scalar revolutions_{0};
-    Scalar allowed_per_noise_{0};  // square of how far a force may be from its memory, over the variance of its noise
 };
 
 }  // namespace millforce::estimation
