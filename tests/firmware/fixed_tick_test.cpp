@@ -257,8 +257,7 @@ TEST(FixedTick, agrees_with_float_over_the_operating_range) {
     }
     CHECK_COMPARE(agreement.points, >=, tools * points_per_tool / 2);
     CHECK_COMPARE(agreement.with_depth, >=, agreement.points / 2);
-    // None of 1 200. Of 10⁵ some lie in a misfit so flat that the last digits decide, or behind a force at the memory's
-    // threshold, within the standard deviation.
+    // None of 1 200. Of 10⁵ one or two lie in a misfit so flat that the last digits decide, within its standard deviation.
     CHECK_COMPARE(agreement.apart, <=, agreement.points / 10000);
     CHECK_COMPARE(agreement.worst_in_sd, <, 1.0F);
     // Where a force stands at a threshold the two may decide a sample apart, or one may see no estimate.
