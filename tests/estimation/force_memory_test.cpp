@@ -2,6 +2,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <cmath>
+
 using namespace millforce::estimation;
 
 namespace {
