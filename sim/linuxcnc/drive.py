@@ -37,7 +37,7 @@ class Drive:
             self.say("error: " + message[1])
             self.errors.append(message[1])
 
-    def until(self, what, is_so, timeout_s=30.0, errors_end_it=True):
+    def until(self, what, is_so, timeout_s=120.0, errors_end_it=True):  # beside busy programs homing takes a minute
         end_s = time.monotonic() + timeout_s
         while not is_so():
             if (self.errors and errors_end_it) or time.monotonic() > end_s:
