@@ -9,21 +9,42 @@ using Trend = millforce::control::CutTrend<float>;
 
 namespace {
 
-/// Steps of 0.05 mm along a cut whose section is `section(s)`, seen with noise; returns the way until it is called
-/// fading, or a negative number.
+/// A stretch of a cut, seen in even steps.
+struct Stretch {
+    double from_mm;
+    double to_mm;
+    double step_mm;
+    unsigned seed;
+};
+
+/// Follows a cut whose section is `section(s)` and whose noise is `noise(s)`; `seen(trend, s)` after each step.
+template <typename Section, typename Noise, typename Seen>
+void follow(const Stretch& way, Section section, Noise noise, Seen seen) {
+    Trend trend;
+    std::mt19937 random(way.seed);
+    std::normal_distribution<double> normal;
+    for (double s = way.from_mm; s < way.to_mm; s += way.step_mm) {
+        trend.update(static_cast<float>(section(s) + noise(s) * normal(random)), static_cast<float>(noise(s)),
+                     static_cast<float>(way.step_mm));
+        seen(trend, s);
+    }
+}
+
+/// The way until a cut is called fading, or a negative number; its noise is that of its start.
 template <typename Section>
 double way_until_fading(Section section, double length_mm, double noise_share = 0.0) {
+    double first_mm = -1.0;
+    follow({0.0, length_mm, 0.05, 3}, section, [&](double) { return noise_share * section(0.0); },
+           [&](const Trend& trend, double s) { first_mm = first_mm < 0.0 && trend.fading() ? s : first_mm; });
+    return first_mm;
+}
+
+Trend in_a_steady_cut(float noise) {
     Trend trend;
-    std::mt19937 random(3);
-    std::normal_distribution<double> normal;
-    for (double s = 0.0; s < length_mm; s += 0.05) {
-        const double noise = noise_share * section(0.0);
-        trend.update(static_cast<float>(section(s) + noise * normal(random)), static_cast<float>(noise), 0.05F);
-        if (trend.fading()) {
-            return s;
-        }
+    for (int k = 0; k < 100; ++k) {
+        trend.update(10.0F, noise, 0.05F);
     }
-    return -1.0;
+    return trend;
 }
 
 }  // namespace
@@ -50,10 +71,7 @@ TEST(CutTrend, sees_a_cut_that_ends_over_a_cutters_radius_before_half_of_it_is_g
 }
 
 TEST(CutTrend, ends_a_millimetre_after_a_step_down) {
-    Trend trend;
-    for (int k = 0; k < 100; ++k) {
-        trend.update(10.0F, 0.2F, 0.05F);
-    }
+    Trend trend = in_a_steady_cut(0.2F);
     trend.update(3.0F, 0.2F, 0.05F);
     CHECK(trend.fading());
     double way_mm = 0.0;
@@ -73,22 +91,16 @@ struct Growth {
     double last_mm = -1.0;
 };
 Growth growth_at_a_wall(double steady_mm, double noise_share) {
-    constexpr double step_mm = 0.02;
-    Trend trend;
-    std::mt19937 random(5);
-    std::normal_distribution<double> normal;
-    Growth seen;
-    for (double s = -steady_mm; s < 12.0; s += step_mm) {
-        const double section = 10.0 + 20.0 * std::fmin(std::fmax(s / 3.0, 0.0), 1.0);
-        const double noise = noise_share * section;
-        trend.update(static_cast<float>(section + noise * normal(random)), static_cast<float>(noise),
-                     static_cast<float>(step_mm));
-        if (trend.growing()) {
-            seen.first_mm = seen.first_mm < 0.0 ? s : seen.first_mm;
-            seen.last_mm = s;
-        }
-    }
-    return seen;
+    const auto section = [](double s) { return 10.0 + 20.0 * std::fmin(std::fmax(s / 3.0, 0.0), 1.0); };
+    Growth growth;
+    follow({-steady_mm, 12.0, 0.02, 5}, section, [&](double s) { return noise_share * section(s); },
+           [&](const Trend& trend, double s) {
+               if (trend.growing()) {
+                   growth.first_mm = growth.first_mm < 0.0 ? s : growth.first_mm;
+                   growth.last_mm = s;
+               }
+           });
+    return growth;
 }
 
 }  // namespace
@@ -110,25 +122,21 @@ TEST(CutTrend, takes_the_growth_of_an_entry_for_no_surge) {
 
 TEST(CutTrend, sees_no_growth_in_a_steady_cut_or_a_ramp_in_depth) {
     for (const double slope : {0.0, 7.0 / 110.0}) {
-        Trend trend;
-        std::mt19937 random(7);
-        std::normal_distribution<double> normal;
+        const auto section = [slope](double s) { return 5.0 + slope * s; };
+        int steps = 0;
         int growing = 0;
-        for (int k = 0; k < 4000; ++k) {
-            const double section = 5.0 + slope * 0.02 * k;
-            trend.update(static_cast<float>(section * (1.0 + 0.03 * normal(random))), static_cast<float>(0.03 * section),
-                         0.02F);
-            growing += trend.growing() ? 1 : 0;
-        }
+        follow({0.0, 80.0, 0.02, 7}, section, [&](double s) { return 0.03 * section(s); },
+               [&](const Trend& trend, double) {
+                   ++steps;
+                   growing += trend.growing() ? 1 : 0;
+               });
+        CHECK(steps >= 4000);
         LONGS_EQUAL(0, growing);
     }
 }
 
 TEST(CutTrend, forgets_a_growth_with_the_cut) {
-    Trend trend;
-    for (int k = 0; k < 100; ++k) {
-        trend.update(10.0F, 0.0F, 0.05F);
-    }
+    Trend trend = in_a_steady_cut(0.0F);
     trend.update(13.0F, 0.0F, 0.05F);
     CHECK(trend.growing());
     trend.forget_growth();

@@ -237,7 +237,7 @@ class FeedController {
         turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
         turned_now_ = turned;
         if (turned && state_ == CutState::exit) {
-            go_to(CutState::air);  // what was cut before says nothing about what lies in the new direction
+            go_to(CutState::air);  // what was cut before says nothing about what lies ahead now
         }
     }
 

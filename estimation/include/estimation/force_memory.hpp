@@ -17,8 +17,6 @@ namespace millforce::estimation {
 template <typename Scalar>
 class ForceMemory {
   public:
-    void clear() { revolutions_ = Scalar(0); }
-
     /// The present forces, averaged with what the memory holds of the same cut. `is_new_revolution`: these forces share
     /// no sample with those remembered last, and are remembered. `exponent`: m.
     AverageForceMeasurement<Scalar> blend(const AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent,
