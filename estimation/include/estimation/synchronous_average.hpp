@@ -70,8 +70,8 @@ class SynchronousAverage {
         }
         int completed = 0;
         if (turned_rev < to_boundary_rev_) {
-            to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - turned_rev);
-            accumulate_whole(dt_s, turned_rev, signals, present);
+            to_boundary_rev_ -= turned_rev;  // counted on; the angle itself is asked at each boundary
+            accumulate_whole(dt_s, turned_rev, present);
         } else {
             completed = cross_boundaries(dt_s, turned_rev, angle_rev, signals, present);
         }
@@ -86,6 +86,10 @@ class SynchronousAverage {
         return {last, two_pi * pitch_rev_ / last.duration_s};
     }
     [[nodiscard]] bool has_tooth() const { return periods_seen_ > 0; }
+
+    /// The same tooth in the revolution before. Valid after more periods than teeth since the last start.
+    [[nodiscard]] const Means& tooth_before() const { return at(settings_.teeth); }
+    [[nodiscard]] bool has_tooth_before() const { return available() > settings_.teeth; }
 
     /// The newest whole revolutions that hold at least min_samples. Cost: linear in the periods of the window.
     [[nodiscard]] Window window() const {
@@ -121,19 +125,41 @@ class SynchronousAverage {
         Scalar used_share{0};
         while (turned_rev > Scalar(0) && remaining_rev >= to_boundary_rev_) {
             const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
-            const Scalar share = step_rev / turned_rev;
-            accumulate(used_share, used_share + share, dt_s, turned_rev, signals, present);
-            used_share += share;
+            const Scalar share = used_share + step_rev / turned_rev;
+            const Weights weights = weights_of(used_share, share, turned_rev);
+            sum_ += previous_signals_ * (pending_rev_ + weights.previous_rev) + signals * weights.present_rev;
+            pending_rev_ = Scalar(0);
+            add_interval(share - used_share, (share - used_share) * dt_s, step_rev, present);
+            used_share = share;
             remaining_rev -= step_rev;
             completed += close_period();
             to_boundary_rev_ = pitch_rev_;
         }
         to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - remaining_rev);
-        accumulate(used_share, Scalar(1), dt_s, turned_rev, signals, present);
+        if (used_share < Scalar(1)) {
+            const Weights weights = weights_of(used_share, Scalar(1), turned_rev);
+            sum_ += previous_signals_ * (pending_rev_ + weights.previous_rev);
+            pending_rev_ = weights.present_rev;
+            add_interval(Scalar(1) - used_share, (Scalar(1) - used_share) * dt_s, remaining_rev, present);
+        }
         return completed;
     }
 
+    /// Of the samples at both ends of an interval, in the integral of the line between them over a part of it.
+    struct Weights {
+        Scalar previous_rev;
+        Scalar present_rev;
+    };
+    static Weights weights_of(Scalar from_share, Scalar to_share, Scalar turned_rev) {
+        const Scalar part_rev = (to_share - from_share) * turned_rev;
+        const Scalar present_rev = part_rev * halved(from_share + to_share);
+        return {part_rev - present_rev, present_rev};
+    }
+
     [[nodiscard]] bool gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
+        if (dt_s == previous_dt_s_) {
+            return false;
+        }
         if (!(dt_s > Scalar(0)) || dt_s > settings_.max_gap_s) {
             return true;
         }
@@ -167,28 +193,14 @@ class SynchronousAverage {
         previous_present_ = present;
     }
 
-    /// Adds a whole interval between the previous sample and this one, as is usual.
-    void accumulate_whole(Scalar dt_s, Scalar turned_rev, const Signals& signals, std::uint32_t present) {
+    /// Adds a whole interval between the previous sample and the present one, as is usual. A line's integral is the mean
+    /// of its ends times the way: the previous sample gets half of the way before it and half of this one, and the
+    /// present one waits for its next.
+    void accumulate_whole(Scalar dt_s, Scalar turned_rev, std::uint32_t present) {
         const Scalar half_rev = halved(turned_rev);
-        for (int k = 0; k < Channels; ++k) {
-            sum_[k] += (previous_signals_[k] + signals[k]) * half_rev;
-        }
+        sum_ += previous_signals_ * (pending_rev_ + half_rev);
+        pending_rev_ = half_rev;
         add_interval(Scalar(1), dt_s, turned_rev, present);
-    }
-
-    /// Adds the part from share `from` to share `to` of it.
-    [[gnu::noinline]] void accumulate(Scalar from, Scalar to, Scalar dt_s, Scalar turned_rev, const Signals& signals,
-                                      std::uint32_t present) {
-        const Scalar width = to - from;
-        if (width <= Scalar(0)) {
-            return;
-        }
-        const Scalar part_rev = width * turned_rev;
-        const Scalar middle = halved(from + to);
-        for (int k = 0; k < Channels; ++k) {
-            sum_[k] += (previous_signals_[k] + (signals[k] - previous_signals_[k]) * middle) * part_rev;
-        }
-        add_interval(width, width * dt_s, part_rev, present);
     }
 
     void add_interval(Scalar samples, Scalar duration_s, Scalar turned_rev, std::uint32_t present) {
@@ -219,6 +231,7 @@ class SynchronousAverage {
         turned_rev_ = Scalar(0);
         duration_s_ = Scalar(0);
         samples_ = Scalar(0);
+        pending_rev_ = Scalar(0);
         present_ = ~0U;
     }
 
@@ -293,12 +306,13 @@ class SynchronousAverage {
     Scalar turned_rev_{0};
     Scalar duration_s_{0};
     Scalar samples_{0};
+    Scalar pending_rev_{0};  // by which the previous sample is still to be weighed
     std::uint32_t present_ = ~0U;
     bool period_is_whole_ = false;
 
     bool has_previous_ = false;
     Scalar to_boundary_rev_{0};
-    Scalar previous_dt_s_{0};
+    Scalar previous_dt_s_{-1};
     Signals previous_signals_ = Signals::Zero();
     std::uint32_t previous_present_ = 0;
 

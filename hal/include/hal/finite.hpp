@@ -11,4 +11,14 @@ namespace millforce::hal {
     return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;
 }
 
+/// All of them. With a floating-point unit by their differences, two operations each.
+template <typename... Floats>
+[[nodiscard]] constexpr bool all_finite(Floats... values) {
+#ifdef __SOFTFP__
+    return (is_finite(values) && ...);
+#else
+    return ((values - values) + ...) == 0.0F;
+#endif
+}
+
 }  // namespace millforce::hal
