@@ -215,9 +215,11 @@ TEST(RoughnessTick, gives_a_sound_ratio_and_no_rise_for_the_roughness_sake_whate
         const float extremes[] = {std::nanf(""), INFINITY, -INFINITY, 3e38F, -3e38F, 1e-40F, 0.0F, -1.0F};
         return engine() % 8U == 0U ? extremes[engine() % 8U] : sensible;
     };
-    const Parameters p = with_limit(low_limit_um);
-    ForceControlTick<float> free = fresh_tick();
-    ForceControlTick<float> limited = fresh_tick_with_low_limit();
+    Parameters p = with_limit(low_limit_um);
+    p.tool.control.turn_radial_immersion = 0.0F;  // these axes follow no override, which would count as braking
+    ForceControlTick<float> limited(p);
+    p.tool.control.Ra_limit_um = 0.0F;
+    ForceControlTick<float> free(p);
     for (int k = 0; k < 20000; ++k) {
         hal::DriveSample sample = sample_of(k % 3000, p);
         sample.spindle_count = static_cast<std::uint32_t>(static_cast<float>(k) * 273.07F);

@@ -49,10 +49,10 @@ class ForceControlTick {
             estimator_.restart();
             set_cut();
         }
-        if (!wide_band_.add(dt_s, sample, may_be_in_cut())) {
-            forget_sections();
-        }
         if constexpr (WideBand::has_force_drops) {
+            if (!wide_band_.add(dt_s, sample, may_be_in_cut())) {
+                forget_sections();
+            }
             estimator_.tell_immersion(immersion_by_force_drops());
         }
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
@@ -63,24 +63,35 @@ class ForceControlTick {
             predict_roughness(signals);
             set_cut();
         }
-        set_motion(dt_s, signals, program);
-        input_.cut.fresh = fresh;
-        return output_of(controller_.step(input_));
+        since_control_s_ += dt_s;
+        control_is_due_ = control_is_due_ || fresh || since_control_s_ > control_interval_s || !is_told(program);
+        if (control_is_due_) {
+            set_motion(signals);
+            input_.time_since_sample_s = dt_s;
+            input_.cut.fresh = fresh;
+            run_control(program);
+        }
+        return output();
     }
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
         estimator_.restart();  // no average reaches over the gap
         set_cut();
-        set_motion(Scalar(dt_s), {}, program);
+        set_motion({});
+        since_control_s_ += Scalar(dt_s);
         input_.cut.fresh = false;
         input_.time_since_sample_s = Scalar(silent_s);
         input_.surface.valid = false;
         has_time_ = false;
-        return output_of(controller_.step(input_));
+        run_control(program);
+        return output();
     }
 
-    void reset_fault() { controller_.reset(); }
+    void reset_fault() {
+        controller_.reset();
+        control_is_due_ = true;
+    }
 
     /// Work beside the tick, in the same thread or between two steps; some milliseconds on a desktop processor.
     [[nodiscard]] bool work_due() const { return wide_band_.work_due(); }
@@ -175,6 +186,21 @@ class ForceControlTick {
     }
 
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
+        constexpr unsigned all_drives = hal::all_present & ~hal::mask(hal::Present::spindle_count);
+        const auto& [x_A, y_A, z_A] = sample.axis_current_A;
+        const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
+        if ((sample.present & all_drives) != all_drives ||
+            !hal::all_finite(sample.spindle_current_A, x_A, y_A, z_A, x_mm_s, y_mm_s, z_mm_s)) {
+            return partly_taken_from(sample);
+        }
+        estimation::DriveSignals<Scalar> signals;
+        signals.present = all_drives >> 1U;
+        signals.values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s),
+            Scalar(y_mm_s), Scalar(z_mm_s);
+        return signals;
+    }
+
+    [[gnu::noinline]] static estimation::DriveSignals<Scalar> partly_taken_from(const hal::DriveSample& sample) {
         using Signals = estimation::DriveSignals<Scalar>;
         Signals signals;
         const auto take = [&](int channel, float value) { signals.values[channel] = Scalar(value); };
@@ -244,14 +270,8 @@ class ForceControlTick {
     }
 
     /// What changes from sample to sample.
-    void set_motion(Scalar dt_s, const estimation::DriveSignals<Scalar>& signals, const hal::ProgramStatus& program) {
+    void set_motion(const estimation::DriveSignals<Scalar>& signals) {
         using std::sqrt;
-        input_.dt_s = dt_s;
-        input_.time_since_sample_s = dt_s;
-        input_.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
-        input_.operator_override = Scalar(program.operator_override);
-        input_.rapid = program.rapid;
-        input_.feed_hold = program.feed_hold;
         input_.velocity_x_mm_s = signals.velocity_mm_s(0);
         input_.velocity_y_mm_s = signals.velocity_mm_s(1);
         const Scalar plane2 = estimation::square(input_.velocity_x_mm_s) + estimation::square(input_.velocity_y_mm_s);
@@ -298,23 +318,48 @@ class ForceControlTick {
         input_.surface = surface_;
     }
 
-    hal::FeedOverride output_of(const control::ControlOutput<Scalar>& control) {
-        control_ = control;
+    /// The controller knows the program's words. What is no number is always new.
+    [[nodiscard]] bool is_told(const hal::ProgramStatus& program) const {
+        return program.programmed_feed_mm_s == program_.programmed_feed_mm_s &&
+               program.operator_override == program_.operator_override && program.rapid == program_.rapid &&
+               program.feed_hold == program_.feed_hold;
+    }
+
+    void run_control(const hal::ProgramStatus& program) {
+        program_ = program;
+        input_.dt_s = since_control_s_;
+        since_control_s_ = Scalar(0);
+        control_is_due_ = false;
+        input_.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
+        input_.operator_override = Scalar(program.operator_override);
+        input_.rapid = program.rapid;
+        input_.feed_hold = program.feed_hold;
+        control_ = controller_.step(input_);
+    }
+
+    hal::FeedOverride output() {
         hal::FeedOverride output;
-        output.ratio = static_cast<float>(control.ratio);
-        output.hold = control.hold;
-        output.state = static_cast<std::uint8_t>(control.state);
-        output.fault = static_cast<std::uint8_t>(control.fault);
+        output.ratio = static_cast<float>(control_.ratio);
+        output.hold = control_.hold;
+        output.state = static_cast<std::uint8_t>(control_.state);
+        output.fault = static_cast<std::uint8_t>(control_.fault);
         output.heartbeat = ++heartbeat_;
         return output;
     }
 
+    /// A CNC takes an override up every few milliseconds, and no axis follows it faster. A little less than four of a
+    /// kilohertz' samples, so that the fourth is the one.
+    static constexpr Scalar control_interval_s = static_cast<Scalar>(0.0035L);
+
     // What each sample touches comes first: near the object's start an access is one instruction.
     control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};
+    hal::ProgramStatus program_{};  // that the controller was told last
+    Scalar since_control_s_{0};
     std::uint32_t last_time_us_ = 0;
     std::uint32_t heartbeat_ = 0;
     bool has_time_ = false;
+    bool control_is_due_ = false;
     bool was_rezeroed_ = false;
     int air_periods_ = 0;
     control::FeedController<Scalar> controller_;
