@@ -68,7 +68,8 @@ class CutEstimator {
             // Closing a period is work as well; where every call closes one, it can be no reason to wait.
             const bool closes_one = completed > 0 && !has_closed_;
             has_closed_ = completed > 0;
-            if (closes_one && stage_ != Stage::idle) {
+            is_resting_ = is_resting_ && completed == 0;
+            if (is_resting_ || (closes_one && stage_ != Stage::idle)) {
                 return false;
             }
             return work_on(closes_one);
@@ -94,6 +95,7 @@ class CutEstimator {
         search_.cancel();
         search_due_ = false;
         unread_parts_ = parts_of_engagement;
+        is_resting_ = false;
     }
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
@@ -258,12 +260,28 @@ class CutEstimator {
                 break;
         }
         const bool is_engagement_in_work = search_due_ || !search_.done() || unread_parts_ > 0;
-        if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work)) {
+        if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work) && !tooth_repeats_itself()) {
             take_period();
-        } else {
+        } else if (is_engagement_in_work) {
             work_on_engagement(is_end_of_period);
+        } else {
+            has_engagements_turn_ = false;
+            is_resting_ = true;
         }
         return false;
+    }
+
+    /// The tooth that has passed loaded the spindle as it did a revolution ago, within three deviations of the noise, and
+    /// the revolution is not over.
+    [[nodiscard]] bool tooth_repeats_itself() const {
+        const int since_memory = periods_since_memory_ + periods_ended_;
+        if (since_memory >= window_.revolutions * static_cast<int>(settings_.teeth) || !average_.has_tooth_before()) {
+            return false;
+        }
+        const auto tooth = average_.tooth();
+        const auto& before = average_.tooth_before();
+        return (tooth.present & before.present & 1U) != 0U &&
+               spindle_.differs_by_noise(tooth.mean[0], before.mean[0], tooth.samples);
     }
 
     /// What does not belong to a tooth period: a value of the solver, or the reading of its solution.
@@ -415,12 +433,31 @@ class CutEstimator {
         const AverageForceMeasurement<Scalar> blended =
             memory_.blend(forces, e.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution_);
         const bool has_changed = !(memory_.revolutions() > Scalar(1));
-        if (search_.done() && (is_new_revolution_ || has_changed || !in_portions())) {
+        const bool is_due = search_.done() && (is_new_revolution_ || has_changed) && asks_anything_new(blended, e);
+        if (is_due || !in_portions()) {
             asked_ = blended;
             asked_.radial_immersion = told_immersion_;
             asked_feed_per_tooth_mm_ = e.feed_per_tooth_mm;
             search_due_ = in_portions();
         }
+    }
+
+    /// A solution's answer is known while its question stays: within a third of a deviation of one window's noise, at
+    /// the same feed within a twentieth, and not yet known much better.
+    [[nodiscard]] bool asks_anything_new(const AverageForceMeasurement<Scalar>& forces, const CutEstimate<Scalar>& e) const {
+        const Scalar a_twentieth_mm = static_cast<Scalar>(0.05L) * asked_feed_per_tooth_mm_;
+        const Scalar more_feed_mm = e.feed_per_tooth_mm - asked_feed_per_tooth_mm_;
+        const Scalar along = forces.feed_direction_x * asked_.feed_direction_x + forces.feed_direction_y * asked_.feed_direction_y;
+        return told_immersion_.valid || asked_.radial_immersion.valid || !(along > static_cast<Scalar>(0.998L)) ||
+               more_feed_mm > a_twentieth_mm || -more_feed_mm > a_twentieth_mm ||
+               has_moved(forces.tangential_N, asked_.tangential_N) || has_moved(forces.x_N, asked_.x_N) ||
+               has_moved(forces.y_N, asked_.y_N);
+    }
+    [[nodiscard]] static bool has_moved(const Measurement<Scalar>& now, const Measurement<Scalar>& asked) {
+        constexpr Scalar ninth = static_cast<Scalar>(1.0L / 9.0L);
+        return now.valid != asked.valid ||
+               (now.valid && (square(now.value - asked.value) > ninth * now.noise ||
+                              now.variance < static_cast<Scalar>(0.8L) * asked.variance));
     }
 
     [[nodiscard]] CutEstimate<Scalar>& work() { return estimates_[1U - shown_]; }
@@ -433,6 +470,7 @@ class CutEstimator {
     bool has_closed_ = false;     // the last call closed a tooth period
     Stage stage_ = Stage::idle;
     std::uint8_t shown_ = 0;      // of estimates_; the other one is in work
+    bool is_resting_ = false;     // nothing is in work before the next tooth period
     bool search_due_ = false;
     bool has_engagements_turn_ = false;  // before the next tooth period: where teeth pass fast there is no other time
     int unread_parts_ = 0;  // of engagement_, that peaks_ has not seen yet

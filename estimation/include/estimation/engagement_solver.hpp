@@ -351,7 +351,8 @@ class EngagementSolver {
                 s.middle_rad_ = clamp(s.centre_rad_, Table::first_rad + s.width_rad_,
                                       table(s.side_).last_rad() - s.width_rad_);
                 s.J_low_ = profile_at(s, s.middle_rad_ - s.width_rad_).misfit;
-                s.point_ = Search::Point::middle;
+                s.J_middle_ = s.best_.misfit;
+                s.point_ = s.middle_rad_ == s.centre_rad_ ? Search::Point::high : Search::Point::middle;
                 break;
             case Search::Point::middle:
                 s.J_middle_ = profile_at(s, s.middle_rad_).misfit;

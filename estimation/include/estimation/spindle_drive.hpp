@@ -70,6 +70,12 @@ class SpindleDrive {
         drift_Nm_.correct(torque);
     }
 
+    /// Two means of the current, each of so many samples, differ by less than three deviations of their noise.
+    [[nodiscard]] bool differs_by_noise(Scalar current_A, Scalar other_A, Scalar samples) const {
+        constexpr Scalar nine_of_two = Scalar(9 * 2);
+        return square(current_A - other_A) * samples < nine_of_two * square(parameters_.current_sd_A);
+    }
+
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
 
     [[nodiscard]] Scalar torque_constant_Nm_per_A(Scalar speed_rad_s) const {
