@@ -92,6 +92,9 @@ class ToothForce {
             e.tooth_force_is_bound = true;
         };
         if (cut.immersion_valid) {
+            // At the narrow end of a wide interval it is nearly the most that the force can be: a quarter above the middle.
+            const Scalar both_ends = factors.at_low + factors.at_high;
+            e.tooth_force_is_bound = factors.now + factors.now > Scalar(1.25F) * both_ends;
             const Scalar factor_sd = (factors.at_low - factors.at_high) * static_cast<Scalar>(1.0L / 3.92L);
             const Scalar by_factor = square(newest_N) * (square(factor_sd) + square(factors.by_K_s));
             e.tooth_force_N = {true, e.worst_tooth_force_N,
