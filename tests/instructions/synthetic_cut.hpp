@@ -8,8 +8,8 @@
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
 
-/// The cut whose ticks are counted on every processor: down milling in steel along +x after 0.1 s of air, its width
-/// growing, with the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same
+/// The cuts whose ticks are counted on every processor: down milling in steel along +x after 0.1 s of air, with the tooth's
+/// ripple on the currents. Everything is worked out in float, so that the samples are the same
 /// bits everywhere.
 
 namespace millforce::instructions {
@@ -19,8 +19,6 @@ using bench::teeth;
 
 inline constexpr float sample_interval_s = 0.001F;
 inline constexpr std::uint32_t sample_interval_us = 1000;
-inline constexpr float spindle_speed_rad_s = 418.879F;  // 4000 rpm
-inline constexpr float feed_mm_s = 20.0F;
 
 inline constexpr int air_samples = 100;
 inline constexpr int settling_samples = 100;  // from contact until each window lies wholly in the cut
@@ -29,16 +27,28 @@ inline constexpr int samples = air_samples + settling_samples + counted_samples;
 
 using bench::machine_and_tool;
 
+struct Cut {
+    const char* name;
+    float spindle_speed_rad_s;
+    float feed_mm_s;  // 0.075 mm per tooth
+    bool widens;  // from start to end, so that no revolution is like the one before
+    int air_samples = instructions::air_samples;
+    int settling_samples = instructions::settling_samples;
+};
+inline constexpr Cut slow_cut{"slow", 131.947F, 6.3F, false, 320, 320};  // 1260 rpm, as Kim & Chung's
+inline constexpr Cut fast_cut{"fast", 418.879F, 20.0F, false};  // 4000 rpm: 15 ticks a revolution
+inline constexpr Cut widening_cut{"widening", 418.879F, 20.0F, true};
+
 /// Sample `index` of a straight cut along +x that begins after `air_samples`.
-inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters) {
+inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters, const Cut& cut = widening_cut) {
     constexpr float tangential_N = 250.0F;
     constexpr float narrow_ratio = -0.75F;  // F_ax/F_at
     constexpr float wide_ratio = -0.2F;
     constexpr float ripple_share = 0.3F;
     const float time_s = static_cast<float>(index) * sample_interval_s;
-    const float turned_rev = time_s * spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
+    const float turned_rev = time_s * cut.spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
     const float tooth_phase_rad = 2.0F * std::numbers::pi_v<float> * teeth * turned_rev;
-    const float load = index < air_samples ? 0.0F : 1.0F + ripple_share * estimation::elementary::sin(tooth_phase_rad);
+    const float load = index < cut.air_samples ? 0.0F : 1.0F + ripple_share * estimation::elementary::sin(tooth_phase_rad);
     const float torque_Nm = load * tangential_N * parameters.tool.diameter_mm * 0.0005F;
 
     hal::DriveSample sample;
@@ -47,20 +57,20 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     sample.present = hal::all_present;
     sample.spindle_current_A =
         (torque_Nm - parameters.machine.spindle.K_t2_Nm) / parameters.machine.spindle.K_t1_Nm_per_A;
-    const float progress = static_cast<float>(index) / static_cast<float>(samples);
+    const float progress = cut.widens ? static_cast<float>(index) / static_cast<float>(samples) : 0.5F;
     const float feed_N = tangential_N * (narrow_ratio + (wide_ratio - narrow_ratio) * progress);
     const auto& x = parameters.machine.axes[0];
-    const float friction_A = x.positive.at(feed_mm_s * 0.06F) + x.K_x3_A;
+    const float friction_A = x.positive.at(cut.feed_mm_s * 0.06F) + x.K_x3_A;
     sample.axis_current_A[0] = friction_A + load * feed_N / x.K_x4_N_per_A;
-    sample.axis_velocity_mm_s[0] = feed_mm_s;
+    sample.axis_velocity_mm_s[0] = cut.feed_mm_s;
     return sample;
 }
 
 /// The air ahead of the cut is a rapid: it teaches the spindle's idle torque and the axis' friction.
-inline hal::ProgramStatus program_at(int index) {
+inline hal::ProgramStatus program_at(int index, const Cut& cut = widening_cut) {
     hal::ProgramStatus program;
-    program.programmed_feed_mm_s = feed_mm_s;
-    program.rapid = index < air_samples;
+    program.programmed_feed_mm_s = cut.feed_mm_s;
+    program.rapid = index < cut.air_samples;
     return program;
 }
 

@@ -1,9 +1,10 @@
-// Counts the instructions of each tick of the synthetic cut, and the stack that they need: with the engagement solved in
+// Counts the instructions of each tick of the synthetic cuts, and the stack that they need: with the engagement solved in
 // portions and without the wide-band methods, as a small processor runs it. To be run with
 // MILLFORCE_ICOUNT=1: one instruction is 128 ns of the emulator's time, 3.2 counts of the SysTick.
 // Prints one line per figure: SCALAR KIND FIGURE VALUE. Exit code 1: the estimator did not find the cut.
 
 #include <cstdint>
+#include <new>
 #include <type_traits>
 
 #include "common/processor.hpp"
@@ -91,19 +92,20 @@ std::uint32_t overhead(const SysTick& timer) {
 std::uint32_t instructions_of(std::uint32_t counts) { return (counts * 10U + 16U) / 32U; }
 
 template <typename Scalar>
-bool count_steps(const char* name) {
+bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& stack) {
     const SysTick timer;
     auto parameters = instructions::machine_and_tool();
     parameters.machine.cnc.solver_values_per_tick = solver_values_per_tick<Scalar>;
-    static Tick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
+    alignas(Tick<Scalar>) static unsigned char memory[sizeof(Tick<Scalar>)];
+    Tick<Scalar>& tick = *new (memory) Tick<Scalar>(firmware::parameters_in<Scalar>(parameters));
     Count all;
     std::uint32_t estimates = 0;
     std::uint32_t with_engagement = 0;
     const std::uint32_t empty = overhead(timer);
-    std::uint32_t stack = 0;
-    for (int index = 0; index < instructions::samples; ++index) {
-        const hal::DriveSample sample = instructions::sample_of(index, parameters);
-        const hal::ProgramStatus program = instructions::program_at(index);
+    const int settled = cut.air_samples + cut.settling_samples;
+    for (int index = 0; index < settled + instructions::counted_samples; ++index) {
+        const hal::DriveSample sample = instructions::sample_of(index, parameters, cut);
+        const hal::ProgramStatus program = instructions::program_at(index, cut);
         const Scalar before_s = tick.estimator().since_period_s();
         board::paint_stack();
         const std::uint32_t untouched = board::untouched_stack_bytes();
@@ -112,7 +114,7 @@ bool count_steps(const char* name) {
         const std::uint32_t counts = SysTick::counts_between(start, timer.now()) - empty;
         const std::uint32_t used = untouched - board::untouched_stack_bytes();
         stack = used > stack ? used : stack;
-        if (index < instructions::air_samples + instructions::settling_samples) {
+        if (index < settled) {
             continue;
         }
         const bool is_new = tick.estimator().since_period_s() < before_s;
@@ -123,14 +125,19 @@ bool count_steps(const char* name) {
         const bool knows = estimate.engagement.immersion_valid && estimate.engagement.depth_valid;
         with_engagement += !is_new && knows ? 1U : 0U;
     }
-    print(name, "tick", all);
-    print(name, "tick", "RAM", sizeof(tick));
-    print(name, "tick", "stack", stack);
+    print(name, cut.name, all);
     return estimates > 0 && with_engagement >= estimates;
 }
 
 }  // namespace
 
 void millforce::board::run_image() {
-    target::exit_emulator(count_steps<MILLFORCE_SCALAR>(MILLFORCE_SCALAR_NAME) ? 0 : 1);
+    bool all_found = true;
+    std::uint32_t stack = 0;
+    for (const auto& cut : {instructions::slow_cut, instructions::fast_cut, instructions::widening_cut}) {
+        all_found = count_steps<MILLFORCE_SCALAR>(MILLFORCE_SCALAR_NAME, cut, stack) && all_found;
+    }
+    print(MILLFORCE_SCALAR_NAME, "tick", "RAM", sizeof(Tick<MILLFORCE_SCALAR>));
+    print(MILLFORCE_SCALAR_NAME, "tick", "stack", stack);
+    target::exit_emulator(all_found ? 0 : 1);
 }
