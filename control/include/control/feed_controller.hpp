@@ -141,7 +141,7 @@ class FeedController {
     void follow_contact(const ControlInput<Scalar>& input) {
         const bool contact = is_in_contact(input.cut);
         const bool lost = has_lost_contact(input.cut);
-        revolutions_in_state_ += input.cut.tooth_periods / parameters_.teeth;
+        periods_in_state_ += input.cut.tooth_periods;
         switch (state_) {
             case CutState::air:
                 if (contact) {
@@ -151,7 +151,7 @@ class FeedController {
             case CutState::entry:
                 if (lost) {
                     go_to(CutState::exit);
-                } else if (revolutions_in_state_ >= parameters_.entry_revolutions &&
+                } else if (periods_in_state_ >= parameters_.entry_revolutions * parameters_.teeth &&
                            travel_in_state_mm_ >= parameters_.entry_travel_mm) {
                     go_to(CutState::in_cut);
                 }
@@ -187,7 +187,7 @@ class FeedController {
         ratio_at_entry_ = state == CutState::entry && !has_cut_ ? Scalar(-1) : ratio_;
         state_ = state;
         travel_in_state_mm_ = Scalar(0);
-        revolutions_in_state_ = Scalar(0);
+        periods_in_state_ = Scalar(0);
     }
 
     void enter_fault(Fault fault) {
@@ -213,8 +213,8 @@ class FeedController {
         }
         const bool over = input.cut.force_valid && input.cut.tooth_force_valid && !input.cut.tooth_force_is_bound &&
                           input.cut.tooth_force_N > parameters_.overload_share * parameters_.tooth_force_limit_N;
-        overload_revolutions_ = over ? overload_revolutions_ + input.cut.tooth_periods / parameters_.teeth : Scalar(0);
-        if (overload_revolutions_ > parameters_.overload_revolutions && !parameters_.monitor_only) {
+        overload_periods_ = over ? overload_periods_ + input.cut.tooth_periods : Scalar(0);
+        if (overload_periods_ > parameters_.overload_revolutions * parameters_.teeth && !parameters_.monitor_only) {
             enter_fault(Fault::overload);
         }
     }
@@ -510,10 +510,10 @@ class FeedController {
     Scalar demand_{0};
     Scalar surface_ceiling_{0};
     Scalar travel_in_state_mm_{0};
-    Scalar revolutions_in_state_{0};
+    Scalar periods_in_state_{0};  // of teeth: counted, a revolution is no sum of rounded shares
     Scalar silent_s_{0};
     Scalar stopped_s_{0};
-    Scalar overload_revolutions_{0};
+    Scalar overload_periods_{0};
     CutTrend<Scalar> trend_{};
     Scalar ratio_before_growth_{0};
     Scalar way_since_estimate_mm_{0};

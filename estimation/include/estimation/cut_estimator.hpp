@@ -40,14 +40,15 @@ class CutEstimator {
         read_whole_engagement();
     }
 
-    /// Adds one sample. Returns true when estimate() is new: with each tooth period.
+    /// Adds one sample. Returns true when estimate() is new: with each tooth period, or as below.
     ///
     /// With solver_values_per_step each call does one piece of work at most, so that none is long: at the end of a tooth
     /// period the tangential force; the axes' forces where they are due (FeedForces); the peaks with the engagement that is
-    /// known; then the estimate is new. One call in between, and what calls are left over, work at the solver. It is taken
-    /// up once a revolution, or as soon as the forces have left those that it was given last; when it is done its tables
-    /// are read, and the peaks worked out anew. Tooth periods that end while another one is in work are in the averages of
-    /// the next.
+    /// known; then the estimate is new. A tooth that loads the spindle as it did a revolution before waits for the
+    /// revolution's end. One call in between, and what calls are left over, work at the solver. It is taken up where the
+    /// forces ask something new, once a revolution or as soon as they have left those of the revolutions before; when it is
+    /// done its tables are read, and the peaks worked out anew. Tooth periods that end while another one is in work are in
+    /// the averages of the next.
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
              const DriveSignals<Scalar>& signals) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);

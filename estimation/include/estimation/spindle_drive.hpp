@@ -49,14 +49,13 @@ class SpindleDrive {
     }
     /// The same for a tool whose newtons per N·m, 1000/R, are known already.
     [[nodiscard]] Measurement<Scalar> force_N(const Average& average, Scalar per_Nm) const {
-        Measurement<Scalar> torque = torque_without_drift_Nm(average);
-        if (!torque.valid) {
+        if (!is_usable(average)) {
             return {};
         }
-        torque.value -= drift_Nm_.value();
-        torque.variance += drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque.value);
-        const Scalar per_Nm2 = square(per_Nm);
-        return {true, torque.value * per_Nm, torque.variance * per_Nm2, torque.noise * per_Nm2};
+        const Scalar torque_Nm = torque_without_drift_Nm(average) - drift_Nm_.value();
+        const Scalar noise = noise_variance(average, per_Nm);
+        const Scalar others = drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque_Nm);
+        return {true, torque_Nm * per_Nm, noise + others * square(per_Nm), noise};
     }
 
     /// Time passes: the drift may have moved.
@@ -65,9 +64,13 @@ class SpindleDrive {
     /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of its
     /// inertia's torque a share is in doubt.
     void rezero(const Average& average) {
-        Measurement<Scalar> torque = torque_without_drift_Nm(average);
-        torque.variance += square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
-        drift_Nm_.correct(torque);
+        if (!is_usable(average)) {
+            drift_Nm_.correct({});
+            return;
+        }
+        const Scalar noise = noise_variance(average, Scalar(1));
+        const Scalar doubt = square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
+        drift_Nm_.correct({true, torque_without_drift_Nm(average), noise + doubt, noise});
     }
 
     /// Two means of the current, each of so many samples, differ by less than three deviations of their noise.
@@ -88,17 +91,22 @@ class SpindleDrive {
     /// Of J dω/dt: what J is off by, and what the slope of an average misses of an acceleration that changes within it.
     static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
 
-    [[nodiscard]] Measurement<Scalar> torque_without_drift_Nm(const Average& average) const {
-        if (!average.present || !(average.samples > Scalar(0)) || !(average.speed_rad_s > Scalar(0))) {
-            return {};
-        }
-        const Scalar constant = torque_constant_Nm_per_A(average.speed_rad_s);
-        const Scalar torque = constant * average.current_A + parameters_.K_t2_Nm -
-                              parameters_.idle_torque_slope_Nm_s * average.speed_rad_s -
-                              parameters_.inertia_kg_m2 * average.acceleration_rad_s2;
-        const Scalar variance = square(constant * parameters_.current_sd_A) / average.samples +
-                                square(parameters_.inertia_kg_m2) * average.acceleration_variance;
-        return {true, torque, variance, variance};
+    [[nodiscard]] static bool is_usable(const Average& average) {
+        return average.present && average.samples > Scalar(0) && average.speed_rad_s > Scalar(0);
+    }
+
+    [[nodiscard]] Scalar torque_without_drift_Nm(const Average& average) const {
+        return torque_constant_Nm_per_A(average.speed_rad_s) * average.current_A + parameters_.K_t2_Nm -
+               parameters_.idle_torque_slope_Nm_s * average.speed_rad_s -
+               parameters_.inertia_kg_m2 * average.acceleration_rad_s2;
+    }
+
+    /// Of the torque times `unit`. The unit goes in before the square: that of a small spindle's torque in N·m, 1e-10, is
+    /// at the end of fixed point's digits.
+    [[nodiscard]] Scalar noise_variance(const Average& average, Scalar unit) const {
+        const Scalar sd = torque_constant_Nm_per_A(average.speed_rad_s) * parameters_.current_sd_A * unit;
+        return square(sd) / average.samples +
+               square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;
     }
 
     SpindleDriveParameters<Scalar> parameters_;
