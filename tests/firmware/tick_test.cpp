@@ -236,6 +236,22 @@ TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period
     CHECK(first < 730 && last >= 1420);  // two revolutions
 }
 
+TEST(Tick, in_small_portions_finds_the_same_cut_again_after_a_gap_in_the_samples) {
+    Parameters small = machine_and_tool();
+    small.machine.cnc.solver_values_per_tick = 6.0F;
+    ForceControlTick<float> tick(small);
+    for (int k = 0; k < 900; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    CHECK(tick.estimate().engagement.immersion_valid);
+    tick.step_without_sample(0.001F, 0.001F, program());
+    CHECK_FALSE(tick.estimate().engagement.immersion_valid);
+    for (int k = 901; k < 1100; ++k) {
+        tick.step(sample_of(k), program());
+    }
+    CHECK(tick.estimate().engagement.immersion_valid);
+}
+
 TEST(Tick, counts_its_heartbeat_up_by_one_with_and_without_a_sample) {
     ForceControlTick<float> tick = fresh_tick();
     std::uint32_t expected = 0;

@@ -95,6 +95,7 @@ class CutEstimator {
         engagement_ = {};
         search_.cancel();
         search_due_ = false;
+        asked_ = {};
         unread_parts_ = parts_of_engagement;
         is_resting_ = false;
     }

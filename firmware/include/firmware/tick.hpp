@@ -40,7 +40,7 @@ class ForceControlTick {
           declared_depth_mm_(parameters.tool.declared_axial_depth_mm),
           reaction_s_(parameters.machine.cnc.override_latency_s) {}
 
-    /// A new drive sample. Cost: accumulation, and once per tooth period the estimate.
+    /// A new drive sample. Cost: accumulation, every 4 ms the law, and once per tooth period the estimate.
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
         const Scalar dt_s = elapsed_s(sample.time_us);
         const estimation::DriveSignals<Scalar> signals = taken_from(sample);
