@@ -128,3 +128,54 @@ TEST(Ceilings, monitor_only_watches_the_cut_all_the_same) {
     stale.time_since_sample_s = 1.0F;
     CHECK(controller.step(stale).hold);
 }
+
+namespace {
+
+/// Each tooth ends an estimate of a window of four teeth; 0.079 mm per tooth.
+Input at_each_tooth(float window_tooth_periods) {
+    Input input = in_contact();
+    input.dt_s = 1.0F / 254.6F;
+    input.cut.window_tooth_periods = window_tooth_periods;
+    return input;
+}
+
+/// Of 10 mm of a cut whose section is another one at each tooth and the same at each revolution.
+int estimates_taken_for_a_fade(float window_tooth_periods) {
+    constexpr float sections_mm2[4] = {18.0F, 20.0F, 18.0F, 15.0F};
+    Controller controller;
+    Input input = at_each_tooth(window_tooth_periods);
+    int fading = 0;
+    for (int k = 0; k < 128; ++k) {
+        input.cut.section_mm2 = sections_mm2[k % 4];
+        fading += controller.step(input).fading ? 1 : 0;
+    }
+    return fading;
+}
+
+/// The section falls by a fifth of 18 mm² per millimetre.
+double way_until_fading_mm(float window_tooth_periods) {
+    Controller controller;
+    Input input = at_each_tooth(window_tooth_periods);
+    input.cut.section_mm2 = 18.0F;
+    repeat(controller, input, 200);
+    double way_mm = 0.0;
+    while (!controller.step(input).fading && way_mm < 4.9) {
+        way_mm += static_cast<double>(input.path_speed_mm_s * input.dt_s);
+        input.cut.section_mm2 = 18.0F * static_cast<float>(1.0 - way_mm / 5.0);
+    }
+    return way_mm;
+}
+
+}  // namespace
+
+TEST(Ceilings, what_repeats_with_each_revolution_is_no_fade) {
+    CHECK(estimates_taken_for_a_fade(1.0F) > 100);
+    LONGS_EQUAL(0, estimates_taken_for_a_fade(4.0F));
+}
+
+TEST(Ceilings, a_fade_is_seen_no_more_than_a_revolution_later_for_it) {
+    const double at_each_tooth_mm = way_until_fading_mm(1.0F);
+    CHECK(at_each_tooth_mm > 0.3);
+    CHECK(at_each_tooth_mm < 0.7);
+    CHECK(way_until_fading_mm(4.0F) - at_each_tooth_mm < 4.0 * 0.08);
+}

@@ -60,6 +60,11 @@ hal::ProgramStatus program() {
     return status;
 }
 
+Parameters in_small_portions(Parameters parameters, float values_per_tick) {
+    parameters.machine.cnc.solver_values_per_tick = values_per_tick;
+    return parameters;
+}
+
 /// So well known that one solution is like the next.
 Parameters well_known_machine() {
     Parameters p = machine_and_tool();
@@ -174,8 +179,7 @@ TEST(Tick, in_small_portions_finds_the_same_cut_even_where_teeth_pass_faster_tha
     for (const float teeth : {4.0F, 12.0F}) {  // a tooth in 3.75 and in 1.25 ticks
         Parameters one_piece = well_known_machine();
         one_piece.tool.teeth = teeth;
-        Parameters small = one_piece;
-        small.machine.cnc.solver_values_per_tick = 6.0F;
+        const Parameters small = in_small_portions(one_piece, 6.0F);
         ForceControlTick<float> at_once(one_piece);
         ForceControlTick<float> in_portions(small);
         for (int k = 0; k < 1500; ++k) {
@@ -193,8 +197,7 @@ TEST(Tick, in_small_portions_finds_the_same_cut_even_where_teeth_pass_faster_tha
 }
 
 TEST(Tick, in_small_portions_learns_as_much_in_air) {
-    Parameters small = machine_and_tool();
-    small.machine.cnc.solver_values_per_tick = 6.0F;
+    const Parameters small = in_small_portions(machine_and_tool(), 6.0F);
     ForceControlTick<float> at_once(machine_and_tool());
     ForceControlTick<float> in_portions(small);
     hal::ProgramStatus rapid = program();
@@ -210,8 +213,7 @@ TEST(Tick, in_small_portions_learns_as_much_in_air) {
 }
 
 TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period) {
-    Parameters small = machine_and_tool();
-    small.machine.cnc.solver_values_per_tick = 1.0F;
+    const Parameters small = in_small_portions(machine_and_tool(), 1.0F);
     ForceControlTick<float> tick(small);
     for (int k = 0; k < 700; ++k) {
         tick.step(sample_of(k), program());
@@ -237,8 +239,7 @@ TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period
 }
 
 TEST(Tick, in_small_portions_finds_the_same_cut_again_after_a_gap_in_the_samples) {
-    Parameters small = machine_and_tool();
-    small.machine.cnc.solver_values_per_tick = 6.0F;
+    const Parameters small = in_small_portions(machine_and_tool(), 6.0F);
     ForceControlTick<float> tick(small);
     for (int k = 0; k < 900; ++k) {
         tick.step(sample_of(k), program());

@@ -8,7 +8,7 @@
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
 
-/// The cuts whose ticks are counted on every processor: down milling in steel along +x after 0.1 s of air, with the tooth's
+/// The cuts whose ticks are counted on every processor: down milling in steel along +x after some revolutions of air, with the tooth's
 /// ripple on the currents. Everything is worked out in float, so that the samples are the same
 /// bits everywhere.
 
@@ -39,7 +39,7 @@ inline constexpr Cut slow_cut{"slow", 131.947F, 6.3F, false, 320, 320};  // 1260
 inline constexpr Cut fast_cut{"fast", 418.879F, 20.0F, false};  // 4000 rpm: 15 ticks a revolution
 inline constexpr Cut widening_cut{"widening", 418.879F, 20.0F, true};
 
-/// Sample `index` of a straight cut along +x that begins after `air_samples`.
+/// Sample `index` of a cut, which begins after its `air_samples`.
 inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters, const Cut& cut = widening_cut) {
     constexpr float tangential_N = 250.0F;
     constexpr float narrow_ratio = -0.75F;  // F_ax/F_at

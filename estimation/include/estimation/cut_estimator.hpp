@@ -108,7 +108,7 @@ class CutEstimator {
             return false;
         }
         air_periods_ = air_periods_ + estimate().tooth_periods;
-        if (air_periods_ < window_.revolutions * static_cast<int>(settings_.teeth)) {
+        if (air_periods_ < window_tooth_periods()) {
             return false;
         }
         air_periods_ = 0;
@@ -160,6 +160,7 @@ class CutEstimator {
     static constexpr int first_velocity = DriveSignals<Scalar>::first_velocity;
     using Averager = SynchronousAverage<Scalar, DriveSignals<Scalar>::channels, first_velocity>;
 
+    [[nodiscard]] int window_tooth_periods() const { return window_.revolutions * static_cast<int>(settings_.teeth); }
     [[nodiscard]] bool in_portions() const { return settings_.solver_values_per_step > 0; }
 
     void predict_drifts() {
@@ -277,7 +278,7 @@ class CutEstimator {
     /// the revolution is not over.
     [[nodiscard]] bool tooth_repeats_itself() const {
         const int since_memory = periods_since_memory_ + periods_ended_;
-        if (since_memory >= window_.revolutions * static_cast<int>(settings_.teeth) || !average_.has_tooth_before()) {
+        if (since_memory >= window_tooth_periods() || !average_.has_tooth_before()) {
             return false;
         }
         const auto tooth = average_.tooth();
@@ -330,10 +331,11 @@ class CutEstimator {
         }
         period_timeout_s_ = Scalar(3) * window_.duration_s + Scalar(0.02F);
         e.window_s = window_.duration_s;
+        e.window_tooth_periods = window_tooth_periods();
         e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
         estimate_tangential(e);
         periods_since_memory_ = periods_since_memory_ + e.tooth_periods;
-        is_new_revolution_ = periods_since_memory_ >= window_.revolutions * static_cast<int>(settings_.teeth);
+        is_new_revolution_ = periods_since_memory_ >= window_tooth_periods();
         const bool has_axes = estimate().window_s > Scalar(0);
         const bool axes_are_due =
             !in_portions() || !has_axes || is_new_revolution_ || !memory_.holds(e.tangential_N);
@@ -435,8 +437,8 @@ class CutEstimator {
         const AverageForceMeasurement<Scalar> blended =
             memory_.blend(forces, e.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution_);
         const bool has_changed = !(memory_.revolutions() > Scalar(1));
-        const bool is_due = search_.done() && (is_new_revolution_ || has_changed) && asks_anything_new(blended, e);
-        if (is_due || !in_portions()) {
+        const bool may_be_asked = search_.done() && (is_new_revolution_ || has_changed);
+        if (!in_portions() || (may_be_asked && asks_anything_new(blended, e))) {
             asked_ = blended;
             asked_.radial_immersion = told_immersion_;
             asked_feed_per_tooth_mm_ = e.feed_per_tooth_mm;
@@ -449,8 +451,7 @@ class CutEstimator {
     [[nodiscard]] bool asks_anything_new(const AverageForceMeasurement<Scalar>& forces, const CutEstimate<Scalar>& e) const {
         const Scalar a_twentieth_mm = static_cast<Scalar>(0.05L) * asked_feed_per_tooth_mm_;
         const Scalar more_feed_mm = e.feed_per_tooth_mm - asked_feed_per_tooth_mm_;
-        const Scalar along = forces.feed_direction_x * asked_.feed_direction_x + forces.feed_direction_y * asked_.feed_direction_y;
-        return told_immersion_.valid || asked_.radial_immersion.valid || !(along > static_cast<Scalar>(0.998L)) ||
+        return told_immersion_.valid || asked_.radial_immersion.valid || !feed_in_one_direction(forces, asked_) ||
                more_feed_mm > a_twentieth_mm || -more_feed_mm > a_twentieth_mm ||
                has_moved(forces.tangential_N, asked_.tangential_N) || has_moved(forces.x_N, asked_.x_N) ||
                has_moved(forces.y_N, asked_.y_N);

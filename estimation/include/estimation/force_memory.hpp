@@ -7,6 +7,14 @@
 
 namespace millforce::estimation {
 
+/// Within 3.6 degrees.
+template <typename Scalar>
+[[nodiscard]] constexpr bool feed_in_one_direction(const AverageForceMeasurement<Scalar>& a,
+                                                   const AverageForceMeasurement<Scalar>& b) {
+    const Scalar along = a.feed_direction_x * b.feed_direction_x + a.feed_direction_y * b.feed_direction_y;
+    return along > static_cast<Scalar>(0.998L);
+}
+
 /// Averages over as many revolutions as the cut stays the same.
 ///
 /// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones. The memory
@@ -86,8 +94,7 @@ class ForceMemory {
     }
 
     [[nodiscard]] Scalar share_of_same_cut(const AverageForceMeasurement<Scalar>& now, Scalar carried) const {
-        const Scalar along = now.feed_direction_x * held_.feed_direction_x + now.feed_direction_y * held_.feed_direction_y;
-        if (!(along > static_cast<Scalar>(0.998L))) {
+        if (!feed_in_one_direction(now, held_)) {
             return Scalar(0);
         }
         const Scalar per_noise = variance_per_noise();

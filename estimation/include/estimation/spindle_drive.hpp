@@ -65,7 +65,6 @@ class SpindleDrive {
     /// inertia's torque a share is in doubt.
     void rezero(const Average& average) {
         if (!is_usable(average)) {
-            drift_Nm_.correct({});
             return;
         }
         const Scalar noise = noise_variance(average, Scalar(1));

@@ -66,10 +66,8 @@ class ForceControlTick {
         since_control_s_ += dt_s;
         control_is_due_ = control_is_due_ || fresh || since_control_s_ > control_interval_s || !is_told(program);
         if (control_is_due_) {
-            set_motion(signals);
-            input_.time_since_sample_s = dt_s;
             input_.cut.fresh = fresh;
-            run_control(program);
+            run_control(signals, program, dt_s);
         }
         return output();
     }
@@ -78,13 +76,11 @@ class ForceControlTick {
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program) {
         estimator_.restart();  // no average reaches over the gap
         set_cut();
-        set_motion({});
         since_control_s_ += Scalar(dt_s);
         input_.cut.fresh = false;
-        input_.time_since_sample_s = Scalar(silent_s);
         input_.surface.valid = false;
         has_time_ = false;
-        run_control(program);
+        run_control({}, program, Scalar(silent_s));
         return output();
     }
 
@@ -269,7 +265,7 @@ class ForceControlTick {
         }
     }
 
-    /// What changes from sample to sample.
+    /// What the controller is told of the present sample.
     void set_motion(const estimation::DriveSignals<Scalar>& signals) {
         using std::sqrt;
         input_.velocity_x_mm_s = signals.velocity_mm_s(0);
@@ -305,6 +301,7 @@ class ForceControlTick {
             cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
         }
         cut.tooth_periods = Scalar(e.tooth_periods);
+        cut.window_tooth_periods = Scalar(e.window_tooth_periods);
         cut.cutting_share = e.cutting_share;
         cut.surge_ratio = e.surge.ratio;
         cut.surge_cutting_share = e.surge.cutting_share;
@@ -325,7 +322,10 @@ class ForceControlTick {
                program.feed_hold == program_.feed_hold;
     }
 
-    void run_control(const hal::ProgramStatus& program) {
+    void run_control(const estimation::DriveSignals<Scalar>& signals, const hal::ProgramStatus& program,
+                     Scalar time_since_sample_s) {
+        set_motion(signals);
+        input_.time_since_sample_s = time_since_sample_s;
         program_ = program;
         input_.dt_s = since_control_s_;
         since_control_s_ = Scalar(0);

@@ -38,7 +38,6 @@ class NoWideBand {
   public:
     static constexpr bool has_force_drops = false;
     explicit NoWideBand(const Parameters<Scalar>&) {}
-    bool add(Scalar, const hal::DriveSample&, bool) { return false; }
     [[nodiscard]] static bool work_due() { return false; }
     void work() {}
     [[nodiscard]] const WideBandEstimate<Scalar>& estimate() const { return estimate_; }
