@@ -23,10 +23,15 @@ Forces forces_of(float tangential_N) {
     return forces;
 }
 
+Forces blended(Memory& memory, Forces forces, float feed = feed_mm_s, bool is_new_revolution = true) {
+    memory.blend(forces, feed, exponent, is_new_revolution);
+    return forces;
+}
+
 Memory with_revolutions(int revolutions) {
     Memory memory;
     for (int k = 0; k < revolutions; ++k) {
-        memory.blend(forces_of(400.0F), feed_mm_s, exponent, true);
+        blended(memory, forces_of(400.0F));
     }
     return memory;
 }
@@ -48,9 +53,9 @@ TEST(ForceMemory, takes_the_noise_out_of_a_cut_that_stays_and_leaves_what_is_com
     Memory memory = with_revolutions(8);
     Forces now = forces_of(400.0F);
     now.tangential_N.value += sd_N;
-    const Forces blended = memory.blend(now, feed_mm_s, exponent, true);
-    DOUBLES_EQUAL(400.0 + 10.0 / 9.0, static_cast<double>(blended.tangential_N.value), 1e-3);
-    DOUBLES_EQUAL(300.0 + 100.0 / 9.0, static_cast<double>(blended.tangential_N.variance), 1e-2);
+    const Forces mean = blended(memory, now);
+    DOUBLES_EQUAL(400.0 + 10.0 / 9.0, static_cast<double>(mean.tangential_N.value), 1e-3);
+    DOUBLES_EQUAL(300.0 + 100.0 / 9.0, static_cast<double>(mean.tangential_N.variance), 1e-2);
     DOUBLES_EQUAL(8.0, static_cast<double>(memory.revolutions()), 1e-6);
 }
 
@@ -58,9 +63,9 @@ TEST(ForceMemory, carries_what_it_holds_to_another_feed) {
     Memory memory = with_revolutions(8);
     const float ratio = 1.5F;
     const Forces now = forces_of(400.0F * std::pow(ratio, exponent));
-    const Forces blended = memory.blend(now, ratio * feed_mm_s, exponent, true);
+    const Forces mean = blended(memory, now, ratio * feed_mm_s);
     DOUBLES_EQUAL(8.0, static_cast<double>(memory.revolutions()), 1e-6);
-    DOUBLES_EQUAL(static_cast<double>(now.x_N.value), static_cast<double>(blended.x_N.value), 0.05);
+    DOUBLES_EQUAL(static_cast<double>(now.x_N.value), static_cast<double>(mean.x_N.value), 0.05);
 }
 
 TEST(ForceMemory, fades_with_disagreement_and_has_no_threshold) {
@@ -86,9 +91,9 @@ TEST(ForceMemory, starts_anew_in_another_cut) {
     Memory blind = with_revolutions(8);
     Forces without_y = forces_of(400.0F);
     without_y.y_N.valid = false;
-    const Forces blended = blind.blend(without_y, feed_mm_s, exponent, false);
+    const Forces mean = blended(blind, without_y, feed_mm_s, false);
     DOUBLES_EQUAL(1.0, static_cast<double>(blind.revolutions()), 1e-6);
-    DOUBLES_EQUAL(400.0, static_cast<double>(blended.tangential_N.value), 1e-6);
+    DOUBLES_EQUAL(400.0, static_cast<double>(mean.tangential_N.value), 1e-6);
 }
 
 TEST(ForceMemory, starts_anew_from_what_is_no_number) {
@@ -96,7 +101,7 @@ TEST(ForceMemory, starts_anew_from_what_is_no_number) {
     Forces broken = forces_of(400.0F);
     broken.x_N.value = std::nanf("");
     memory.blend(broken, feed_mm_s, exponent, false);
-    const Forces sound = memory.blend(forces_of(400.0F), feed_mm_s, exponent, true);
+    const Forces sound = blended(memory, forces_of(400.0F));
     DOUBLES_EQUAL(-400.0, static_cast<double>(sound.x_N.value), 1e-3);
 }
 

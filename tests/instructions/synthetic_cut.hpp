@@ -34,13 +34,17 @@ struct Cut {
     bool widens;  // from start to end, so that no revolution is like the one before
     int air_samples = instructions::air_samples;
     int settling_samples = instructions::settling_samples;
+
+    [[nodiscard]] constexpr int samples() const { return air_samples + settling_samples + counted_samples; }
 };
 inline constexpr Cut slow_cut{"slow", 131.947F, 6.3F, false, 320, 320};  // 1260 rpm, as Kim & Chung's
 inline constexpr Cut fast_cut{"fast", 418.879F, 20.0F, false};  // 4000 rpm: 15 ticks a revolution
-inline constexpr Cut widening_cut{"widening", 418.879F, 20.0F, true};
+inline constexpr Cut slow_widening_cut{"slow_widening", 131.947F, 6.3F, true, 320, 320};
+inline constexpr Cut fast_widening_cut{"fast_widening", 418.879F, 20.0F, true};
+inline constexpr Cut cuts[] = {slow_cut, fast_cut, slow_widening_cut, fast_widening_cut};
 
 /// Sample `index` of a cut, which begins after its `air_samples`.
-inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters, const Cut& cut = widening_cut) {
+inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters, const Cut& cut = fast_widening_cut) {
     constexpr float tangential_N = 250.0F;
     constexpr float narrow_ratio = -0.75F;  // F_ax/F_at
     constexpr float wide_ratio = -0.2F;
@@ -57,7 +61,7 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     sample.present = hal::all_present;
     sample.spindle_current_A =
         (torque_Nm - parameters.machine.spindle.K_t2_Nm) / parameters.machine.spindle.K_t1_Nm_per_A;
-    const float progress = cut.widens ? static_cast<float>(index) / static_cast<float>(samples) : 0.5F;
+    const float progress = cut.widens ? static_cast<float>(index) / static_cast<float>(cut.samples()) : 0.5F;
     const float feed_N = tangential_N * (narrow_ratio + (wide_ratio - narrow_ratio) * progress);
     const auto& x = parameters.machine.axes[0];
     const float friction_A = x.positive.at(cut.feed_mm_s * 0.06F) + x.K_x3_A;
@@ -67,7 +71,7 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
 }
 
 /// The air ahead of the cut is a rapid: it teaches the spindle's idle torque and the axis' friction.
-inline hal::ProgramStatus program_at(int index, const Cut& cut = widening_cut) {
+inline hal::ProgramStatus program_at(int index, const Cut& cut = fast_widening_cut) {
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = cut.feed_mm_s;
     program.rapid = index < cut.air_samples;

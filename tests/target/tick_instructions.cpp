@@ -134,7 +134,7 @@ bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& 
 void millforce::board::run_image() {
     bool all_found = true;
     std::uint32_t stack = 0;
-    for (const auto& cut : {instructions::slow_cut, instructions::fast_cut, instructions::widening_cut}) {
+    for (const auto& cut : instructions::cuts) {
         all_found = count_steps<MILLFORCE_SCALAR>(MILLFORCE_SCALAR_NAME, cut, stack) && all_found;
     }
     print(MILLFORCE_SCALAR_NAME, "tick", "RAM", sizeof(Tick<MILLFORCE_SCALAR>));

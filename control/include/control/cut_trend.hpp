@@ -9,10 +9,10 @@
 ///
 ///   S̄ ← S̄ + (S − S̄) s/(s + L),   falling: S < S̄ (1 − 8 %) − 2 σ_S,   rising: S > S̄ (1 + 8 %) + 2 σ_S
 ///
-/// s: way since the window before, which shares no tooth with this one; L = 1 mm the length of the memory: a change of
-/// some 8 % per mm is the slowest that counts, and a ramp in depth is none. The cut is fading from a fall until a way of L
-/// has been without. A fall by more than a fifth at once is a step: the memory starts anew behind it. The cut is growing
-/// from a rise that follows on a calm way of L/4 until the next such way. S in any unit, s in mm. Not thread-safe.
+/// s: way since the last estimate, L = 1 mm the length of the memory: a change of some 8 % per mm is the slowest that
+/// counts, and a ramp in depth is none. The cut is fading from a fall until a way of L has been without. A fall by
+/// more than a fifth at once is a step: the memory starts anew behind it. The cut is growing from a rise that follows on a
+/// calm way of L/4 until the next such way. S in any unit, s in mm. Not thread-safe.
 
 namespace millforce::control {
 

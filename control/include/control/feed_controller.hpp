@@ -229,7 +229,7 @@ class FeedController {
     }
 
     void watch_turns(const ControlInput<Scalar>& input) {
-        way_since_trend_mm_ += way_mm_;
+        way_since_estimate_mm_ += way_mm_;
         follow_tooth_period(input.cut.spindle_speed_rad_s);
         const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s, path_speed_mm_s_, way_mm_,
                                           ratio_, input.programmed_feed_mm_s, tooth_period_s_});
@@ -387,8 +387,6 @@ class FeedController {
         if (state_ == CutState::air || state_ == CutState::exit) {
             demand_ = parameters_.override_max;
             trend_.clear();
-            periods_since_trend_ = Scalar(0);
-            way_since_trend_mm_ = Scalar(0);
             return;
         }
         const bool usable = cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
@@ -397,7 +395,11 @@ class FeedController {
                             is_finite(cut.surge_ratio) && is_finite(cut.surge_cutting_share);
         if (cut.fresh && usable) {
             set_demand(input);
-            follow_section(cut);
+            trend_.update(cut.section_mm2, cut.section_noise_mm2, way_since_estimate_mm_);
+            way_since_estimate_mm_ = Scalar(0);
+            if (state_ != CutState::in_cut) {
+                trend_.forget_growth();  // an entry has its own ceiling
+            }
         }
         if (!usable || !cut.tooth_force_valid) {
             wish.cap(ratio_, Limit::no_estimate);
@@ -408,20 +410,6 @@ class FeedController {
         cap_in_surge(wish);
         wish.cap(demand_, demand_limit_);
         cap_after_turn(wish, input, usable);
-    }
-
-    /// The trend compares windows that begin with the same tooth: what differs within a revolution, as by run-out, is none.
-    /// Nor do two of them share their noise.
-    void follow_section(const CutEstimateForControl<Scalar>& cut) {
-        periods_since_trend_ += cut.tooth_periods;
-        if (periods_since_trend_ >= cut.window_tooth_periods) {
-            trend_.update(cut.section_mm2, cut.section_noise_mm2, way_since_trend_mm_);
-            periods_since_trend_ = Scalar(0);
-            way_since_trend_mm_ = Scalar(0);
-        }
-        if (state_ != CutState::in_cut) {
-            trend_.forget_growth();  // an entry has its own ceiling
-        }
     }
 
     /// The surge that may come is under way: the feed that was to meet it holds until it is over.
@@ -528,8 +516,7 @@ class FeedController {
     Scalar overload_periods_{0};
     CutTrend<Scalar> trend_{};
     Scalar ratio_before_growth_{0};
-    Scalar way_since_trend_mm_{0};
-    Scalar periods_since_trend_{0};
+    Scalar way_since_estimate_mm_{0};
     PathTurn<Scalar> turn_{};
     Scalar turn_travel_left_mm_{0};
     Scalar turn_demand_{0};

@@ -43,7 +43,6 @@ template <typename Scalar>
 struct CutEstimateForControl {
     bool fresh = false;
     Scalar tooth_periods{1};  ///< that have ended since the estimate before
-    Scalar window_tooth_periods{1};  ///< that the averages are of
     bool force_valid = false;          ///< the spindle's F_at is there
     Scalar tangential_N{0};            ///< F_at over the last tooth period or window, the larger counts
     Scalar tangential_sd_N{0};

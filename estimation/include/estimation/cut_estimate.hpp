@@ -59,7 +59,6 @@ struct FeedForces {
 template <typename Scalar>
 struct CutEstimate : FeedForces<Scalar> {
     int tooth_periods = 0;  ///< that have ended since the estimate before
-    int window_tooth_periods = 0;  ///< that the averages are of: whole revolutions
     Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
     Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
     EngagementEstimate<Scalar> engagement{};

@@ -53,7 +53,6 @@ class CutEstimator {
              const DriveSignals<Scalar>& signals) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
         since_period_s_ += dt_s;
-        since_prediction_s_ += dt_s;
         if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
             reading.event == EncoderEvent::index_slipped || reading.event == EncoderEvent::index_found) {
             average_.restart();
@@ -62,18 +61,20 @@ class CutEstimator {
         }
         const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values, signals.present);
         if (completed > 0) {
+            since_prediction_s_ += since_period_s_;
             since_period_s_ = Scalar(0);
             periods_ended_ += completed;
         }
         if (in_portions()) {
+            if (completed == 0 && is_resting_) {
+                has_closed_ = false;
+                return false;
+            }
             // Closing a period is work as well; where every call closes one, it can be no reason to wait.
             const bool closes_one = completed > 0 && !has_closed_;
             has_closed_ = completed > 0;
-            is_resting_ = is_resting_ && completed == 0;
-            if (is_resting_ || (closes_one && stage_ != Stage::idle)) {
-                return false;
-            }
-            return work_on(closes_one);
+            is_resting_ = false;
+            return closes_one && stage_ != Stage::idle ? false : work_on(closes_one);
         }
         if (completed > 0) {
             work_at_once();
@@ -108,7 +109,7 @@ class CutEstimator {
             return false;
         }
         air_periods_ = air_periods_ + estimate().tooth_periods;
-        if (air_periods_ < window_tooth_periods()) {
+        if (air_periods_ < window_.tooth_periods) {
             return false;
         }
         air_periods_ = 0;
@@ -160,7 +161,6 @@ class CutEstimator {
     static constexpr int first_velocity = DriveSignals<Scalar>::first_velocity;
     using Averager = SynchronousAverage<Scalar, DriveSignals<Scalar>::channels, first_velocity>;
 
-    [[nodiscard]] int window_tooth_periods() const { return window_.revolutions * static_cast<int>(settings_.teeth); }
     [[nodiscard]] bool in_portions() const { return settings_.solver_values_per_step > 0; }
 
     void predict_drifts() {
@@ -194,18 +194,18 @@ class CutEstimator {
     using SpindleAverage = typename SpindleDrive<Scalar>::Average;
     [[nodiscard]] SpindleAverage spindle_average(const typename Averager::Window& window) const {
         SpindleAverage spindle;
-        set_spindle(spindle, window);
+        set_spindle(spindle, window, window.spindle_speed_rad_s);
         spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
-        // Two half-windows, each bounded by two counts of ± half a count (variance 1/12 each).
-        const Scalar half_s = halved(window.duration_s);
+        // Two means of the speed, each bounded by two counts of ± half a count (variance 1/12 each).
+        const Scalar speed_s2 = window.speed_mean_s * window.speeds_apart_s;
         spindle.acceleration_variance =
-            half_s > Scalar(0) ? square(count_rad_ / square(half_s)) * static_cast<Scalar>(0.33L) : Scalar(0);
+            speed_s2 > Scalar(0) ? square(count_rad_ / speed_s2) * static_cast<Scalar>(0.33L) : Scalar(0);
         return spindle;
     }
     /// What is not common to a window and its last tooth period.
-    static void set_spindle(SpindleAverage& spindle, const typename Averager::Average& average) {
+    static void set_spindle(SpindleAverage& spindle, const typename Averager::Means& average, Scalar speed_rad_s) {
         spindle.current_A = average.mean[0];
-        spindle.speed_rad_s = average.spindle_speed_rad_s;
+        spindle.speed_rad_s = speed_rad_s;
         spindle.samples = average.samples;
         spindle.present = (average.present & 1U) != 0U;
     }
@@ -278,10 +278,10 @@ class CutEstimator {
     /// the revolution is not over.
     [[nodiscard]] bool tooth_repeats_itself() const {
         const int since_memory = periods_since_memory_ + periods_ended_;
-        if (since_memory >= window_tooth_periods() || !average_.has_tooth_before()) {
+        if (since_memory >= window_.tooth_periods || !average_.has_tooth_before()) {
             return false;
         }
-        const auto tooth = average_.tooth();
+        const auto& tooth = average_.tooth();
         const auto& before = average_.tooth_before();
         return (tooth.present & before.present & 1U) != 0U &&
                spindle_.differs_by_noise(tooth.mean[0], before.mean[0], tooth.samples);
@@ -331,11 +331,10 @@ class CutEstimator {
         }
         period_timeout_s_ = Scalar(3) * window_.duration_s + Scalar(0.02F);
         e.window_s = window_.duration_s;
-        e.window_tooth_periods = window_tooth_periods();
         e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
         estimate_tangential(e);
         periods_since_memory_ = periods_since_memory_ + e.tooth_periods;
-        is_new_revolution_ = periods_since_memory_ >= window_tooth_periods();
+        is_new_revolution_ = periods_since_memory_ >= window_.tooth_periods;
         const bool has_axes = estimate().window_s > Scalar(0);
         const bool axes_are_due =
             !in_portions() || !has_axes || is_new_revolution_ || !memory_.holds(e.tangential_N);
@@ -351,7 +350,7 @@ class CutEstimator {
         }
         SpindleAverage spindle = spindle_average(window_);
         e.tangential_N = spindle_.force_N(spindle, per_Nm_);
-        set_spindle(spindle, average_.tooth());
+        set_spindle(spindle, average_.tooth(), average_.tooth_speed_rad_s());
         e.tooth_tangential_N = spindle_.force_N(spindle, per_Nm_);
     }
 
@@ -434,12 +433,11 @@ class CutEstimator {
         forces.feed_direction_x = direction_x_;
         forces.feed_direction_y = direction_y_;
         periods_since_memory_ = is_new_revolution_ ? 0 : periods_since_memory_;
-        const AverageForceMeasurement<Scalar> blended =
-            memory_.blend(forces, e.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution_);
+        memory_.blend(forces, e.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution_);
         const bool has_changed = !(memory_.revolutions() > Scalar(1));
         const bool may_be_asked = search_.done() && (is_new_revolution_ || has_changed);
-        if (!in_portions() || (may_be_asked && asks_anything_new(blended, e))) {
-            asked_ = blended;
+        if (!in_portions() || (may_be_asked && asks_anything_new(forces, e))) {
+            asked_ = forces;
             asked_.radial_immersion = told_immersion_;
             asked_feed_per_tooth_mm_ = e.feed_per_tooth_mm;
             search_due_ = in_portions();
@@ -467,7 +465,7 @@ class CutEstimator {
 
     // What each sample touches comes first: near the object's start an access is one instruction.
     Scalar since_period_s_{0};
-    Scalar since_prediction_s_{0};
+    Scalar since_prediction_s_{0};  // of the drifts, to the end of the last tooth period
     Scalar period_timeout_s_{0};  // 0: no window
     int periods_ended_ = 0;       // that no estimate has taken up
     bool has_closed_ = false;     // the last call closed a tooth period

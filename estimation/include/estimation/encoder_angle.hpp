@@ -34,7 +34,9 @@ template <typename Scalar>
 class EncoderAngle {
   public:
     explicit EncoderAngle(std::uint32_t counts_per_rev = 4096)
-        : counts_per_rev_(counts_per_rev), rev_per_count_(Scalar(1) / static_cast<Scalar>(counts_per_rev)) {}
+        : counts_per_rev_(counts_per_rev),
+          too_many_(static_cast<std::int32_t>(counts_per_rev / 20U * 9U)),
+          rev_per_count_(Scalar(1) / static_cast<Scalar>(counts_per_rev)) {}
 
     void reset() { started_ = false; }
 
@@ -49,8 +51,7 @@ class EncoderAngle {
             return reading;
         }
         const auto turned = static_cast<std::int32_t>(count - last_count_);
-        const auto limit = static_cast<std::int32_t>(counts_per_rev_ / 20U * 9U);
-        if (turned >= limit || turned <= -limit) {
+        if (turned >= too_many_ || turned <= -too_many_) {
             reading.event = EncoderEvent::too_fast;
             last_count_ = count;
         } else if (turned > 0) {
@@ -66,7 +67,6 @@ class EncoderAngle {
         if (index_number != last_index_number_) {
             take_index(index_count, index_number, reading);
         }
-        keep_zero_near();
         reading.angle_rev = angle_rev(last_count_);
         return reading;
     }
@@ -85,12 +85,6 @@ class EncoderAngle {
         zero_count_ = index_count;
     }
 
-    /// Without an index the zero follows by whole revolutions, so that the 32-bit difference never wraps.
-    void keep_zero_near() {
-        if (last_count_ - zero_count_ < 0x80000000U) {
-            zero_count_ += (last_count_ - zero_count_) / counts_per_rev_ * counts_per_rev_;
-        }
-    }
 
     /// (difference mod 2³²) mod counts_per_rev, read as a signed difference so that a zero ahead of the count works.
     [[nodiscard]] std::uint32_t modulo(std::uint32_t difference) const {
@@ -99,11 +93,17 @@ class EncoderAngle {
         return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
     }
 
-    [[nodiscard]] Scalar angle_rev(std::uint32_t count) const {
-        return static_cast<Scalar>(modulo(count - zero_count_)) * rev_per_count_;
+    Scalar angle_rev(std::uint32_t count) {
+        std::uint32_t since_zero = count - zero_count_;
+        if (since_zero >= counts_per_rev_) {
+            since_zero = modulo(since_zero);
+            zero_count_ = count - since_zero;  // so near that the 32-bit difference never wraps
+        }
+        return static_cast<Scalar>(since_zero) * rev_per_count_;
     }
 
     std::uint32_t counts_per_rev_;
+    std::int32_t too_many_;  // counts between two readings: 0.45 revolutions
     Scalar rev_per_count_;
     std::uint32_t last_count_ = 0;
     std::uint32_t zero_count_ = 0;

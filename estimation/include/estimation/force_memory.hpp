@@ -25,30 +25,27 @@ template <typename Scalar>
 template <typename Scalar>
 class ForceMemory {
   public:
-    /// The present forces, averaged with what the memory holds of the same cut. `is_new_revolution`: these forces share
+    /// Averages the present forces with what the memory holds of the same cut. `is_new_revolution`: these forces share
     /// no sample with those remembered last, and are remembered. `exponent`: m.
-    AverageForceMeasurement<Scalar> blend(const AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent,
-                                          bool is_new_revolution) {
+    void blend(AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent, bool is_new_revolution) {
         const Scalar carried = revolutions_ > Scalar(0) ? carried_by(feed_mm_s_, feed_mm_s, exponent) : Scalar(1);
         if (revolutions_ > Scalar(0)) {
             revolutions_ *= share_of_same_cut(now, carried);
         }
         if (revolutions_ < forgotten_revolutions) {
             remember(now, feed_mm_s, Scalar(1));
-            return now;
+            return;
         }
         carry(carried);
         feed_mm_s_ = feed_mm_s;
-        AverageForceMeasurement<Scalar> mixed = now;
         const Scalar share = Scalar(1) / (revolutions_ + Scalar(1));
-        mix(mixed.tangential_N, held_.tangential_N, share);
-        mix(mixed.x_N, held_.x_N, share);
-        mix(mixed.y_N, held_.y_N, share);
+        mix(now.tangential_N, held_.tangential_N, share);
+        mix(now.x_N, held_.x_N, share);
+        mix(now.y_N, held_.y_N, share);
         if (is_new_revolution) {
             const Scalar most = static_cast<Scalar>(longest_revolutions);
-            remember(mixed, feed_mm_s, revolutions_ + Scalar(1) < most ? revolutions_ + Scalar(1) : most);
+            remember(now, feed_mm_s, revolutions_ + Scalar(1) < most ? revolutions_ + Scalar(1) : most);
         }
-        return mixed;
     }
 
     /// The tangential force tells of no change: it agrees with a memory of two revolutions or more, as it is.

@@ -36,60 +36,60 @@ class SynchronousAverage {
         Scalar duration_s{0};
         Scalar samples{0};
     };
-    struct Average : Means {
-        Scalar spindle_speed_rad_s{0};
-    };
 
     /// The last whole revolutions, and how the spindle and the signals changed across them.
-    struct Window : Average {
-        Scalar spindle_acceleration_rad_s2{0};
+    struct Window : Means {
+        Scalar spindle_speed_rad_s{0};
+        Scalar spindle_acceleration_rad_s2{0};  ///< from two means of the speed, of the same teeth where they have been seen
+        Scalar speed_mean_s{0};                 ///< the time of each of the two
+        Scalar speeds_apart_s{0};               ///< from middle to middle
         Slopes slope_per_s = Slopes::Zero();  ///< of each signal from FirstSlope on: newer half against older half
         int revolutions = 0;                    ///< 0: not enough has been seen since the last start
+        int tooth_periods = 0;                  ///< of them
     };
 
     explicit SynchronousAverage(const Settings& settings = {})
         : settings_(settings), pitch_rev_(Scalar(1) / Scalar(settings.teeth)) {}
 
     void restart() {
-        periods_seen_ = 0;
+        available_ = 0;
         has_previous_ = false;
         period_is_whole_ = false;
+        sum_.setZero();
         clear_period();
     }
 
     /// Adds one sample. `turned_rev` since the last sample (0 ≤ turned < 0.45), `angle_rev` after it (0…1).
     /// Returns how many tooth periods were completed (0 or more).
     int add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
-        if (has_previous_ && gap_is_too_long(dt_s, turned_rev)) {
-            restart();
+        if (has_previous_ && dt_s != previous_dt_s_) {
+            take_interval(dt_s, turned_rev);
         }
         if (!has_previous_) {
+            has_previous_ = true;
             to_boundary_rev_ = pitch_rev_ - offset_in_pitch(angle_rev);
             remember(signals, present);
             return 0;
         }
         int completed = 0;
-        if (turned_rev < to_boundary_rev_) {
+        if (turned_rev < to_boundary_rev_ || !(turned_rev > Scalar(0))) {
             to_boundary_rev_ -= turned_rev;  // counted on; the angle itself is asked at each boundary
             accumulate_whole(dt_s, turned_rev, present);
         } else {
             completed = cross_boundaries(dt_s, turned_rev, angle_rev, signals, present);
         }
-        previous_dt_s_ = dt_s;
         remember(signals, present);
         return completed;
     }
 
     /// The tooth period that ended last. Valid after add() returned at least 1 since the last start.
-    [[nodiscard]] Average tooth() const {
-        const Means& last = periods_[last_index()];
-        return {last, two_pi * pitch_rev_ / last.duration_s};
-    }
-    [[nodiscard]] bool has_tooth() const { return periods_seen_ > 0; }
+    [[nodiscard]] const Means& tooth() const { return at(0); }
+    [[nodiscard]] Scalar tooth_speed_rad_s() const { return two_pi * pitch_rev_ / tooth().duration_s; }
+    [[nodiscard]] bool has_tooth() const { return available_ > 0; }
 
     /// The same tooth in the revolution before. Valid after more periods than teeth since the last start.
     [[nodiscard]] const Means& tooth_before() const { return at(settings_.teeth); }
-    [[nodiscard]] bool has_tooth_before() const { return available() > settings_.teeth; }
+    [[nodiscard]] bool has_tooth_before() const { return available_ > settings_.teeth; }
 
     /// The newest whole revolutions that hold at least min_samples. Cost: linear in the periods of the window.
     [[nodiscard]] Window window() const {
@@ -101,7 +101,7 @@ class SynchronousAverage {
         int count = 0;
         Scalar samples{0};
         int wanted = 0;
-        while (wanted == 0 && count + settings_.teeth <= available()) {
+        while (wanted == 0 && count + settings_.teeth <= available_) {
             for (int k = 0; k < settings_.teeth; ++k) {
                 samples += at(count + k).samples;
             }
@@ -116,32 +116,35 @@ class SynchronousAverage {
         }
         sum_up(wanted, window);
         window.revolutions = wanted / settings_.teeth;
+        window.tooth_periods = wanted;
     }
 
   private:
+    /// An interval in which a tooth boundary lies, or several.
     int cross_boundaries(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
         int completed = 0;
         Scalar remaining_rev = turned_rev;
         Scalar used_share{0};
-        while (turned_rev > Scalar(0) && remaining_rev >= to_boundary_rev_) {
+        while (true) {
             const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
             const Scalar share = used_share + step_rev / turned_rev;
             const Weights weights = weights_of(used_share, share, turned_rev);
             sum_ += previous_signals_ * (pending_rev_ + weights.previous_rev) + signals * weights.present_rev;
-            pending_rev_ = Scalar(0);
             add_interval(share - used_share, (share - used_share) * dt_s, step_rev, present);
+            completed += close_period();
             used_share = share;
             remaining_rev -= step_rev;
-            completed += close_period();
             to_boundary_rev_ = pitch_rev_;
+            if (remaining_rev < pitch_rev_) {
+                break;
+            }
+            sum_.setZero();
         }
-        to_boundary_rev_ = distance_to_boundary(angle_rev, to_boundary_rev_ - remaining_rev);
-        if (used_share < Scalar(1)) {
-            const Weights weights = weights_of(used_share, Scalar(1), turned_rev);
-            sum_ += previous_signals_ * (pending_rev_ + weights.previous_rev);
-            pending_rev_ = weights.present_rev;
-            add_interval(Scalar(1) - used_share, (Scalar(1) - used_share) * dt_s, remaining_rev, present);
-        }
+        to_boundary_rev_ = distance_to_boundary(angle_rev, pitch_rev_ - remaining_rev);
+        const Weights weights = weights_of(used_share, Scalar(1), turned_rev);
+        sum_ = previous_signals_ * weights.previous_rev;
+        pending_rev_ = weights.present_rev;
+        add_interval(Scalar(1) - used_share, (Scalar(1) - used_share) * dt_s, remaining_rev, present);
         return completed;
     }
 
@@ -156,10 +159,15 @@ class SynchronousAverage {
         return {part_rev - present_rev, present_rev};
     }
 
-    [[nodiscard]] bool gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
-        if (dt_s == previous_dt_s_) {
-            return false;
+    void take_interval(Scalar dt_s, Scalar turned_rev) {
+        if (gap_is_too_long(dt_s, turned_rev)) {
+            restart();
+        } else {
+            previous_dt_s_ = dt_s;
         }
+    }
+
+    [[nodiscard]] bool gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
         if (!(dt_s > Scalar(0)) || dt_s > settings_.max_gap_s) {
             return true;
         }
@@ -188,7 +196,6 @@ class SynchronousAverage {
     }
 
     void remember(const Signals& signals, std::uint32_t present) {
-        has_previous_ = true;
         previous_signals_ = signals;
         previous_present_ = present;
     }
@@ -213,12 +220,13 @@ class SynchronousAverage {
     int close_period() {
         int completed = 0;
         if (period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0)) {
-            Means& period = periods_[periods_seen_ % MaxPeriods];
+            newest_ = newest_ + 1 < MaxPeriods ? newest_ + 1 : 0;
+            Means& period = periods_[newest_];
             period.mean = sum_ * (Scalar(1) / turned_rev_);
             period.present = present_;
             period.duration_s = duration_s_;
             period.samples = samples_;
-            periods_seen_ = periods_seen_ + 1U == 2U * MaxPeriods ? MaxPeriods : periods_seen_ + 1U;
+            available_ = available_ < MaxPeriods ? available_ + 1 : MaxPeriods;
             completed = 1;
         }
         period_is_whole_ = true;
@@ -227,7 +235,6 @@ class SynchronousAverage {
     }
 
     void clear_period() {
-        sum_.setZero();
         turned_rev_ = Scalar(0);
         duration_s_ = Scalar(0);
         samples_ = Scalar(0);
@@ -265,17 +272,37 @@ class SynchronousAverage {
         window.samples = samples;
         window.duration_s = duration_s;
         const Scalar pitch_rad = two_pi * pitch_rev_;
-        const Scalar half_rad = Scalar(half) * pitch_rad;
         window.spindle_speed_rad_s = Scalar(count) * pitch_rad / duration_s;
         const Scalar apart_s = duration_s - halved(newer_duration_s + older_duration_s);
         if (apart_s > Scalar(0)) {
-            window.spindle_acceleration_rad_s2 =
-                (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
             window.slope_per_s = (newer - older) * (Scalar(1) / (Scalar(half) * apart_s));
         } else {
-            window.spindle_acceleration_rad_s2 = Scalar(0);
             window.slope_per_s.setZero();
         }
+        const int quarter = count > 4 ? count / 4 : 1;
+        if (count + quarter <= available_) {
+            const Scalar last_s = duration_of(0, quarter);
+            const Scalar before_s = duration_of(count, quarter);
+            set_acceleration(window, Scalar(quarter) * pitch_rad, last_s, before_s, duration_s + halved(before_s - last_s));
+        } else {
+            set_acceleration(window, Scalar(half) * pitch_rad, newer_duration_s, older_duration_s, apart_s);
+        }
+    }
+
+    /// The spindle turned by `angle_rad` in either of two times.
+    static void set_acceleration(Window& window, Scalar angle_rad, Scalar newer_s, Scalar older_s, Scalar apart_s) {
+        window.speed_mean_s = halved(newer_s + older_s);
+        window.speeds_apart_s = apart_s;
+        window.spindle_acceleration_rad_s2 =
+            apart_s > Scalar(0) ? (angle_rad / newer_s - angle_rad / older_s) / apart_s : Scalar(0);
+    }
+
+    [[nodiscard]] Scalar duration_of(int first, int count) const {
+        Scalar duration_s{0};
+        for (int k = first; k < first + count; ++k) {
+            duration_s += at(k).duration_s;
+        }
+        return duration_s;
     }
 
     template <typename Sum>
@@ -285,13 +312,9 @@ class SynchronousAverage {
         }
     }
 
-    [[nodiscard]] std::size_t last_index() const { return (periods_seen_ - 1U) % MaxPeriods; }
-    [[nodiscard]] int available() const {
-        return periods_seen_ < MaxPeriods ? static_cast<int>(periods_seen_) : MaxPeriods;
-    }
     /// The period that ended `back` periods before the last one.
     [[nodiscard]] const Means& at(int back) const {
-        return periods_[(periods_seen_ - 1U - static_cast<std::uint32_t>(back)) % MaxPeriods];
+        return periods_[newest_ >= back ? newest_ - back : newest_ - back + MaxPeriods];
     }
 
     /// What a sum of shares may fall short of a whole number of samples by, by rounding and by the encoder's counts.
@@ -300,7 +323,8 @@ class SynchronousAverage {
 
     Settings settings_;
     Scalar pitch_rev_;
-    std::uint32_t periods_seen_ = 0;  // kept in [0, 2·MaxPeriods): the ring's place, and whether it is full
+    int available_ = 0;  // periods in the ring
+    int newest_ = 0;     // its place
 
     Signals sum_ = Signals::Zero();
     Scalar turned_rev_{0};

@@ -40,7 +40,7 @@ class ForceControlTick {
           declared_depth_mm_(parameters.tool.declared_axial_depth_mm),
           reaction_s_(parameters.machine.cnc.override_latency_s) {}
 
-    /// A new drive sample. Cost: accumulation, every 4 ms the law, and once per tooth period the estimate.
+    /// A new drive sample. Cost: accumulation, every 5 ms the law, and once per tooth period the estimate.
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
         const Scalar dt_s = elapsed_s(sample.time_us);
         const estimation::DriveSignals<Scalar> signals = taken_from(sample);
@@ -64,8 +64,7 @@ class ForceControlTick {
             set_cut();
         }
         since_control_s_ += dt_s;
-        control_is_due_ = control_is_due_ || fresh || since_control_s_ > control_interval_s || !is_told(program);
-        if (control_is_due_) {
+        if (control_is_due_ || fresh || since_control_s_ > control_interval_s || !is_told(program)) {
             input_.cut.fresh = fresh;
             run_control(signals, program, dt_s);
         }
@@ -175,20 +174,29 @@ class ForceControlTick {
     /// Since the last sample; 0 for the first one and where the clock went backwards.
     Scalar elapsed_s(std::uint32_t time_us) {
         const auto elapsed_us = static_cast<std::int32_t>(time_us - last_time_us_);
-        const bool forward = has_time_ && elapsed_us > 0;
         last_time_us_ = time_us;
-        has_time_ = true;
-        return forward ? static_cast<Scalar>(elapsed_us) * static_cast<Scalar>(1e-6L) : Scalar(0);
+        if (!has_time_) {
+            has_time_ = true;
+            return Scalar(0);
+        }
+        return elapsed_us > 0 ? static_cast<Scalar>(elapsed_us) * static_cast<Scalar>(1e-6L) : Scalar(0);
     }
 
+    static constexpr unsigned all_drives = hal::all_present & ~hal::mask(hal::Present::spindle_count);
+
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
-        constexpr unsigned all_drives = hal::all_present & ~hal::mask(hal::Present::spindle_count);
         const auto& [x_A, y_A, z_A] = sample.axis_current_A;
         const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
         if ((sample.present & all_drives) != all_drives ||
             !hal::all_finite(sample.spindle_current_A, x_A, y_A, z_A, x_mm_s, y_mm_s, z_mm_s)) {
             return partly_taken_from(sample);
         }
+        return wholly_taken_from(sample);
+    }
+
+    static estimation::DriveSignals<Scalar> wholly_taken_from(const hal::DriveSample& sample) {
+        const auto& [x_A, y_A, z_A] = sample.axis_current_A;
+        const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
         estimation::DriveSignals<Scalar> signals;
         signals.present = all_drives >> 1U;
         signals.values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s),
@@ -301,7 +309,6 @@ class ForceControlTick {
             cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
         }
         cut.tooth_periods = Scalar(e.tooth_periods);
-        cut.window_tooth_periods = Scalar(e.window_tooth_periods);
         cut.cutting_share = e.cutting_share;
         cut.surge_ratio = e.surge.ratio;
         cut.surge_cutting_share = e.surge.cutting_share;
@@ -347,9 +354,9 @@ class ForceControlTick {
         return output;
     }
 
-    /// A CNC takes an override up every few milliseconds, and no axis follows it faster. A little less than four of a
-    /// kilohertz' samples, so that the fourth is the one.
-    static constexpr Scalar control_interval_s = static_cast<Scalar>(0.0035L);
+    /// A CNC takes an override up every few milliseconds, and no axis follows it faster. A little less than five of a
+    /// kilohertz' samples, so that the fifth is the one.
+    static constexpr Scalar control_interval_s = static_cast<Scalar>(0.0045L);
 
     // What each sample touches comes first: near the object's start an access is one instruction.
     control::ControlInput<Scalar> input_{};

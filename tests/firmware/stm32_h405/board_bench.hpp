@@ -52,7 +52,7 @@ class BoardBench {
             const auto sample = millforce::instructions::sample_of(cut_index++, parameters);
             currents_A = {sample.spindle_current_A, sample.axis_current_A[0], sample.axis_current_A[1],
                           sample.axis_current_A[2]};
-            x_count += millforce::instructions::widening_cut.feed_mm_s * 1e-3F / wiring.axes[0].mm_per_count;
+            x_count += millforce::instructions::fast_widening_cut.feed_mm_s * 1e-3F / wiring.axes[0].mm_per_count;
             run_period();
         }
     }
