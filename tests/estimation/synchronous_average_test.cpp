@@ -207,6 +207,18 @@ TEST(SynchronousAverage, takes_what_the_spindle_swings_by_once_a_revolution_for_
     }
 }
 
+TEST(SynchronousAverage, never_takes_the_acceleration_for_exact) {
+    Average average({.teeth = 1, .min_samples = 4.0F});
+    int windows = 0;
+    for (int k = 0; k < 60; ++k) {
+        average.add(1e-3F, 0.04F, std::fmod(0.04F * static_cast<float>(k + 1), 1.0F), Average::Signals::Zero(), 3U);
+        const auto window = average.window();
+        windows += window.revolutions > 0 ? 1 : 0;
+        CHECK(window.revolutions == 0 || window.speed_mean_s * window.speeds_apart_s > 0.0F);
+    }
+    CHECK(windows > 0 && windows < 20);  // the first one
+}
+
 TEST(SynchronousAverage, knows_the_noise_of_the_acceleration_by_the_encoders_counts) {
     for (const int teeth : {1, 2, 3, 4, 5, 8, 12}) {
         double sum = 0.0;

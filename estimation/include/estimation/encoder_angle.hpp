@@ -85,7 +85,6 @@ class EncoderAngle {
         zero_count_ = index_count;
     }
 
-
     /// (difference mod 2³²) mod counts_per_rev, read as a signed difference so that a zero ahead of the count works.
     [[nodiscard]] std::uint32_t modulo(std::uint32_t difference) const {
         const auto period = static_cast<std::int32_t>(counts_per_rev_);

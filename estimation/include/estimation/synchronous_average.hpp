@@ -285,7 +285,9 @@ class SynchronousAverage {
             const Scalar before_s = duration_of(count, quarter);
             set_acceleration(window, Scalar(quarter) * pitch_rad, last_s, before_s, duration_s + halved(before_s - last_s));
         } else {
-            set_acceleration(window, Scalar(half) * pitch_rad, newer_duration_s, older_duration_s, apart_s);
+            // Of one tooth there is no second speed: no acceleration, and known no better than for two a window apart.
+            set_acceleration(window, Scalar(half) * pitch_rad, newer_duration_s, older_duration_s,
+                             apart_s > Scalar(0) ? apart_s : duration_s);
         }
     }
 
@@ -293,8 +295,7 @@ class SynchronousAverage {
     static void set_acceleration(Window& window, Scalar angle_rad, Scalar newer_s, Scalar older_s, Scalar apart_s) {
         window.speed_mean_s = halved(newer_s + older_s);
         window.speeds_apart_s = apart_s;
-        window.spindle_acceleration_rad_s2 =
-            apart_s > Scalar(0) ? (angle_rad / newer_s - angle_rad / older_s) / apart_s : Scalar(0);
+        window.spindle_acceleration_rad_s2 = (angle_rad / newer_s - angle_rad / older_s) / apart_s;
     }
 
     [[nodiscard]] Scalar duration_of(int first, int count) const {
