@@ -74,7 +74,10 @@ class CutEstimator {
             const bool closes_one = completed > 0 && !has_closed_;
             has_closed_ = completed > 0;
             is_resting_ = false;
-            return closes_one && stage_ != Stage::idle ? false : work_on(closes_one);
+            if (closes_one && stage_ != Stage::idle) {
+                return false;
+            }
+            return work_on(closes_one);
         }
         if (completed > 0) {
             work_at_once();
