@@ -145,7 +145,7 @@ TEST(SynchronousAverage, sees_the_spindle_accelerate) {
         average.add(1e-3F, static_cast<float>(step), static_cast<float>(rev - std::floor(rev)),
                     Average::Signals::Zero(), 3U);
     }
-    DOUBLES_EQUAL(5.0 * 2.0 * std::numbers::pi, static_cast<double>(average.window().spindle_acceleration_rad_s2), 3.0);
+    DOUBLES_EQUAL(5.0 * 2.0 * std::numbers::pi, static_cast<double>(average.window().acceleration.rad_s2), 3.0);
 }
 
 TEST(SynchronousAverage, slopes_are_worked_out_from_the_first_signal_that_asks_for_one) {
@@ -200,8 +200,8 @@ TEST(SynchronousAverage, takes_what_the_spindle_swings_by_once_a_revolution_for_
         // 1 % once a revolution at 21 revolutions per second: up to 170 rad/s².
         turn(teeth, 0.123, 40.0, swinging, [](const Average::Window& window) {
             const double count_rad = 2.0 * std::numbers::pi / 4096.0;
-            const double sd = std::sqrt(0.33) * count_rad / static_cast<double>(window.speed_mean_s * window.speeds_apart_s);
-            DOUBLES_EQUAL(0.0, static_cast<double>(window.spindle_acceleration_rad_s2), 3.5 * sd);
+            const double sd = std::sqrt(0.33) * count_rad / static_cast<double>(window.acceleration.speed_mean_s * window.acceleration.speeds_apart_s);
+            DOUBLES_EQUAL(0.0, static_cast<double>(window.acceleration.rad_s2), 3.5 * sd);
             CHECK(3.5 * sd < 40.0);
         });
     }
@@ -214,7 +214,7 @@ TEST(SynchronousAverage, never_takes_the_acceleration_for_exact) {
         average.add(1e-3F, 0.04F, std::fmod(0.04F * static_cast<float>(k + 1), 1.0F), Average::Signals::Zero(), 3U);
         const auto window = average.window();
         windows += window.revolutions > 0 ? 1 : 0;
-        CHECK(window.revolutions == 0 || window.speed_mean_s * window.speeds_apart_s > 0.0F);
+        CHECK(window.revolutions == 0 || window.acceleration.speed_mean_s * window.acceleration.speeds_apart_s > 0.0F);
     }
     CHECK(windows > 0 && windows < 20);  // the first one
 }
@@ -228,8 +228,8 @@ TEST(SynchronousAverage, knows_the_noise_of_the_acceleration_by_the_encoders_cou
             const double revs_per_s = 17.0 + 0.1317 * run;
             turn(teeth, 0.37 * run, 8.0, [&](double) { return revs_per_s; }, [&](const Average::Window& window) {
                 const double count_rad = 2.0 * std::numbers::pi / 4096.0;
-                const double sd = std::sqrt(0.33) * count_rad / static_cast<double>(window.speed_mean_s * window.speeds_apart_s);
-                const double deviations = static_cast<double>(window.spindle_acceleration_rad_s2) / sd;
+                const double sd = std::sqrt(0.33) * count_rad / static_cast<double>(window.acceleration.speed_mean_s * window.acceleration.speeds_apart_s);
+                const double deviations = static_cast<double>(window.acceleration.rad_s2) / sd;
                 sum += deviations;
                 sum2 += deviations * deviations;
                 ++windows;
