@@ -145,7 +145,7 @@ TEST(SynchronousAverage, sees_the_spindle_accelerate) {
         average.add(1e-3F, static_cast<float>(step), static_cast<float>(rev - std::floor(rev)),
                     Average::Signals::Zero(), 3U);
     }
-    DOUBLES_EQUAL(5.0 * 2.0 * std::numbers::pi, static_cast<double>(average.window().acceleration.rad_s2), 3.0);
+    DOUBLES_EQUAL(5.0 * 2.0 * std::numbers::pi, static_cast<double>(average.window().spindle_acceleration_rad_s2), 3.0);
 }
 
 TEST(SynchronousAverage, slopes_are_worked_out_from_the_first_signal_that_asks_for_one) {
@@ -165,78 +165,4 @@ TEST(SynchronousAverage, slopes_are_worked_out_from_the_first_signal_that_asks_f
     LONGS_EQUAL(1, window.slope_per_s.size());
     DOUBLES_EQUAL(rate_per_s, static_cast<double>(window.slope_per_s[0]), 0.01 * rate_per_s);
     DOUBLES_EQUAL(42.0, static_cast<double>(window.mean[0]), 1e-3);
-}
-
-namespace {
-
-/// Counts of an encoder with 4096 a revolution, sampled at 1 kHz, of a spindle at `speed(rev)` revolutions per second.
-template <typename Speed, typename Seen>
-void turn(int teeth, double start_rev, double revolutions, Speed speed, Seen seen) {
-    constexpr double counts_per_rev = 4096.0;
-    constexpr int steps = 50;
-    Average average({.teeth = teeth, .min_samples = 12.0F});
-    double rev = start_rev;
-    double last_count = std::floor(rev * counts_per_rev);
-    while (rev < start_rev + revolutions) {
-        for (int k = 0; k < steps; ++k) {
-            rev += speed(rev) * 1e-3 / steps;
-        }
-        const double count = std::floor(rev * counts_per_rev);
-        const double angle_rev = count / counts_per_rev;
-        const int ended = average.add(1e-3F, static_cast<float>((count - last_count) / counts_per_rev),
-                                      static_cast<float>(angle_rev - std::floor(angle_rev)), Average::Signals::Zero(), 3U);
-        last_count = count;
-        if (ended > 0 && rev > start_rev + 3.0) {
-            seen(average.window());
-        }
-    }
-}
-
-}  // namespace
-
-TEST(SynchronousAverage, takes_what_the_spindle_swings_by_once_a_revolution_for_no_acceleration) {
-    for (const int teeth : {2, 3, 4, 6, 12}) {
-        const auto swinging = [](double rev) { return 21.0 * (1.0 + 0.01 * std::sin(2.0 * std::numbers::pi * rev)); };
-        // 1 % once a revolution at 21 revolutions per second: up to 170 rad/s².
-        turn(teeth, 0.123, 40.0, swinging, [](const Average::Window& window) {
-            const double count_rad = 2.0 * std::numbers::pi / 4096.0;
-            const double sd = std::sqrt(0.33) * count_rad / static_cast<double>(window.acceleration.speed_mean_s * window.acceleration.speeds_apart_s);
-            DOUBLES_EQUAL(0.0, static_cast<double>(window.acceleration.rad_s2), 3.5 * sd);
-            CHECK(3.5 * sd < 40.0);
-        });
-    }
-}
-
-TEST(SynchronousAverage, never_takes_the_acceleration_for_exact) {
-    Average average({.teeth = 1, .min_samples = 4.0F});
-    int windows = 0;
-    for (int k = 0; k < 60; ++k) {
-        average.add(1e-3F, 0.04F, std::fmod(0.04F * static_cast<float>(k + 1), 1.0F), Average::Signals::Zero(), 3U);
-        const auto window = average.window();
-        windows += window.revolutions > 0 ? 1 : 0;
-        CHECK(window.revolutions == 0 || window.acceleration.speed_mean_s * window.acceleration.speeds_apart_s > 0.0F);
-    }
-    CHECK(windows > 0 && windows < 20);  // the first one
-}
-
-TEST(SynchronousAverage, knows_the_noise_of_the_acceleration_by_the_encoders_counts) {
-    for (const int teeth : {1, 2, 3, 4, 5, 8, 12}) {
-        double sum = 0.0;
-        double sum2 = 0.0;
-        int windows = 0;
-        for (int run = 0; run < 60; ++run) {
-            const double revs_per_s = 17.0 + 0.1317 * run;
-            turn(teeth, 0.37 * run, 8.0, [&](double) { return revs_per_s; }, [&](const Average::Window& window) {
-                const double count_rad = 2.0 * std::numbers::pi / 4096.0;
-                const double sd = std::sqrt(0.33) * count_rad / static_cast<double>(window.acceleration.speed_mean_s * window.acceleration.speeds_apart_s);
-                const double deviations = static_cast<double>(window.acceleration.rad_s2) / sd;
-                sum += deviations;
-                sum2 += deviations * deviations;
-                ++windows;
-            });
-        }
-        DOUBLES_EQUAL(0.0, sum / windows, 0.1);
-        CHECK(std::sqrt(sum2 / windows) < 1.1);
-        CHECK(std::sqrt(sum2 / windows) > 0.6);
-    }
 }

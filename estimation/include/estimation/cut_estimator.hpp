@@ -118,8 +118,7 @@ class CutEstimator {
         air_periods_ = 0;
         const bool has_window = air_window_.revolutions > 0;
         if (has_window) {
-            // In air run-out loads no tooth, and what a start of the spindle leaves a moment late would be learnt as drift.
-            spindle_.rezero(spindle_average(air_window_, air_window_.centred_acceleration));
+            spindle_.rezero(spindle_average(air_window_));
             for (std::size_t k = 0; k < axes_.size(); ++k) {
                 axes_[k].rezero(axis_average(air_window_, k));
             }
@@ -196,15 +195,14 @@ class CutEstimator {
     }
 
     using SpindleAverage = typename SpindleDrive<Scalar>::Average;
-    [[nodiscard]] SpindleAverage spindle_average(const typename Averager::Window& window,
-                                                 const typename Averager::Acceleration& acceleration) const {
+    [[nodiscard]] SpindleAverage spindle_average(const typename Averager::Window& window) const {
         SpindleAverage spindle;
         set_spindle(spindle, window, window.spindle_speed_rad_s);
-        spindle.acceleration_rad_s2 = acceleration.rad_s2;
-        // Two means of the speed, each bounded by two counts of ± half a count (variance 1/12 each).
-        const Scalar speed_s2 = acceleration.speed_mean_s * acceleration.speeds_apart_s;
+        spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
+        // Two half-windows, each bounded by two counts of ± half a count (variance 1/12 each).
+        const Scalar half_s = halved(window.duration_s);
         spindle.acceleration_variance =
-            speed_s2 > Scalar(0) ? square(count_rad_ / speed_s2) * static_cast<Scalar>(0.33L) : Scalar(0);
+            half_s > Scalar(0) ? square(count_rad_ / square(half_s)) * static_cast<Scalar>(0.33L) : Scalar(0);
         return spindle;
     }
     /// What is not common to a window and its last tooth period.
@@ -353,7 +351,7 @@ class CutEstimator {
         if (!(per_Nm_ > Scalar(0))) {
             return;
         }
-        SpindleAverage spindle = spindle_average(window_, window_.acceleration);
+        SpindleAverage spindle = spindle_average(window_);
         e.tangential_N = spindle_.force_N(spindle, per_Nm_);
         set_spindle(spindle, average_.tooth(), average_.tooth_speed_rad_s());
         e.tooth_tangential_N = spindle_.force_N(spindle, per_Nm_);

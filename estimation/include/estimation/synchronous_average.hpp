@@ -37,18 +37,10 @@ class SynchronousAverage {
         Scalar samples{0};
     };
 
-    /// Of the spindle, from two means of its speed.
-    struct Acceleration {
-        Scalar rad_s2{0};
-        Scalar speed_mean_s{0};    ///< the time of each of the two
-        Scalar speeds_apart_s{0};  ///< from middle to middle
-    };
-
     /// The last whole revolutions, and how the spindle and the signals changed across them.
     struct Window : Means {
         Scalar spindle_speed_rad_s{0};
-        Acceleration acceleration{};          ///< of the same teeth where they have been seen: blind to run-out, an eighth of a window late
-        Acceleration centred_acceleration{};  ///< of the window's halves: on time, and off by what run-out swings the spindle
+        Scalar spindle_acceleration_rad_s2{0};
         Slopes slope_per_s = Slopes::Zero();  ///< of each signal from FirstSlope on: newer half against older half
         int revolutions = 0;                    ///< 0: not enough has been seen since the last start
         int tooth_periods = 0;                  ///< of them
@@ -278,37 +270,17 @@ class SynchronousAverage {
         window.samples = samples;
         window.duration_s = duration_s;
         const Scalar pitch_rad = two_pi * pitch_rev_;
+        const Scalar half_rad = Scalar(half) * pitch_rad;
         window.spindle_speed_rad_s = Scalar(count) * pitch_rad / duration_s;
         const Scalar apart_s = duration_s - halved(newer_duration_s + older_duration_s);
         if (apart_s > Scalar(0)) {
+            window.spindle_acceleration_rad_s2 =
+                (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
             window.slope_per_s = (newer - older) * (Scalar(1) / (Scalar(half) * apart_s));
         } else {
+            window.spindle_acceleration_rad_s2 = Scalar(0);
             window.slope_per_s.setZero();
         }
-        // Of one tooth there is no second speed: no acceleration, and known no better than for two a window apart.
-        window.centred_acceleration = acceleration_of(Scalar(half) * pitch_rad, newer_duration_s, older_duration_s,
-                                                      apart_s > Scalar(0) ? apart_s : duration_s);
-        window.acceleration = window.centred_acceleration;
-        const int quarter = count > 4 ? count / 4 : 1;
-        if (count + quarter <= available_) {
-            const Scalar last_s = duration_of(0, quarter);
-            const Scalar before_s = duration_of(count, quarter);
-            window.acceleration = acceleration_of(Scalar(quarter) * pitch_rad, last_s, before_s,
-                                                  duration_s + halved(before_s - last_s));
-        }
-    }
-
-    /// The spindle turned by `angle_rad` in either of two times.
-    static Acceleration acceleration_of(Scalar angle_rad, Scalar newer_s, Scalar older_s, Scalar apart_s) {
-        return {(angle_rad / newer_s - angle_rad / older_s) / apart_s, halved(newer_s + older_s), apart_s};
-    }
-
-    [[nodiscard]] Scalar duration_of(int first, int count) const {
-        Scalar duration_s{0};
-        for (int k = first; k < first + count; ++k) {
-            duration_s += at(k).duration_s;
-        }
-        return duration_s;
     }
 
     template <typename Sum>
