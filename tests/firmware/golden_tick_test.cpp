@@ -53,7 +53,7 @@ std::string table_of_the_cut() {
     firmware::ForceControlTick<Scalar> tick(firmware::parameters_in<Scalar>(parameters));
     std::string table = header;
     constexpr int interval = 10;
-    for (int sample = 0; sample < instructions::samples; ++sample) {
+    for (int sample = 0; sample < instructions::fast_widening_cut.samples(); ++sample) {
         tick.step(instructions::sample_of(sample, parameters), instructions::program_at(sample));
         if (sample % interval == 0) {
             table += row_of(sample, tick);

@@ -8,9 +8,8 @@
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
 
-/// The cuts whose ticks are counted on every processor: down milling in steel along +x after some revolutions of air, with the tooth's
-/// ripple on the currents. Everything is worked out in float, so that the samples are the same
-/// bits everywhere.
+/// The cuts whose ticks are counted on every processor: down milling in steel along +x after some revolutions of air, with
+/// the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same bits everywhere.
 
 namespace millforce::instructions {
 
@@ -23,7 +22,6 @@ inline constexpr std::uint32_t sample_interval_us = 1000;
 inline constexpr int air_samples = 100;
 inline constexpr int settling_samples = 100;  // from contact until each window lies wholly in the cut
 inline constexpr int counted_samples = 300;
-inline constexpr int samples = air_samples + settling_samples + counted_samples;
 
 using bench::machine_and_tool;
 

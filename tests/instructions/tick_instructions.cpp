@@ -26,7 +26,7 @@ int main() {
     ForceControlTick<float> tick(parameters);
     int estimating = 0;
     int with_engagement = 0;
-    for (int index = 0; index < samples; ++index) {
+    for (int index = 0; index < instructions::fast_widening_cut.samples(); ++index) {
         const hal::DriveSample sample = sample_of(index, parameters);
         const hal::ProgramStatus program = program_at(index);
         const bool counted = index >= air_samples + settling_samples;

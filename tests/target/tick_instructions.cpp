@@ -103,7 +103,7 @@ bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& 
     std::uint32_t with_engagement = 0;
     const std::uint32_t empty = overhead(timer);
     const int settled = cut.air_samples + cut.settling_samples;
-    for (int index = 0; index < settled + instructions::counted_samples; ++index) {
+    for (int index = 0; index < cut.samples(); ++index) {
         const hal::DriveSample sample = instructions::sample_of(index, parameters, cut);
         const hal::ProgramStatus program = instructions::program_at(index, cut);
         const Scalar before_s = tick.estimator().since_period_s();
