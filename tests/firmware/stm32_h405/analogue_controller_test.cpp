@@ -79,7 +79,7 @@ TEST(AnalogueController, a_cut_is_estimated_and_answered_as_by_the_tick_alone) {
     BoardBench::AnalogueController::Tick alone(board.parameters);
     bool was_in_cut = false;
     bool was_solved = false;
-    for (int k = 0; k < instructions::samples; ++k) {
+    for (int k = 0; k < instructions::fast_widening_cut.samples(); ++k) {
         board.run_cut(1);
         const hal::FeedOverride expected = alone.step(board.controller->sample(), {});
         CHECK_EQUAL(expected.ratio, board.controller->output().ratio);
