@@ -47,8 +47,10 @@ TEST(EngagementTable, tells_the_forces_of_the_closed_law) {
                 DOUBLES_EQUAL(exact.per_ln_r_1.feed_N / scale, told.feed_per_ln_r_1_N / scale, bound);
                 DOUBLES_EQUAL(exact.per_ln_r_1.normal_N / scale, told.normal_per_ln_r_1_N / scale, bound);
                 DOUBLES_EQUAL(exact.per_ln_K_s.tangential_N / scale, told.cutting_tangential_N / scale, bound);
-                DOUBLES_EQUAL(1.0, table.ln_K_s_variance(told) / exact.coefficients.ln_K_s_variance, 0.002);
-                DOUBLES_EQUAL(1.0, table.ln_r_1_variance(told) / exact.coefficients.ln_r_1_variance, 0.002);
+                const double ln_K_s_variance = table.doubt_of_K_s().variance_at(told.ln_t_in_references);
+                const double ln_r_1_variance = table.doubt_of_r_1().variance_at(told.ln_t_in_references);
+                DOUBLES_EQUAL(1.0, ln_K_s_variance / exact.coefficients.ln_K_s_variance, 0.002);
+                DOUBLES_EQUAL(1.0, ln_r_1_variance / exact.coefficients.ln_r_1_variance, 0.002);
             }
         }
     }

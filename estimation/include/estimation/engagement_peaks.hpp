@@ -138,8 +138,8 @@ class EngagementPeaks {
         if (!(feed_per_tooth_mm > Scalar(0))) {
             return Scalar(0);
         }
-        const Scalar shallower_mm =
-            depth_mm_ * (Scalar(1) - sqrt(table.ln_K_s_variance(here_node_, feed_per_tooth_mm)));
+        const Scalar variance = table.doubt_of_K_s().variance_at(table.ln_t_in_references(here_node_, feed_per_tooth_mm));
+        const Scalar shallower_mm = depth_mm_ * (Scalar(1) - sqrt(variance));
         return factor(side_, now_, shallower_mm) - factors_.now;
     }
 

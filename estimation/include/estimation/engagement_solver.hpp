@@ -96,6 +96,34 @@ class EngagementSolver {
         }
     }
 
+  private:
+    /// What all values of J have in common.
+    struct Question {
+        typename Table::Feed feed{};
+        Scalar tangential_N{0};
+        Scalar tangential_weight{0};
+        Scalar x_N{0};
+        Scalar x_variance{0};  // with the law's, without r_1's, which depends on the immersion
+        Scalar y_N{0};
+        Scalar y_variance{0};
+        Scalar feed_direction_x{1};
+        Scalar feed_direction_y{0};
+        typename Table::Doubt K_s{};
+        typename Table::Doubt r_1{};
+        bool has_x = false;
+        bool has_y = false;
+        Measurement<Scalar> radial_immersion{};
+    };
+
+    /// One value of the profile: the depth that fits best at an immersion, and how badly it fits.
+    struct Profile {
+        Scalar misfit{0};
+        Scalar depth_mm{0};
+        Scalar information{0};  // Σ w g²: inverse variance of the depth at this immersion
+        Scalar ln_t_in_references{0};
+    };
+
+  public:
     /// A solution in work. Not thread-safe.
     class Search {
       public:
@@ -114,10 +142,7 @@ class EngagementSolver {
         enum class Phase : unsigned char { scan, refine, interval, depth_at_low, depth_at_high, depth, done };
         enum class Point : unsigned char { low, middle, high, candidate };
 
-        AverageForceMeasurement<Scalar> forces_{};
-        typename Table::Feed feed_{};
-        Scalar tangential_weight_{0};
-        Scalar law_variance_{0};
+        Question question_{};
         EngagementEstimate<Scalar> estimate_{};
         EngagementEstimate<Scalar> down_{};
         CutSide asked_ = CutSide::unknown;
@@ -127,11 +152,7 @@ class EngagementSolver {
         std::array<Scalar, static_cast<std::size_t>(Nodes)> J_{};
         std::size_t node_ = 0;
         std::size_t best_node_ = 0;
-        struct {
-            Scalar misfit{0};
-            Scalar depth_mm{0};
-            Scalar information{0};
-        } best_{};
+        Profile best_{};
         Scalar centre_rad_{0};
         Scalar width_rad_{0};
         Scalar middle_rad_{0};
@@ -147,23 +168,20 @@ class EngagementSolver {
     /// better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the same immersion.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                CutSide side) const {
-        search.forces_ = forces;
         search.asked_ = side;
         search.estimate_ = {};
         search.estimate_.side = side == CutSide::unknown ? CutSide::down : side;
         search.phase_ = Search::Phase::done;
         if (is_solvable(forces, feed_per_tooth_mm)) {
-            search.feed_ = tables_[0].feed(feed_per_tooth_mm);
-            search.tangential_weight_ = Scalar(1) / forces.tangential_N.variance;
-            search.law_variance_ = square(settings_.law_relative_sd * forces.tangential_N.value);
+            search.question_ = question_of(forces, feed_per_tooth_mm);
             begin_side(search, search.estimate_.side);
         }
     }
 
     /// At most so many values of J; true when the estimate is there.
     bool advance(Search& search, int values) const {
-        for (; values > 0 && !search.done(); --values) {
-            step(search);
+        while (values > 0 && !search.done()) {
+            values -= search.scanning() ? scan(search, values) : step(search);
         }
         return search.done();
     }
@@ -190,13 +208,6 @@ class EngagementSolver {
     static constexpr Scalar threshold_of_95_percent = static_cast<Scalar>(3.84L);
     static constexpr int rounds_for_curvature = 2;
     static constexpr int rounds = 3;  // narrower parabolas see the rounding of float and the table's grain
-
-    /// One value of the profile: the depth that fits best at an immersion, and how badly it fits.
-    struct Profile {
-        Scalar misfit{0};
-        Scalar depth_mm{0};
-        Scalar information{0};  // Σ w g²: inverse variance of the depth at this immersion
-    };
 
     [[nodiscard]] Table& table_of(CutSide side) { return tables_[side == CutSide::up ? 1 : 0]; }
 
@@ -227,10 +238,31 @@ class EngagementSolver {
         s.phase_ = Search::Phase::scan;
     }
 
-    void step(Search& s) const {
+    [[nodiscard]] Question question_of(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const {
+        const Scalar law_variance = square(settings_.law_relative_sd * forces.tangential_N.value);
+        Question q;
+        q.feed = tables_[0].feed(feed_per_tooth_mm);
+        q.tangential_N = forces.tangential_N.value;
+        q.tangential_weight = Scalar(1) / forces.tangential_N.variance;
+        q.x_N = forces.x_N.value;
+        q.x_variance = forces.x_N.variance + law_variance;
+        q.y_N = forces.y_N.value;
+        q.y_variance = forces.y_N.variance + law_variance;
+        q.feed_direction_x = forces.feed_direction_x;
+        q.feed_direction_y = forces.feed_direction_y;
+        q.K_s = tables_[0].doubt_of_K_s();
+        q.r_1 = tables_[0].doubt_of_r_1();
+        q.has_x = forces.x_N.valid;
+        q.has_y = forces.y_N.valid;
+        q.radial_immersion = forces.radial_immersion;
+        return q;
+    }
+
+    /// One of the steps behind the scan. Returns how many values of J it took, at most.
+    int step(Search& s) const {
         switch (s.phase_) {
             case Search::Phase::scan:
-                scan(s);
+            case Search::Phase::done:
                 break;
             case Search::Phase::refine:
                 refine(s);
@@ -251,87 +283,99 @@ class EngagementSolver {
                 fill_depth(s);
                 end_side(s);
                 break;
-            case Search::Phase::done:
-                break;
         }
+        return 1;
     }
 
     [[nodiscard]] Profile profile_at(const Search& s, Scalar theta_rad) const {
-        return profile_of(s, table(s.side_).at(theta_rad, s.feed_), theta_rad);
+        return profile_of(s.question_, table(s.side_).at(theta_rad, s.question_.feed), theta_rad);
     }
 
-    [[nodiscard]] Profile profile_of(const Search& s, const typename Table::Forces& model, Scalar theta_rad) const {
+    [[nodiscard]] Profile profile_of(const Question& q, const typename Table::Forces& model, Scalar theta_rad) const {
         using elementary::cos;
-        const AverageForceMeasurement<Scalar>& forces = s.forces_;
-        const Scalar ln_r_1_variance = table(s.side_).ln_r_1_variance(model);
-        const Scalar t_x = forces.feed_direction_x;
-        const Scalar t_y = forces.feed_direction_y;
+        const Scalar ln_r_1_variance = q.r_1.variance_at(model.ln_t_in_references);
+        const Scalar t_x = q.feed_direction_x;
+        const Scalar t_y = q.feed_direction_y;
         // The doubt in r_1 acts along the feed and across it at once; its size per F_at is known at each immersion.
-        const Scalar per_F_at = forces.tangential_N.value / model.tangential_N;
+        const Scalar per_F_at = q.tangential_N / model.tangential_N;
         const Scalar along = per_F_at * model.feed_per_ln_r_1_N;
         const Scalar across = per_F_at * model.normal_per_ln_r_1_N;
-        const Scalar var_x =
-            forces.x_N.variance + s.law_variance_ + square(t_x * along - t_y * across) * ln_r_1_variance;
-        const Scalar var_y =
-            forces.y_N.variance + s.law_variance_ + square(t_y * along + t_x * across) * ln_r_1_variance;
+        const Scalar var_x = q.x_variance + square(t_x * along - t_y * across) * ln_r_1_variance;
+        const Scalar var_y = q.y_variance + square(t_y * along + t_x * across) * ln_r_1_variance;
         const Scalar g_x = t_x * model.feed_N - t_y * model.normal_N;
         const Scalar g_y = t_y * model.feed_N + t_x * model.normal_N;
-        const Scalar w_t = s.tangential_weight_;
-        const Scalar w_x = forces.x_N.valid ? Scalar(1) / var_x : Scalar(0);
-        const Scalar w_y = forces.y_N.valid ? Scalar(1) / var_y : Scalar(0);
+        const Scalar w_t = q.tangential_weight;
+        const Scalar w_x = q.has_x ? Scalar(1) / var_x : Scalar(0);
+        const Scalar w_y = q.has_y ? Scalar(1) / var_y : Scalar(0);
         // A depth that is told bounds what the forces leave open. K_s and depth act on all forces as one factor, so the
         // factor is known as well as both are.
         const Scalar declared = settings_.declared_depth_mm;
         Scalar declared_weight{0};
         if (declared > Scalar(0)) {
-            const Scalar relative_variance =
-                square(settings_.declared_depth_relative_sd) + table(s.side_).ln_K_s_variance(model);
+            const Scalar relative_variance = square(settings_.declared_depth_relative_sd) +
+                                             q.K_s.variance_at(model.ln_t_in_references);
             declared_weight = Scalar(1) / (square(declared) * relative_variance);
         }
         const Scalar wt_gt = w_t * model.tangential_N;
         const Scalar wx_gx = w_x * g_x;
         const Scalar wy_gy = w_y * g_y;
         Profile profile;
+        profile.ln_t_in_references = model.ln_t_in_references;
         profile.information =
             wt_gt * model.tangential_N + wx_gx * g_x + wy_gy * g_y + declared_weight;
-        const Scalar wmg = wt_gt * forces.tangential_N.value + wx_gx * forces.x_N.value + wy_gy * forces.y_N.value +
-                           declared_weight * declared;
+        const Scalar wmg = wt_gt * q.tangential_N + wx_gx * q.x_N + wy_gy * q.y_N + declared_weight * declared;
         profile.depth_mm = wmg > Scalar(0) ? wmg / profile.information : Scalar(0);
         const Scalar a_p = profile.depth_mm;
-        profile.misfit = w_t * square(forces.tangential_N.value - a_p * model.tangential_N) +
-                         declared_weight * square(a_p - declared);
-        if (forces.x_N.valid) {
-            profile.misfit += w_x * square(forces.x_N.value - a_p * g_x);
+        profile.misfit =
+            w_t * square(q.tangential_N - a_p * model.tangential_N) + declared_weight * square(a_p - declared);
+        if (q.has_x) {
+            profile.misfit += w_x * square(q.x_N - a_p * g_x);
         }
-        if (forces.y_N.valid) {
-            profile.misfit += w_y * square(forces.y_N.value - a_p * g_y);
+        if (q.has_y) {
+            profile.misfit += w_y * square(q.y_N - a_p * g_y);
         }
-        if (forces.radial_immersion.valid) {
+        if (q.radial_immersion.valid) {
             const Scalar immersion = Scalar(1) - cos(theta_rad);
-            profile.misfit += square(immersion - forces.radial_immersion.value) / forces.radial_immersion.variance;
+            profile.misfit += square(immersion - q.radial_immersion.value) / q.radial_immersion.variance;
         }
         return profile;
     }
 
     static void keep(Search& s, const Profile& profile, Scalar theta_rad) {
-        s.best_ = {profile.misfit, profile.depth_mm, profile.information};
+        s.best_ = profile;
         s.centre_rad_ = theta_rad;
     }
 
-    void scan(Search& s) const {
+    /// So many of the nodes at most; returns how many it were.
+    int scan(Search& s, int values) const {
         const Table& nodes = table(s.side_);
-        const Scalar theta_rad = nodes.angle_rad(Scalar(static_cast<int>(s.node_)));
-        const Profile profile = profile_of(s, nodes.at_node(s.node_, s.feed_), theta_rad);
-        s.J_[s.node_] = profile.misfit;
-        if (s.node_ == 0 || profile.misfit < s.best_.misfit) {
-            s.best_node_ = s.node_;
-            keep(s, profile, theta_rad);
+        const Question q = s.question_;  // out of the reach of what is written to s
+        const std::size_t first = s.node_;
+        const std::size_t left = s.J_.size() - first;
+        const std::size_t end = first + (left < static_cast<std::size_t>(values) ? left : static_cast<std::size_t>(values));
+        Profile best = s.best_;
+        std::size_t best_node = s.best_node_;
+        for (std::size_t k = first; k < end; ++k) {
+            const Profile profile =
+                profile_of(q, nodes.at_node(k, q.feed), nodes.angle_rad(Scalar(static_cast<int>(k))));
+            s.J_[k] = profile.misfit;
+            if (k == 0 || profile.misfit < best.misfit) {
+                best_node = k;
+                best = profile;
+            }
         }
-        ++s.node_;
-        if (s.node_ < s.J_.size()) {
-            return;
+        s.node_ = end;
+        s.best_node_ = best_node;
+        keep(s, best, nodes.angle_rad(Scalar(static_cast<int>(best_node))));
+        if (end == s.J_.size()) {
+            begin_refinement(s);
         }
-        // The first parabola goes through nodes, which are there already.
+        return static_cast<int>(end - first);
+    }
+
+    /// The first parabola goes through nodes, which are there already.
+    void begin_refinement(Search& s) const {
+        const Table& nodes = table(s.side_);
         const std::size_t inner = s.best_node_ < 1 ? 1 : (s.best_node_ > s.J_.size() - 2 ? s.J_.size() - 2 : s.best_node_);
         s.middle_rad_ = nodes.angle_rad(Scalar(static_cast<int>(inner)));
         s.J_low_ = s.J_[inner - 1];
@@ -394,12 +438,21 @@ class EngagementSolver {
         const auto& J = s.J_;
         const Scalar threshold = s.best_.misfit + threshold_of_95_percent;
         const auto angle = [&](std::size_t k) { return nodes.angle_rad(Scalar(static_cast<int>(k))); };
+        // The nodes beside the estimate, which is never further than two from the best one.
+        std::size_t below = s.best_node_ + 2 < J.size() ? s.best_node_ + 2 : J.size() - 1;
+        while (below > 0 && !(angle(below) < s.centre_rad_)) {
+            --below;
+        }
+        std::size_t above = below;
+        while (above < J.size() - 1 && !(angle(above) > s.centre_rad_)) {
+            ++above;
+        }
         std::size_t low = 0;
-        while (J[low] > threshold && angle(low + 1) < s.centre_rad_) {
+        while (low < below && J[low] > threshold) {
             ++low;
         }
         std::size_t high = J.size() - 1;
-        while (J[high] > threshold && angle(high - 1) > s.centre_rad_) {
+        while (high > above && J[high] > threshold) {
             --high;
         }
         const auto crossing = [&](std::size_t inside, std::size_t outside) {
@@ -444,8 +497,7 @@ class EngagementSolver {
         }
         const Scalar spread = (e.depth_at_high_mm - e.depth_at_low_mm) / static_cast<Scalar>(3.92L);
         e.axial_depth_mm = s.best_.depth_mm;
-        const Table& forces = table(s.side_);
-        const Scalar by_K_s = square(s.best_.depth_mm) * forces.ln_K_s_variance(forces.at(s.centre_rad_, s.feed_));
+        const Scalar by_K_s = square(s.best_.depth_mm) * s.question_.K_s.variance_at(s.best_.ln_t_in_references);
         e.axial_depth_sd_mm = sqrt(square(spread) + Scalar(1) / s.best_.information + by_K_s);
         e.depth_valid = e.immersion_valid && e.axial_depth_sd_mm < e.axial_depth_mm;
     }

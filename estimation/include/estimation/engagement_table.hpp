@@ -82,44 +82,40 @@ class EngagementTable {
                 law_.k_1 * exp(law_.p_1 * ln_f), has_reference_ ? ln_f - ln_reference_ : Scalar(0)};
     }
 
-    [[nodiscard]] Scalar ln_K_s_variance(const Forces& forces) const {
-        return square(law_.K_s_relative_sd) + square(law_.K_s_exponent_sd * forces.ln_t_in_references);
-    }
-    /// The same at a node, f_z > 0, without the forces.
-    [[nodiscard]] Scalar ln_K_s_variance(const Node& node, Scalar feed_per_tooth_mm) const {
+    /// Of a coefficient: its relative variance at t_ref and the deviation of its exponent, which counts with ln(t_a/t_ref).
+    struct Doubt {
+        Scalar relative_variance{0};
+        Scalar exponent_sd{0};
+
+        [[nodiscard]] Scalar variance_at(Scalar ln_t_in_references) const {
+            return relative_variance + square(exponent_sd * ln_t_in_references);
+        }
+    };
+    [[nodiscard]] Doubt doubt_of_K_s() const { return {square(law_.K_s_relative_sd), law_.K_s_exponent_sd}; }
+    [[nodiscard]] Doubt doubt_of_r_1() const { return {square(law_.r_1_relative_sd), law_.r_1_exponent_sd}; }
+
+    /// ln(t_a/t_ref) at a node, f_z > 0, without the forces.
+    [[nodiscard]] Scalar ln_t_in_references(const Node& node, Scalar feed_per_tooth_mm) const {
         using elementary::log;
-        Forces at;
-        at.ln_t_in_references = has_reference_ ? log(feed_per_tooth_mm) - ln_reference_ + node[ln_sine] : Scalar(0);
-        return ln_K_s_variance(at);
-    }
-    [[nodiscard]] Scalar ln_r_1_variance(const Forces& forces) const {
-        return square(law_.r_1_relative_sd) + square(law_.r_1_exponent_sd * forces.ln_t_in_references);
+        return has_reference_ ? log(feed_per_tooth_mm) - ln_reference_ + node[ln_sine] : Scalar(0);
     }
 
     [[nodiscard]] Forces at_node(std::size_t k, const Feed& feed) const { return forces(nodes_[k], feed); }
 
     /// θ outside of the table is taken at its end.
-    [[nodiscard]] Forces at(Scalar theta_rad, const Feed& feed) const { return forces(between(theta_rad), feed); }
+    [[nodiscard]] Forces at(Scalar theta_rad, const Feed& feed) const { return forces(reading_at(theta_rad), feed); }
 
     /// What the table holds of an engagement, for forces().
     [[nodiscard]] Node between(Scalar theta_rad) const {
-        const Scalar place = clamp((theta_rad - first_rad) / step_rad_, Scalar(0), Scalar(Nodes - 1));
-        const int nearest = static_cast<int>(place + Scalar(0.5F));
-        const int middle = nearest < 1 ? 1 : (nearest > Nodes - 2 ? Nodes - 2 : nearest);
-        const Scalar x = place - Scalar(middle);
-        const auto m = static_cast<std::size_t>(middle);
-        const Scalar half_x = Scalar(0.5F) * x;
-        const Scalar before = half_x * (x - Scalar(1));
-        const Scalar behind = half_x * (x + Scalar(1));
-        const Scalar here = Scalar(1) - x * x;
+        const Reading reading = reading_at(theta_rad);
         Node node;
         for (std::size_t j = 0; j < node.size(); ++j) {
-            node[j] = before * Scalar(nodes_[m - 1][j]) + here * Scalar(nodes_[m][j]) + behind * Scalar(nodes_[m + 1][j]);
+            node[j] = reading[j];
         }
         return node;
     }
 
-    /// `n`: a Node, or one as the table stores it.
+    /// `n`: a Node, one as the table stores it, or a reading between such.
     template <typename Entries>
     [[nodiscard]] Forces forces(const Entries& n, const Feed& feed) const {
         const Scalar Gr = feed.G_N_per_mm * feed.r;
@@ -135,6 +131,29 @@ class EngagementTable {
     }
 
   private:
+    using StoredNode = std::array<Stored<Scalar>, entries>;
+
+    /// The parabola through three nodes, entry by entry as it is asked for.
+    struct Reading {
+        const StoredNode* nodes;
+        Scalar before;
+        Scalar here;
+        Scalar behind;
+
+        [[nodiscard]] Scalar operator[](std::size_t j) const {
+            return before * Scalar(nodes[0][j]) + here * Scalar(nodes[1][j]) + behind * Scalar(nodes[2][j]);
+        }
+    };
+    [[nodiscard]] Reading reading_at(Scalar theta_rad) const {
+        const Scalar place = clamp((theta_rad - first_rad) / step_rad_, Scalar(0), Scalar(Nodes - 1));
+        const int nearest = static_cast<int>(place + Scalar(0.5F));
+        const int middle = nearest < 1 ? 1 : (nearest > Nodes - 2 ? Nodes - 2 : nearest);
+        const Scalar x = place - Scalar(middle);
+        const Scalar half_x = Scalar(0.5F) * x;
+        return {&nodes_[static_cast<std::size_t>(middle - 1)], half_x * (x - Scalar(1)), Scalar(1) - x * x,
+                half_x * (x + Scalar(1))};
+    }
+
     [[nodiscard]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
         using elementary::cos;
         using elementary::exp;
@@ -160,7 +179,7 @@ class EngagementTable {
         return node;
     }
 
-    std::array<std::array<Stored<Scalar>, entries>, static_cast<std::size_t>(Nodes)> nodes_{};
+    std::array<StoredNode, static_cast<std::size_t>(Nodes)> nodes_{};
     CuttingLaw<Scalar> law_{};
     Scalar teeth_{1};
     Scalar step_rad_{1};
