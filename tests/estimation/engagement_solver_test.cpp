@@ -41,7 +41,8 @@ AverageForceMeasurement<double> measured(const Cut& cut, double sd_N, std::mt199
     return m;
 }
 
-EngagementSolver<double> solver(double law_relative_sd = 0.0) {
+template <int Nodes = 41>
+EngagementSolver<double, Nodes> solver(double law_relative_sd = 0.0) {
     EngagementSolverSettings<double> settings;
     settings.law_relative_sd = law_relative_sd;
     return {carbide_in_SM45C<double>(), settings};
@@ -135,9 +136,48 @@ TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_fo
     const auto faint = measured({.depth_mm = 0.05}, 10.0);
     CHECK_FALSE(solver().solve(faint, 0.05, CutSide::down).immersion_valid);
     CHECK_FALSE(solver().solve(measured({}, 2.0), 0.0, CutSide::down).immersion_valid);
-    auto broken = measured({}, 2.0);
-    broken.tangential_N.value = std::nan("");
-    CHECK_FALSE(solver().solve(broken, 0.05, CutSide::down).immersion_valid);
+    for (auto force : {&AverageForceMeasurement<double>::tangential_N, &AverageForceMeasurement<double>::x_N}) {
+        for (const CutSide side : {CutSide::down, CutSide::unknown}) {
+            auto broken = measured({}, 2.0);
+            (broken.*force).value = std::nan("");
+            const auto e = solver().solve(broken, 0.05, side);
+            CHECK_FALSE(e.solved);
+            CHECK_FALSE(e.immersion_valid);
+            CHECK_FALSE(e.depth_valid);
+        }
+    }
+}
+
+TEST(EngagementSolver, misses_nothing_by_looking_at_few_immersions) {
+    const auto few = solver(0.02);
+    static const auto many = solver<161>(0.02);
+    std::mt19937 random(20261123);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    constexpr int cuts = 1000;
+    int elsewhere = 0;
+    int differently_sure = 0;
+    for (int k = 0; k < cuts; ++k) {
+        const Cut cut{.side = k % 2 == 0 ? CutSide::down : CutSide::up,
+                      .immersion = 0.05 + 1.95 * share(random),
+                      .depth_mm = 1.0 + 11.0 * share(random),
+                      .feed_per_tooth_mm = 0.02 + 0.15 * share(random),
+                      .direction_rad = k % 3 == 0 ? 0.0 : 6.28 * share(random),
+                      .y_moves = k % 3 != 0};
+        const auto forces = measured(cut, 0.3 * std::pow(100.0, share(random)), &random);
+        const CutSide told = k % 5 == 0 ? CutSide::unknown : cut.side;
+        const auto found = few.solve(forces, cut.feed_per_tooth_mm, told);
+        const auto exact = many.solve(forces, cut.feed_per_tooth_mm, told);
+        CHECK_EQUAL(exact.solved, found.solved);
+        if (!exact.solved) {
+            continue;
+        }
+        CHECK(found.misfit < exact.misfit + 0.1);
+        const double apart = std::abs(found.radial_immersion - exact.radial_immersion);
+        elsewhere += apart > 0.002 + 0.1 * exact.radial_immersion_sd ? 1 : 0;
+        differently_sure += std::abs(found.radial_immersion_sd / exact.radial_immersion_sd - 1.0) > 0.1 ? 1 : 0;
+    }
+    CHECK(elsewhere < 0.005 * cuts);  // where two immersions, or a range of them, fit alike
+    CHECK(differently_sure < 0.02 * cuts);
 }
 
 TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_it_says) {

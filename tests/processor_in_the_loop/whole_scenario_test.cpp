@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 
 #include "emulated_controller.hpp"
@@ -36,11 +38,13 @@ class ComparedController : public sim::OverrideSource {
         lock_step::Request request{};
         request.sample = sample;
         request.program = program;
-        const lock_step::Answer ours = lock_step::answer_of(host_, request);
+        const lock_step::Answer ours = lock_step::answer_of(host_, host_.step(sample, program));
         const lock_step::Answer theirs = image_.step(request);
         ++steps;
         with_engagement += (ours.valid & 4U) != 0U ? 1 : 0;
         different += lock_step::same_bits(ours, theirs) ? 0 : 1;
+        instructions += theirs.instructions;
+        most_instructions = std::max(most_instructions, theirs.instructions);
         monitor_.step(sample, program);
         hal::FeedOverride held;
         return image_.works() ? theirs.feed : held;
@@ -51,16 +55,26 @@ class ComparedController : public sim::OverrideSource {
     int steps = 0;
     int with_engagement = 0;
     int different = 0;
+    std::uint64_t instructions = 0;
+    std::uint32_t most_instructions = 0;
 
   private:
     EmulatedController image_;
-    firmware::ForceControlTick<Scalar> host_;
+    lock_step::Tick<Scalar> host_;
     sim::MillforceController monitor_;
 };
 
+/// What a tick may cost, in instructions.
+struct Budget {
+    std::uint64_t mean;
+    std::uint32_t worst;
+};
+
+/// With the engagement solved in portions, as a small processor does it.
 template <typename Scalar>
-void mill_on(const std::string& processor) {
-    const sim::Scenario scenario = sim::read_scenario(scenario_file());
+void mill_on(const std::string& processor, int solver_values_per_tick, const Budget& budget) {
+    sim::Scenario scenario = sim::read_scenario(scenario_file());
+    scenario.parameters.machine.cnc.solver_values_per_tick = static_cast<float>(solver_values_per_tick);
     ComparedController<Scalar> controller(processor, scenario.parameters);
     CHECK_TRUE_TEXT(controller.image_works(), "the emulator does not start");
     const sim::Simulated run = sim::simulate(scenario, controller, processor);
@@ -70,15 +84,32 @@ void mill_on(const std::string& processor) {
     LONGS_EQUAL(0, controller.different);
     CHECK_TRUE(run.result.figures.finished);
     CHECK_TRUE(sim::bounds_hold(run.result.figures));
+
+    const std::uint64_t mean = controller.instructions / static_cast<std::uint64_t>(controller.steps);
+    UT_PRINT(StringFromFormat("%s: %d ticks, instructions mean %u, worst %u", processor.c_str(), controller.steps,
+                              static_cast<unsigned>(mean), controller.most_instructions));
+    CHECK_COMPARE(mean, >, 100U);  // they were counted
+    CHECK_COMPARE(mean, <=, budget.mean);
+    CHECK_COMPARE(controller.most_instructions, <=, budget.worst);
 }
 
 }  // namespace
 
 TEST_GROUP(ProcessorInTheLoop) {
-    void setup() override { std::signal(SIGPIPE, SIG_IGN); }
-    void teardown() override { std::signal(SIGPIPE, SIG_DFL); }
+    void setup() override {
+        std::signal(SIGPIPE, SIG_IGN);
+        setenv("MILLFORCE_ICOUNT", "1", 1);
+    }
+    void teardown() override {
+        unsetenv("MILLFORCE_ICOUNT");
+        std::signal(SIGPIPE, SIG_DFL);
+    }
 };
 
-TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit) { mill_on<float>("cortex-m4f"); }
+TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit) {
+    mill_on<float>("cortex-m4f", 6, {1100, 5000});
+}
 
-TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) { mill_on<estimation::Fixed>("cortex-m3"); }
+TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) {
+    mill_on<estimation::Fixed>("cortex-m3", 1, {5500, 10000});
+}

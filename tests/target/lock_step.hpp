@@ -29,8 +29,9 @@ struct Answer {
     std::uint32_t limit;
     std::uint32_t valid;  ///< bit 0 F_at, 1 F_ax, 2 immersion, 3 depth, 4 tooth force
     std::array<float, 8> value;
+    std::uint32_t instructions;  ///< of the step, where the other side counts them (instruction_counter.hpp)
 };
-static_assert(sizeof(hal::FeedOverride) == 12 && sizeof(Answer) == 52);
+static_assert(sizeof(hal::FeedOverride) == 12 && sizeof(Answer) == 56);
 
 inline ParameterValues values_of(firmware::Parameters<float> parameters) {
     ParameterValues values{};
@@ -53,10 +54,15 @@ firmware::Parameters<Scalar> parameters_of(const ParameterValues& values) {
     return parameters;
 }
 
+/// As a small chip's image has it.
 template <typename Scalar>
-Answer answer_of(firmware::ForceControlTick<Scalar>& tick, const Request& request) {
+using Tick = firmware::ForceControlTick<Scalar, firmware::NoWideBand<Scalar>>;
+
+/// What is to be told of a tick that has just given this override.
+template <typename Scalar>
+Answer answer_of(const Tick<Scalar>& tick, const hal::FeedOverride& feed) {
     Answer answer{};
-    answer.feed = tick.step(request.sample, request.program);
+    answer.feed = feed;
     const auto& e = tick.estimate();
     answer.limit = static_cast<std::uint32_t>(tick.control().limit);
     answer.valid = (e.tangential_N.valid ? 1U : 0U) | (e.feed_N.valid ? 2U : 0U) |
@@ -71,7 +77,7 @@ Answer answer_of(firmware::ForceControlTick<Scalar>& tick, const Request& reques
     return answer;
 }
 
-/// Whether two answers are the same to the last bit; the gaps of the structure do not count.
+/// Whether two answers are the same to the last bit; the gaps of the structure do not count, nor who counted instructions.
 inline bool same_bits(const Answer& a, const Answer& b) {
     bool same = std::bit_cast<std::uint32_t>(a.feed.ratio) == std::bit_cast<std::uint32_t>(b.feed.ratio) &&
                 a.feed.hold == b.feed.hold && a.feed.state == b.feed.state && a.feed.fault == b.feed.fault &&

@@ -6,13 +6,14 @@
 #include "common/processor.hpp"
 #include "estimation/fixed_point.hpp"
 #include "firmware/tick.hpp"
+#include "target/instruction_counter.hpp"
 #include "target/lock_step.hpp"
 #include "target/semihosting.hpp"
 
 namespace {
 
 using namespace millforce;
-using Tick = firmware::ForceControlTick<MILLFORCE_SCALAR>;
+using Tick = lock_step::Tick<MILLFORCE_SCALAR>;
 
 char command_line[512];
 lock_step::ParameterValues parameter_values;
@@ -27,11 +28,20 @@ char* next_word(char* text) {
     return space + 1;
 }
 
+[[gnu::noinline]] hal::FeedOverride counted_step(Tick& tick, const lock_step::Request& request) {
+    return tick.step(request.sample, request.program);
+}
+
 void serve(target::HostFile& requests, target::HostFile& answers) {
     static Tick tick(lock_step::parameters_of<MILLFORCE_SCALAR>(parameter_values));
+    const target::InstructionCounter counter;
     lock_step::Request request{};
     while (requests.read(&request, sizeof(request))) {
-        const lock_step::Answer answer = lock_step::answer_of(tick, request);
+        const std::uint32_t start = counter.now();
+        const hal::FeedOverride feed = counted_step(tick, request);
+        const std::uint32_t instructions = counter.since(start);
+        lock_step::Answer answer = lock_step::answer_of(tick, feed);
+        answer.instructions = instructions;
         if (!answers.write(&answer, sizeof(answer))) {
             return;
         }

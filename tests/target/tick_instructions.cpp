@@ -1,6 +1,6 @@
 // Counts the instructions of each tick of the synthetic cuts, and the stack that they need: with the engagement solved in
 // portions and without the wide-band methods, as a small processor runs it. To be run with
-// MILLFORCE_ICOUNT=1: one instruction is 128 ns of the emulator's time, 3.2 counts of the SysTick.
+// MILLFORCE_ICOUNT=1, see instruction_counter.hpp.
 // Prints one line per figure: SCALAR KIND FIGURE VALUE. Exit code 1: the estimator did not find the cut.
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"
+#include "target/instruction_counter.hpp"
 #include "target/semihosting.hpp"
 
 namespace {
@@ -19,25 +20,6 @@ namespace {
 using namespace millforce;
 using target::write_number;
 using target::write_text;
-
-/// Counts down at 25 MHz of the emulator's time.
-class SysTick {
-  public:
-    SysTick() {
-        at(0x14) = 0xFF'FFFFU;
-        at(0x18) = 0;
-        at(0x10) = 5;  // on, by the processor's clock, no interrupt
-    }
-    [[nodiscard]] std::uint32_t now() const { return at(0x18); }
-    [[nodiscard]] static std::uint32_t counts_between(std::uint32_t start, std::uint32_t end) {
-        return (start - end) & 0xFF'FFFFU;
-    }
-
-  private:
-    static volatile std::uint32_t& at(std::uintptr_t offset) {
-        return *reinterpret_cast<volatile std::uint32_t*>(0xE000'E000U + offset);
-    }
-};
 
 struct Count {
     std::uint32_t steps = 0;
@@ -82,18 +64,9 @@ template <typename Scalar>
     return tick.step(sample, program);
 }
 
-/// Instructions of an empty span between two readings of the timer.
-std::uint32_t overhead(const SysTick& timer) {
-    const std::uint32_t start = timer.now();
-    asm volatile("" ::: "memory");
-    return SysTick::counts_between(start, timer.now());
-}
-
-std::uint32_t instructions_of(std::uint32_t counts) { return (counts * 10U + 16U) / 32U; }
-
 template <typename Scalar>
 bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& stack) {
-    const SysTick timer;
+    const target::InstructionCounter counter;
     auto parameters = instructions::machine_and_tool();
     parameters.machine.cnc.solver_values_per_tick = solver_values_per_tick<Scalar>;
     alignas(Tick<Scalar>) static unsigned char memory[sizeof(Tick<Scalar>)];
@@ -101,7 +74,6 @@ bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& 
     Count all;
     std::uint32_t estimates = 0;
     std::uint32_t with_engagement = 0;
-    const std::uint32_t empty = overhead(timer);
     const int settled = cut.air_samples + cut.settling_samples;
     for (int index = 0; index < cut.samples(); ++index) {
         const hal::DriveSample sample = instructions::sample_of(index, parameters, cut);
@@ -109,16 +81,16 @@ bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& 
         const Scalar before_s = tick.estimator().since_period_s();
         board::paint_stack();
         const std::uint32_t untouched = board::untouched_stack_bytes();
-        const std::uint32_t start = timer.now();
+        const std::uint32_t start = counter.now();
         counted_step(tick, sample, program);
-        const std::uint32_t counts = SysTick::counts_between(start, timer.now()) - empty;
+        const std::uint32_t instructions = counter.since(start);
         const std::uint32_t used = untouched - board::untouched_stack_bytes();
         stack = used > stack ? used : stack;
         if (index < settled) {
             continue;
         }
         const bool is_new = tick.estimator().since_period_s() < before_s;
-        all.add(instructions_of(counts));
+        all.add(instructions);
         const auto& estimate = tick.estimate();
         estimates += is_new ? 1U : 0U;
         // At the end of a tooth period the forces are new, and the engagement comes back with the peaks, a tick later.

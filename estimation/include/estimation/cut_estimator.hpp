@@ -48,9 +48,10 @@ class CutEstimator {
     /// revolution's end. One call in between, and what calls are left over, work at the solver. It is taken up where the
     /// forces ask something new, once a revolution or as soon as they have left those of the revolutions before; when it is
     /// done its tables are read, and the peaks worked out anew. Tooth periods that end while another one is in work are in
-    /// the averages of the next.
+    /// the averages of the next. Where the caller `is_busy`, with the law for instance, what has just ended and the solver
+    /// wait for the next call.
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
-             const DriveSignals<Scalar>& signals) {
+             const DriveSignals<Scalar>& signals, bool is_busy = false) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
         since_period_s_ += dt_s;
         if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
@@ -74,10 +75,10 @@ class CutEstimator {
             const bool closes_one = completed > 0 && !has_closed_;
             has_closed_ = completed > 0;
             is_resting_ = false;
-            if (closes_one && stage_ != Stage::idle) {
+            if (closes_one && (is_busy || stage_ != Stage::idle)) {
                 return false;
             }
-            return work_on(closes_one);
+            return work_on(closes_one, is_busy);
         }
         if (completed > 0) {
             work_at_once();
@@ -245,22 +246,16 @@ class CutEstimator {
     }
 
     /// The next piece of work. True where the estimate is new by it.
-    bool work_on(bool is_end_of_period) {
+    bool work_on(bool is_end_of_period, bool is_busy) {
         switch (stage_) {
             case Stage::axes:
                 take_axes();
                 return false;
             case Stage::peaks:
                 take_peaks();
-                if (search_.scanning()) {
-                    solve_on();
-                }
                 return false;
             case Stage::show:
                 show();
-                if (search_.scanning() && estimate().engagement.immersion_valid) {
-                    solve_on();  // where the immersion is known the law's work is short
-                }
                 return true;
             case Stage::idle:
                 break;
@@ -269,7 +264,10 @@ class CutEstimator {
         if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work) && !tooth_repeats_itself()) {
             take_period();
         } else if (is_engagement_in_work) {
-            work_on_engagement(is_end_of_period);
+            has_waited_ = is_busy && !has_waited_;  // never twice: a slow caller is busy each time
+            if (!has_waited_) {
+                work_on_engagement(is_end_of_period);
+            }
         } else {
             has_engagements_turn_ = false;
             is_resting_ = true;
@@ -307,14 +305,16 @@ class CutEstimator {
     }
 
     void solve_on() {
+        int values = settings_.solver_values_per_step;
         if (search_due_) {
             search_due_ = false;
             predict_drifts();
             solver_.begin(search_, asked_, asked_feed_per_tooth_mm_, settings_.side);
-        } else if (search_.done() || !solver_.advance(search_, settings_.solver_values_per_step)) {
+            --values;
+        } else if (search_.done()) {
             return;
         }
-        if (search_.done()) {
+        if (solver_.advance(search_, values)) {
             engagement_ = search_.estimate();
             unread_parts_ = parts_of_engagement;
         }
@@ -477,6 +477,7 @@ class CutEstimator {
     bool is_resting_ = false;     // nothing is in work before the next tooth period
     bool search_due_ = false;
     bool has_engagements_turn_ = false;  // before the next tooth period: where teeth pass fast there is no other time
+    bool has_waited_ = false;            // the engagement has, for a caller that was busy
     int unread_parts_ = 0;  // of engagement_, that peaks_ has not seen yet
 
     CutEstimatorSettings<Scalar> settings_{};

@@ -17,15 +17,17 @@
 ///
 /// Every force is proportional to the depth: m_i = a_p g_i(R_r). So for each R_r the best depth is known,
 ///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²,
-/// and J is the profile likelihood of the immersion alone. It is scanned over the whole range (Nodes values, evenly
-/// spaced in θ with R_r = 1 − cos θ), so that no local minimum can catch the solver, and the best node is refined.
+/// and J is the profile likelihood of the immersion alone. It is scanned over the whole range, so that no local minimum can
+/// catch the solver: at every second of Nodes values, evenly spaced in θ with R_r = 1 − cos θ, and on both sides of every
+/// valley that shows. The best node is refined by a cubic through it, its neighbours and one point between them.
 /// An immersion that another method tells enters J as one more measurement, (R_r − R_told)²/σ².
 /// The immersion's deviation is the larger of the curvature's and of the interval in which J exceeds its minimum by
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
-/// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions. A solution
-/// takes Nodes + 13 of them for a side that is told and twice as many for one that is not; solve() works them off at
-/// once, begin() and advance() in portions, for a tick that must be short.
+/// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions at a node and
+/// twice as many between nodes: two nodes count as one value. A solution takes some 20 values for a side that is told, two
+/// more for every valley but the first, and twice as many for a side that is not; solve() works them off at once, begin()
+/// and advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
 
@@ -97,6 +99,10 @@ class EngagementSolver {
     }
 
   private:
+    static_assert(Nodes % 2 == 1 && Nodes > 4);
+    static constexpr auto nodes = static_cast<std::size_t>(Nodes);
+    static constexpr Scalar not_known = static_cast<Scalar>(1e9L);  // no interval reaches so high
+
     /// What all values of J have in common.
     struct Question {
         typename Table::Feed feed{};
@@ -129,8 +135,6 @@ class EngagementSolver {
       public:
         [[nodiscard]] bool done() const { return phase_ == Phase::done; }
         [[nodiscard]] const EngagementEstimate<Scalar>& estimate() const { return estimate_; }
-        /// The next value is one at a node of the table, which are the cheapest.
-        [[nodiscard]] bool scanning() const { return phase_ == Phase::scan; }
         /// Gives it up: no estimate.
         void cancel() {
             estimate_ = {};
@@ -139,8 +143,7 @@ class EngagementSolver {
 
       private:
         friend class EngagementSolver;
-        enum class Phase : unsigned char { scan, refine, interval, depth_at_low, depth_at_high, depth, done };
-        enum class Point : unsigned char { low, middle, high, candidate };
+        enum class Phase : unsigned char { scan, valleys, probe, candidate, low_end, high_end, interval, depth_at_low, depth_at_high, depth, done };
 
         Question question_{};
         EngagementEstimate<Scalar> estimate_{};
@@ -149,19 +152,16 @@ class EngagementSolver {
         CutSide side_ = CutSide::down;
         Phase phase_ = Phase::done;
 
-        std::array<Scalar, static_cast<std::size_t>(Nodes)> J_{};
+        std::array<Scalar, nodes> J_{};  // not_known where the scan has had no reason to look
         std::size_t node_ = 0;
         std::size_t best_node_ = 0;
+        std::size_t low_node_ = 0;   // the interval's last nodes inside
+        std::size_t high_node_ = 0;
         Profile best_{};
         Scalar centre_rad_{0};
-        Scalar width_rad_{0};
-        Scalar middle_rad_{0};
-        Scalar J_low_{0};
-        Scalar J_middle_{0};
-        Scalar J_high_{0};
+        Scalar probe_in_steps_{0};
+        Scalar probe_J_{0};
         Scalar curvature_{0};
-        Point point_ = Point::low;
-        int round_ = 0;
     };
 
     /// Takes up a solution for the given side. With CutSide::unknown both down and up are tried and the one that fits
@@ -169,19 +169,18 @@ class EngagementSolver {
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                CutSide side) const {
         search.asked_ = side;
-        search.estimate_ = {};
-        search.estimate_.side = side == CutSide::unknown ? CutSide::down : side;
-        search.phase_ = Search::Phase::done;
+        begin_side(search, side == CutSide::unknown ? CutSide::down : side);
         if (is_solvable(forces, feed_per_tooth_mm)) {
-            search.question_ = question_of(forces, feed_per_tooth_mm);
-            begin_side(search, search.estimate_.side);
+            set_question(search.question_, forces, feed_per_tooth_mm);
+        } else {
+            search.phase_ = Search::Phase::done;
         }
     }
 
     /// At most so many values of J; true when the estimate is there.
     bool advance(Search& search, int values) const {
         while (values > 0 && !search.done()) {
-            values -= search.scanning() ? scan(search, values) : step(search);
+            values -= search.phase_ == Search::Phase::scan ? scan(search, values) : step(search);
         }
         return search.done();
     }
@@ -206,8 +205,6 @@ class EngagementSolver {
 
   private:
     static constexpr Scalar threshold_of_95_percent = static_cast<Scalar>(3.84L);
-    static constexpr int rounds_for_curvature = 2;
-    static constexpr int rounds = 3;  // narrower parabolas see the rounding of float and the table's grain
 
     [[nodiscard]] Table& table_of(CutSide side) { return tables_[side == CutSide::up ? 1 : 0]; }
 
@@ -238,9 +235,8 @@ class EngagementSolver {
         s.phase_ = Search::Phase::scan;
     }
 
-    [[nodiscard]] Question question_of(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const {
+    void set_question(Question& q, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const {
         const Scalar law_variance = square(settings_.law_relative_sd * forces.tangential_N.value);
-        Question q;
         q.feed = tables_[0].feed(feed_per_tooth_mm);
         q.tangential_N = forces.tangential_N.value;
         q.tangential_weight = Scalar(1) / forces.tangential_N.variance;
@@ -255,17 +251,31 @@ class EngagementSolver {
         q.has_x = forces.x_N.valid;
         q.has_y = forces.y_N.valid;
         q.radial_immersion = forces.radial_immersion;
-        return q;
     }
 
-    /// One of the steps behind the scan. Returns how many values of J it took, at most.
+    /// One of the steps behind the scan. Returns how many values it took.
     int step(Search& s) const {
         switch (s.phase_) {
             case Search::Phase::scan:
             case Search::Phase::done:
                 break;
-            case Search::Phase::refine:
-                refine(s);
+            case Search::Phase::valleys:
+                look_beside_valley(s);
+                break;
+            case Search::Phase::probe:
+                probe(s);
+                break;
+            case Search::Phase::candidate:
+                try_candidate(s);
+                s.phase_ = Search::Phase::low_end;
+                break;
+            case Search::Phase::low_end:
+                find_low_end(s);
+                s.phase_ = Search::Phase::high_end;
+                break;
+            case Search::Phase::high_end:
+                find_high_end(s);
+                s.phase_ = Search::Phase::interval;
                 break;
             case Search::Phase::interval:
                 fill_immersion(s);
@@ -293,41 +303,55 @@ class EngagementSolver {
 
     [[nodiscard]] Profile profile_of(const Question& q, const typename Table::Forces& model, Scalar theta_rad) const {
         using elementary::cos;
-        const Scalar ln_r_1_variance = q.r_1.variance_at(model.ln_t_in_references);
         const Scalar t_x = q.feed_direction_x;
         const Scalar t_y = q.feed_direction_y;
         // The doubt in r_1 acts along the feed and across it at once; its size per F_at is known at each immersion.
+        const Scalar ln_r_1_variance = q.r_1.variance_at(model.ln_t_in_references);
         const Scalar per_F_at = q.tangential_N / model.tangential_N;
         const Scalar along = per_F_at * model.feed_per_ln_r_1_N;
         const Scalar across = per_F_at * model.normal_per_ln_r_1_N;
-        const Scalar var_x = q.x_variance + square(t_x * along - t_y * across) * ln_r_1_variance;
-        const Scalar var_y = q.y_variance + square(t_y * along + t_x * across) * ln_r_1_variance;
-        const Scalar g_x = t_x * model.feed_N - t_y * model.normal_N;
-        const Scalar g_y = t_y * model.feed_N + t_x * model.normal_N;
+        Scalar g_x{0};
+        Scalar w_x{0};
+        Scalar g_y{0};
+        Scalar w_y{0};
         const Scalar w_t = q.tangential_weight;
-        const Scalar w_x = q.has_x ? Scalar(1) / var_x : Scalar(0);
-        const Scalar w_y = q.has_y ? Scalar(1) / var_y : Scalar(0);
+        const Scalar wt_gt = w_t * model.tangential_N;
+        Scalar information = wt_gt * model.tangential_N;
+        Scalar wmg = wt_gt * q.tangential_N;
+        if (q.has_x) {
+            g_x = t_x * model.feed_N - t_y * model.normal_N;
+            w_x = Scalar(1) / (q.x_variance + square(t_x * along - t_y * across) * ln_r_1_variance);
+            const Scalar wx_gx = w_x * g_x;
+            information += wx_gx * g_x;
+            wmg += wx_gx * q.x_N;
+        }
+        if (q.has_y) {
+            g_y = t_y * model.feed_N + t_x * model.normal_N;
+            w_y = Scalar(1) / (q.y_variance + square(t_y * along + t_x * across) * ln_r_1_variance);
+            const Scalar wy_gy = w_y * g_y;
+            information += wy_gy * g_y;
+            wmg += wy_gy * q.y_N;
+        }
         // A depth that is told bounds what the forces leave open. K_s and depth act on all forces as one factor, so the
         // factor is known as well as both are.
         const Scalar declared = settings_.declared_depth_mm;
         Scalar declared_weight{0};
         if (declared > Scalar(0)) {
-            const Scalar relative_variance = square(settings_.declared_depth_relative_sd) +
-                                             q.K_s.variance_at(model.ln_t_in_references);
+            const Scalar relative_variance =
+                square(settings_.declared_depth_relative_sd) + q.K_s.variance_at(model.ln_t_in_references);
             declared_weight = Scalar(1) / (square(declared) * relative_variance);
+            information += declared_weight;
+            wmg += declared_weight * declared;
         }
-        const Scalar wt_gt = w_t * model.tangential_N;
-        const Scalar wx_gx = w_x * g_x;
-        const Scalar wy_gy = w_y * g_y;
+        const Scalar a_p = wmg > Scalar(0) ? wmg / information : Scalar(0);
         Profile profile;
+        profile.depth_mm = a_p;
+        profile.information = information;
         profile.ln_t_in_references = model.ln_t_in_references;
-        profile.information =
-            wt_gt * model.tangential_N + wx_gx * g_x + wy_gy * g_y + declared_weight;
-        const Scalar wmg = wt_gt * q.tangential_N + wx_gx * q.x_N + wy_gy * q.y_N + declared_weight * declared;
-        profile.depth_mm = wmg > Scalar(0) ? wmg / profile.information : Scalar(0);
-        const Scalar a_p = profile.depth_mm;
-        profile.misfit =
-            w_t * square(q.tangential_N - a_p * model.tangential_N) + declared_weight * square(a_p - declared);
+        profile.misfit = w_t * square(q.tangential_N - a_p * model.tangential_N);
+        if (declared > Scalar(0)) {
+            profile.misfit += declared_weight * square(a_p - declared);
+        }
         if (q.has_x) {
             profile.misfit += w_x * square(q.x_N - a_p * g_x);
         }
@@ -346,130 +370,215 @@ class EngagementSolver {
         s.centre_rad_ = theta_rad;
     }
 
-    /// So many of the nodes at most; returns how many it were.
+    [[nodiscard]] static Scalar node_rad(const Table& table, std::size_t k) {
+        return table.angle_rad(Scalar(static_cast<int>(k)));
+    }
+
+    [[nodiscard]] Profile profile_at_node(const Question& q, const Table& table, std::size_t k) const {
+        return profile_of(q, table.at_node(k, q.feed), node_rad(table, k));
+    }
+
+    /// Every second node, two for a value: one between nodes takes twice as long. Returns how many values it took.
     int scan(Search& s, int values) const {
-        const Table& nodes = table(s.side_);
+        const Table& forces = table(s.side_);
         const Question q = s.question_;  // out of the reach of what is written to s
+        const std::size_t most = s.node_ + 4 * static_cast<std::size_t>(values);
+        const std::size_t end = most < nodes ? most : nodes;
         const std::size_t first = s.node_;
-        const std::size_t left = s.J_.size() - first;
-        const std::size_t end = first + (left < static_cast<std::size_t>(values) ? left : static_cast<std::size_t>(values));
-        Profile best = s.best_;
+        Scalar least = s.best_.misfit;
         std::size_t best_node = s.best_node_;
-        for (std::size_t k = first; k < end; ++k) {
-            const Profile profile =
-                profile_of(q, nodes.at_node(k, q.feed), nodes.angle_rad(Scalar(static_cast<int>(k))));
-            s.J_[k] = profile.misfit;
-            if (k == 0 || profile.misfit < best.misfit) {
+        std::size_t k = first;
+        for (; k < end; k += 2) {
+            const Scalar J = profile_at_node(q, forces, k).misfit;
+            s.J_[k] = J;
+            s.J_[k + 1 < nodes ? k + 1 : k - 1] = not_known;
+            if (k == 0 || J < least) {
                 best_node = k;
-                best = profile;
+                least = J;
             }
         }
-        s.node_ = end;
+        s.best_.misfit = least;
         s.best_node_ = best_node;
-        keep(s, best, nodes.angle_rad(Scalar(static_cast<int>(best_node))));
-        if (end == s.J_.size()) {
+        s.node_ = k;
+        if (k >= nodes) {
+            s.node_ = down_from(s, 0);
+            s.phase_ = Search::Phase::valleys;
+        }
+        return static_cast<int>((k - first + 2) / 4);
+    }
+
+    /// The first node from here on, of those scanned, behind which J rises.
+    [[nodiscard]] static std::size_t down_from(const Search& s, std::size_t k) {
+        while (k + 2 < nodes && s.J_[k + 2] < s.J_[k]) {
+            k += 2;
+        }
+        return k;
+    }
+    /// … or falls, or the last one.
+    [[nodiscard]] static std::size_t up_from(const Search& s, std::size_t k) {
+        while (k + 2 < nodes && !(s.J_[k + 2] < s.J_[k])) {
+            k += 2;
+        }
+        return k;
+    }
+
+    /// The nodes on both sides of a valley that the scan saw.
+    void look_beside_valley(Search& s) const {
+        const auto look_at = [&](std::size_t k) {
+            look_at_node(s, k);
+            if (s.J_[k] < s.best_.misfit) {
+                s.best_.misfit = s.J_[k];
+                s.best_node_ = k;
+            }
+        };
+        if (s.node_ > 0) {
+            look_at(s.node_ - 1);
+        }
+        if (s.node_ + 1 < nodes) {
+            look_at(s.node_ + 1);
+        }
+        const std::size_t top = up_from(s, s.node_);
+        if (top + 1 < nodes) {
+            s.node_ = down_from(s, top);
+        } else {
             begin_refinement(s);
         }
-        return static_cast<int>(end - first);
     }
 
-    /// The first parabola goes through nodes, which are there already.
+    void look_at_node(Search& s, std::size_t k) const {
+        s.J_[k] = profile_at_node(s.question_, table(s.side_), k).misfit;
+    }
+
     void begin_refinement(Search& s) const {
-        const Table& nodes = table(s.side_);
-        const std::size_t inner = s.best_node_ < 1 ? 1 : (s.best_node_ > s.J_.size() - 2 ? s.J_.size() - 2 : s.best_node_);
-        s.middle_rad_ = nodes.angle_rad(Scalar(static_cast<int>(inner)));
-        s.J_low_ = s.J_[inner - 1];
-        s.J_middle_ = s.J_[inner];
-        s.J_high_ = s.J_[inner + 1];
-        s.width_rad_ = nodes.step_rad();
-        s.curvature_ = Scalar(0);
-        s.round_ = 0;
-        s.point_ = Search::Point::candidate;
-        s.phase_ = Search::Phase::refine;
-    }
-
-    /// Parabolas through three points each, each narrower than the last, from the best node.
-    void refine(Search& s) const {
-        switch (s.point_) {
-            case Search::Point::low:
-                s.middle_rad_ = clamp(s.centre_rad_, Table::first_rad + s.width_rad_,
-                                      table(s.side_).last_rad() - s.width_rad_);
-                s.J_low_ = profile_at(s, s.middle_rad_ - s.width_rad_).misfit;
-                s.J_middle_ = s.best_.misfit;
-                s.point_ = s.middle_rad_ == s.centre_rad_ ? Search::Point::high : Search::Point::middle;
-                break;
-            case Search::Point::middle:
-                s.J_middle_ = profile_at(s, s.middle_rad_).misfit;
-                s.point_ = Search::Point::high;
-                break;
-            case Search::Point::high:
-                s.J_high_ = profile_at(s, s.middle_rad_ + s.width_rad_).misfit;
-                s.point_ = Search::Point::candidate;
-                break;
-            case Search::Point::candidate:
-                try_candidate(s);
-                break;
+        if (!(s.best_.misfit >= Scalar(0))) {  // a force that is no number
+            end_side(s);
+            return;
         }
+        s.best_.information = Scalar(0);  // has to be looked up again if no other immersion is better
+        s.centre_rad_ = node_rad(table(s.side_), s.best_node_);
+        s.phase_ = Search::Phase::probe;
     }
 
+    /// J beside the best node, in units of the nodes' step: J = J_0 + b u + a u² (+ k u (u² − 1)).
+    struct Parabola {
+        std::size_t node;
+        Scalar a;
+        Scalar b;
+    };
+    [[nodiscard]] static Parabola parabola_of(const Search& s) {
+        const std::size_t k = s.best_node_ < 1 ? 1 : (s.best_node_ > nodes - 2 ? nodes - 2 : s.best_node_);
+        return {k, halved(s.J_[k - 1] + s.J_[k + 1]) - s.J_[k], halved(s.J_[k + 1] - s.J_[k - 1])};
+    }
+
+    /// A point towards the parabola's vertex, and so far from all three nodes that it tells what is no parabola.
+    void probe(Search& s) const {
+        const Parabola p = parabola_of(s);
+        s.curvature_ = p.a > Scalar(0) ? Scalar(2) * p.a / square(table(s.side_).step_rad()) : Scalar(0);
+        if (!(Scalar(4) * p.a > p.b && Scalar(4) * p.a > -p.b)) {  // it falls to an end of the range
+            s.phase_ = Search::Phase::low_end;
+            return;
+        }
+        constexpr Scalar nearest = static_cast<Scalar>(0.35L);
+        constexpr Scalar farthest = static_cast<Scalar>(0.65L);
+        const Scalar vertex = Scalar(-0.5F) * p.b / p.a;
+        s.probe_in_steps_ = vertex < Scalar(0) ? -clamp(-vertex, nearest, farthest) : clamp(vertex, nearest, farthest);
+        s.probe_J_ = keep_if_better(s, p, s.probe_in_steps_);
+        s.phase_ = Search::Phase::candidate;
+    }
+
+    /// The minimum of the cubic through the three nodes and the probe.
     void try_candidate(Search& s) const {
-        const Scalar bend = s.J_low_ - Scalar(2) * s.J_middle_ + s.J_high_;
-        if (bend > Scalar(0)) {
-            s.curvature_ = s.round_ < rounds_for_curvature ? bend / square(s.width_rad_) : s.curvature_;
-            const Scalar shift = clamp(Scalar(0.5F) * (s.J_low_ - s.J_high_) / bend, Scalar(-1), Scalar(1));
-            const Scalar theta_rad = s.middle_rad_ + shift * s.width_rad_;
-            const Profile candidate = profile_at(s, theta_rad);
-            if (candidate.misfit <= s.best_.misfit) {
-                keep(s, candidate, theta_rad);
-            }
-            s.width_rad_ *= Scalar(0.5F);
-            s.point_ = Search::Point::low;
-            if (++s.round_ < rounds) {
-                return;
-            }
+        using std::sqrt;
+        const Parabola p = parabola_of(s);
+        const Scalar u = s.probe_in_steps_;
+        const Scalar rest = s.probe_J_ - s.J_[p.node] - u * (p.b + p.a * u);
+        const Scalar slope = p.b / p.a;
+        const Scalar cubic = rest / (p.a * u * (u * u - Scalar(1)));
+        const Scalar discriminant = Scalar(1) - Scalar(3) * cubic * (slope - cubic);
+        if (discriminant > Scalar(0)) {
+            const Scalar root = sqrt(discriminant);
+            s.curvature_ *= root;
+            keep_if_better(s, p, clamp((cubic - slope) / (Scalar(1) + root), Scalar(-1), Scalar(1)));
         }
-        s.phase_ = Search::Phase::interval;
+    }
+
+    /// Returns J there.
+    Scalar keep_if_better(Search& s, const Parabola& p, Scalar steps) const {
+        const Table& forces = table(s.side_);
+        const Scalar theta_rad = node_rad(forces, p.node) + steps * forces.step_rad();
+        const Profile profile = profile_at(s, theta_rad);
+        if (profile.misfit <= s.best_.misfit) {
+            keep(s, profile, theta_rad);
+        }
+        return profile.misfit;
+    }
+
+    /// The outermost node below the estimate that lies within the interval, or the nearest one.
+    void find_low_end(Search& s) const {
+        const Table& forces = table(s.side_);
+        if (!(s.best_.information > Scalar(0))) {
+            s.best_ = profile_at_node(s.question_, forces, s.best_node_);
+        }
+        // The estimate is less than two nodes from the best one.
+        std::size_t below = s.best_node_ + 1 < nodes ? s.best_node_ + 1 : nodes - 1;
+        while (below > 0 && !(node_rad(forces, below) < s.centre_rad_)) {
+            --below;
+        }
+        std::size_t low = 0;
+        while (low < below && !is_inside(s, low)) {
+            ++low;
+        }
+        if (low > 0 && is_inside(s, low) && s.J_[low - 1] == not_known) {
+            look_at_node(s, low - 1);
+            low = is_inside(s, low - 1) ? low - 1 : low;
+        }
+        s.low_node_ = low;
+    }
+    /// … and above it.
+    void find_high_end(Search& s) const {
+        const Table& forces = table(s.side_);
+        std::size_t above = s.best_node_ > 0 ? s.best_node_ - 1 : 0;
+        while (above < nodes - 1 && !(node_rad(forces, above) > s.centre_rad_)) {
+            ++above;
+        }
+        std::size_t high = nodes - 1;
+        while (high > above && !is_inside(s, high)) {
+            --high;
+        }
+        if (high + 1 < nodes && is_inside(s, high) && s.J_[high + 1] == not_known) {
+            look_at_node(s, high + 1);
+            high = is_inside(s, high + 1) ? high + 1 : high;
+        }
+        s.high_node_ = high;
+    }
+    [[nodiscard]] static bool is_inside(const Search& s, std::size_t node) {
+        return s.J_[node] <= s.best_.misfit + threshold_of_95_percent;
     }
 
     void fill_immersion(Search& s) const {
         using elementary::cos;
         using std::sqrt;
-        const Table& nodes = table(s.side_);
+        const Table& forces = table(s.side_);
         const auto& J = s.J_;
+        const std::size_t low = s.low_node_;
+        const std::size_t high = s.high_node_;
         const Scalar threshold = s.best_.misfit + threshold_of_95_percent;
-        const auto angle = [&](std::size_t k) { return nodes.angle_rad(Scalar(static_cast<int>(k))); };
-        // The nodes beside the estimate, which is never further than two from the best one.
-        std::size_t below = s.best_node_ + 2 < J.size() ? s.best_node_ + 2 : J.size() - 1;
-        while (below > 0 && !(angle(below) < s.centre_rad_)) {
-            --below;
-        }
-        std::size_t above = below;
-        while (above < J.size() - 1 && !(angle(above) > s.centre_rad_)) {
-            ++above;
-        }
-        std::size_t low = 0;
-        while (low < below && J[low] > threshold) {
-            ++low;
-        }
-        std::size_t high = J.size() - 1;
-        while (high > above && J[high] > threshold) {
-            --high;
-        }
         const auto crossing = [&](std::size_t inside, std::size_t outside) {
             const Scalar rise = J[outside] - J[inside];
             const Scalar share = rise > Scalar(0) ? clamp((threshold - J[inside]) / rise, Scalar(0), Scalar(1)) : Scalar(0);
-            return angle(inside) + (angle(outside) - angle(inside)) * share;
+            const Scalar inside_rad = node_rad(forces, inside);
+            return inside_rad + (node_rad(forces, outside) - inside_rad) * share;
         };
         const Scalar half_by_curvature =
-            s.curvature_ > Scalar(0) ? static_cast<Scalar>(1.96L) * sqrt(Scalar(2) / s.curvature_) : nodes.step_rad();
+            s.curvature_ > Scalar(0) ? static_cast<Scalar>(1.96L) * sqrt(Scalar(2) / s.curvature_) : forces.step_rad();
         Scalar theta_low = s.centre_rad_ - half_by_curvature;
         Scalar theta_high = s.centre_rad_ + half_by_curvature;
-        if (J[low] <= threshold) {
+        if (is_inside(s, low)) {
             const Scalar scanned = low > 0 ? crossing(low, low - 1) : Table::first_rad;
             theta_low = scanned < theta_low ? scanned : theta_low;
         }
-        if (J[high] <= threshold) {
-            const Scalar scanned = high + 1 < J.size() ? crossing(high, high + 1) : nodes.last_rad();
+        if (is_inside(s, high)) {
+            const Scalar scanned = high + 1 < nodes ? crossing(high, high + 1) : forces.last_rad();
             theta_high = scanned > theta_high ? scanned : theta_high;
         }
         EngagementEstimate<Scalar>& e = s.estimate_;

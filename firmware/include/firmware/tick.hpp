@@ -55,16 +55,17 @@ class ForceControlTick {
             }
             estimator_.tell_immersion(immersion_by_force_drops());
         }
+        since_control_s_ += dt_s;
+        const bool law_is_due = control_is_due_ || since_control_s_ > control_interval_s || !is_told(program);
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
-                                                       sample.spindle_index_number, signals);
+                                                       sample.spindle_index_number, signals, law_is_due);
         if (fresh) {
             rezero_in_air(program.rapid);
             follow_section();
             predict_roughness(signals);
             set_cut();
         }
-        since_control_s_ += dt_s;
-        if (control_is_due_ || fresh || since_control_s_ > control_interval_s || !is_told(program)) {
+        if (fresh || law_is_due) {
             input_.cut.fresh = fresh;
             run_control(signals, program, dt_s);
         }
