@@ -25,9 +25,9 @@
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
 /// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions at a node and
-/// twice as many between nodes: two nodes count as one value. A solution takes some 20 values for a side that is told, two
-/// more for every valley but the first, and twice as many for a side that is not; solve() works them off at once, begin()
-/// and advance() in portions, for a tick that must be short.
+/// twice as many between nodes: two nodes count as one value. A solution takes 20 values for a side that is told, one more
+/// for every valley but the first, and twice as many for a side that is not; solve() works them off at once, begin() and
+/// advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
 
@@ -143,7 +143,19 @@ class EngagementSolver {
 
       private:
         friend class EngagementSolver;
-        enum class Phase : unsigned char { scan, valleys, probe, candidate, low_end, high_end, interval, depth_at_low, depth_at_high, depth, done };
+        enum class Phase : unsigned char {
+            scan,
+            valleys,
+            probe,
+            candidate,
+            low_end,
+            high_end,
+            interval,
+            depth_at_low,
+            depth_at_high,
+            depth,
+            done
+        };
 
         Question question_{};
         EngagementEstimate<Scalar> estimate_{};
