@@ -204,6 +204,16 @@ TEST(Tick, in_small_portions_finds_the_same_cut_even_where_teeth_pass_faster_tha
     }
 }
 
+TEST(Tick, in_small_portions_solves_even_where_the_law_runs_in_every_tick) {
+    ForceControlTick<float> tick(in_small_portions(well_known_machine(), 1.0F));
+    hal::ProgramStatus restless = program();
+    for (int k = 0; k < 600; ++k) {
+        restless.operator_override = k % 2 == 0 ? 1.0F : 0.99F;
+        tick.step(sample_of(k), restless);
+    }
+    CHECK(tick.estimate().engagement.immersion_valid);
+}
+
 TEST(Tick, in_small_portions_learns_as_much_in_air) {
     const Parameters small = in_small_portions(machine_and_tool(), 6.0F);
     ForceControlTick<float> at_once(machine_and_tool());
