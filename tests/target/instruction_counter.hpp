@@ -19,7 +19,9 @@ class InstructionCounter {
 
     [[nodiscard]] std::uint32_t now() const { return at(0x18); }
     /// Without those of the two readings themselves.
-    [[nodiscard]] std::uint32_t since(std::uint32_t start) const { return (10U * (between(start, now()) - empty_) + 16U) / 32U; }
+    [[nodiscard]] std::uint32_t since(std::uint32_t start) const {
+        return (10U * (between(start, now()) - empty_) + 16U) / 32U;
+    }
 
   private:
     [[nodiscard]] static std::uint32_t between(std::uint32_t start, std::uint32_t end) {
