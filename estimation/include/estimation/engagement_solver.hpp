@@ -540,11 +540,7 @@ class EngagementSolver {
         while (low < below && !is_inside(s, low)) {
             ++low;
         }
-        if (low > 0 && is_inside(s, low) && s.J_[low - 1] == not_known) {
-            look_at_node(s, low - 1);
-            low = is_inside(s, low - 1) ? low - 1 : low;
-        }
-        s.low_node_ = low;
+        s.low_node_ = low > 0 ? last_inside(s, low, low - 1) : low;
     }
     /// … and above it.
     void find_high_end(Search& s) const {
@@ -557,11 +553,15 @@ class EngagementSolver {
         while (high > above && !is_inside(s, high)) {
             --high;
         }
-        if (high + 1 < nodes && is_inside(s, high) && s.J_[high + 1] == not_known) {
-            look_at_node(s, high + 1);
-            high = is_inside(s, high + 1) ? high + 1 : high;
+        s.high_node_ = high + 1 < nodes ? last_inside(s, high, high + 1) : high;
+    }
+    /// Of a node and the next one outwards, where the scan has left that out.
+    std::size_t last_inside(Search& s, std::size_t node, std::size_t next) const {
+        if (!is_inside(s, node) || s.J_[next] != not_known) {
+            return node;
         }
-        s.high_node_ = high;
+        look_at_node(s, next);
+        return is_inside(s, next) ? next : node;
     }
     [[nodiscard]] static bool is_inside(const Search& s, std::size_t node) {
         return s.J_[node] <= s.best_.misfit + threshold_of_95_percent;
