@@ -60,7 +60,7 @@ class ComparedController : public sim::OverrideSource {
 
   private:
     EmulatedController image_;
-    lock_step::Tick<Scalar> host_;
+    firmware::SmallTick<Scalar> host_;
     sim::MillforceController monitor_;
 };
 

@@ -54,13 +54,9 @@ firmware::Parameters<Scalar> parameters_of(const ParameterValues& values) {
     return parameters;
 }
 
-/// As a small chip's image has it.
-template <typename Scalar>
-using Tick = firmware::ForceControlTick<Scalar, firmware::NoWideBand<Scalar>>;
-
 /// What is to be told of a tick that has just given this override.
 template <typename Scalar>
-Answer answer_of(const Tick<Scalar>& tick, const hal::FeedOverride& feed) {
+Answer answer_of(const firmware::SmallTick<Scalar>& tick, const hal::FeedOverride& feed) {
     Answer answer{};
     answer.feed = feed;
     const auto& e = tick.estimate();

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace millforce;
-using Tick = lock_step::Tick<MILLFORCE_SCALAR>;
+using Tick = firmware::SmallTick<MILLFORCE_SCALAR>;
 
 char command_line[512];
 lock_step::ParameterValues parameter_values;

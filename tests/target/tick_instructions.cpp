@@ -46,7 +46,7 @@ void print(const char* scalar, const char* kind, const Count& count) {
 }
 
 template <typename Scalar>
-using Tick = firmware::ForceControlTick<Scalar, firmware::NoWideBand<Scalar>>;
+using Tick = firmware::SmallTick<Scalar>;
 
 /// Values of the solver in one tick: so many that its worst is about that of a tooth period's end. Without an FPU one,
 /// whichever the scalar: what is compared there does the same work.

@@ -386,4 +386,8 @@ class ForceControlTick {
     int sections_ = 0;
 };
 
+/// As a small chip has it: drives alone, no force sensor.
+template <typename Scalar>
+using SmallTick = ForceControlTick<Scalar, NoWideBand<Scalar>>;
+
 }  // namespace millforce::firmware

@@ -51,7 +51,7 @@ struct StartReport {
 
 class AnalogueController {
   public:
-    using Tick = firmware::ForceControlTick<float, firmware::NoWideBand<float>>;
+    using Tick = firmware::SmallTick<float>;
 
     AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
 
