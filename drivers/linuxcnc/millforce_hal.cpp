@@ -163,7 +163,6 @@ class Bridge {
         if (socket_ >= 0 && connect(socket_, reinterpret_cast<const sockaddr*>(&address_), sizeof address_) != 0) {
             disconnect();
         }
-        *pins_.connected = socket_ >= 0;
     }
 
     void disconnect() {
@@ -226,6 +225,8 @@ class Bridge {
         }
         --unanswered_;
         set_pins(pins_, message);
+        // Not before: samples of before the connection are never answered, whoever waits for an answer would wait in vain.
+        *pins_.connected = true;
     }
 
     sockaddr_un address_;
