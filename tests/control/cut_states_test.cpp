@@ -164,6 +164,16 @@ TEST(Faults, overload_is_forgotten_by_one_tooth_below_it_and_does_not_count_old_
     CHECK(repeat(controller, heavy, 100).fault == Fault::none);
 }
 
+TEST(Faults, one_estimate_is_a_revolution_of_overload_however_many_teeth_have_passed_since_the_last) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input heavy = in_contact();
+    heavy.cut.tooth_force_N = 2000.0F;
+    heavy.cut.tooth_periods = 40.0F;
+    CHECK(repeat(controller, heavy, 3).fault == Fault::none);
+    CHECK(controller.step(heavy).fault == Fault::overload);
+}
+
 TEST(Faults, a_guessed_tooth_force_is_no_overload_and_asks_for_no_less_than_the_entry_feed) {
     const Parameters p;
     for (const bool is_bound : {false, true}) {

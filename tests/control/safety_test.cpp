@@ -152,6 +152,47 @@ TEST(Safety, a_gap_in_the_cut_raises_nothing_above_the_feed_before_it) {
     }
 }
 
+TEST(Safety, an_estimate_is_good_for_a_rise_of_one_revolution) {
+    Controller controller;
+    Input light = in_contact();
+    light.cut.tooth_force_N = 300.0F;
+    const float before = bring_into_cut(controller, light).ratio;
+    light.cut.fresh = false;
+    const float after_a_revolution = repeat(controller, light, 16).ratio;  // of 15.7 ms
+    CHECK(after_a_revolution > before);
+    DOUBLES_EQUAL(static_cast<double>(after_a_revolution), static_cast<double>(repeat(controller, light, 500).ratio), 0.0);
+    light.cut.fresh = true;
+    CHECK(controller.step(light).ratio > after_a_revolution);
+}
+
+TEST(Safety, a_fall_waits_for_no_estimate) {
+    Controller controller;
+    Input input = in_contact();
+    bring_into_cut(controller, input);
+    const float before = repeat(controller, input, 200).ratio;
+    input.cut.fresh = false;
+    repeat(controller, input, 100);
+    input.operator_override = 0.5F * before;
+    CHECK(repeat(controller, input, 100).ratio <= 0.5F * before);
+}
+
+TEST(Safety, says_that_it_rises_while_more_than_a_quarter_is_missing) {
+    Controller controller;
+    Input light = in_contact();
+    light.cut.tooth_force_N = 100.0F;
+    CHECK(bring_into_cut(controller, light).rising);
+    Output output;
+    float last = 0.0F;
+    do {
+        last = output.ratio;
+        output = controller.step(light);
+    } while (output.rising);
+    const float settled = repeat(controller, light, 5000).ratio;
+    CHECK(output.ratio * 1.25F >= settled);
+    CHECK(last * 1.25F < settled);
+    CHECK_FALSE(controller.step(light).rising);
+}
+
 TEST(Safety, no_spindle_speed_no_rise) {
     for (const float speed_rad_s : {0.0F, -400.0F, not_a_number}) {
         for (const Input& start : {in_air(), in_contact()}) {

@@ -56,6 +56,7 @@ class FeedController {
         dt_s_ = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
         path_speed_mm_s_ = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
         way_mm_ = path_speed_mm_s_ * dt_s_;
+        since_estimate_s_ = input.cut.fresh ? Scalar(0) : since_estimate_s_ + dt_s_;
         update_state(input);
         watch_turns(input);
         if (basis_.has_changed(basis_of(input)) || input.cut.fresh || turned_now_) {
@@ -67,6 +68,7 @@ class FeedController {
         output.fault = fault_;
         output.limit = limit_;
         output.fading = trend_.fading();
+        output.rising = wanted_ > static_cast<Scalar>(1.25L) * ratio_;
         output.hold = state_ == CutState::fault || input.feed_hold;
         output.ratio = ratio_;
         if (parameters_.monitor_only && state_ != CutState::fault) {
@@ -213,7 +215,9 @@ class FeedController {
         }
         const bool over = input.cut.force_valid && input.cut.tooth_force_valid && !input.cut.tooth_force_is_bound &&
                           input.cut.tooth_force_N > parameters_.overload_share * parameters_.tooth_force_limit_N;
-        overload_periods_ = over ? overload_periods_ + input.cut.tooth_periods : Scalar(0);
+        // An estimate is that of one revolution, however long ago the last one was.
+        const Scalar seen = input.cut.tooth_periods < parameters_.teeth ? input.cut.tooth_periods : parameters_.teeth;
+        overload_periods_ = over ? overload_periods_ + seen : Scalar(0);
         if (overload_periods_ > parameters_.overload_revolutions * parameters_.teeth && !parameters_.monitor_only) {
             enter_fault(Fault::overload);
         }
@@ -486,6 +490,9 @@ class FeedController {
             return;
         }
         const bool cutting = state_ == CutState::in_cut || state_ == CutState::entry;
+        if (cutting && since_estimate_s_ > parameters_.teeth * tooth_period_s_) {
+            return;  // an estimate is good for a rise of one revolution
+        }
         const Scalar paced = recovery_per_rad_ * input.cut.spindle_speed_rad_s * dt_s_;
         const Scalar share = cutting ? (paced > Scalar(0) ? paced : Scalar(0)) : Scalar(1);
         const Scalar rise = share < Scalar(1) ? (wanted - ratio_) * share : wanted - ratio_;
@@ -517,6 +524,7 @@ class FeedController {
     CutTrend<Scalar> trend_{};
     Scalar ratio_before_growth_{0};
     Scalar way_since_estimate_mm_{0};
+    Scalar since_estimate_s_{0};
     PathTurn<Scalar> turn_{};
     Scalar turn_travel_left_mm_{0};
     Scalar turn_demand_{0};

@@ -95,6 +95,7 @@ struct ControlOutput {
     Fault fault = Fault::none;
     Limit limit = Limit::none;
     bool fading = false;  ///< the section of the cut falls: the tool leaves, or the part ends
+    bool rising = false;  ///< the override is on its way up, by more than a quarter
 };
 
 }  // namespace millforce::control

@@ -9,6 +9,7 @@
 #include "estimation/spindle_drive.hpp"
 #include "estimation/synchronous_average.hpp"
 #include "estimation/tooth_force.hpp"
+#include "estimation/tooth_repetition.hpp"
 
 /// From drive signals to forces, engagement and peak force: the chain that the tick runs.
 ///
@@ -18,6 +19,12 @@
 /// No heap, no clock; about 12 KiB with its tables in float. Not thread-safe.
 
 namespace millforce::estimation {
+
+/// What the caller of add() says of the present moment. It matters with solver_values_per_step alone.
+struct Moment {
+    bool is_busy = false;    ///< with the law for instance: what has just ended and the solver wait for the next call
+    bool is_steady = false;  ///< nothing rises and nothing fades: teeth that repeat themselves may wait for longest_wait_s
+};
 
 template <typename Scalar>
 class CutEstimator {
@@ -29,6 +36,7 @@ class CutEstimator {
           law_(law),
           encoder_(settings.encoder_counts_per_rev),
           average_({static_cast<int>(settings.teeth), settings.min_samples}),
+          repetition_(static_cast<int>(settings.teeth)),
           spindle_(spindle),
           per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
           count_rad_(Scalar(2) * pi<Scalar> / static_cast<Scalar>(settings.encoder_counts_per_rev)),
@@ -44,14 +52,13 @@ class CutEstimator {
     ///
     /// With solver_values_per_step each call does one piece of work at most, so that none is long: at the end of a tooth
     /// period the tangential force; the axes' forces where they are due (FeedForces); the peaks with the engagement that is
-    /// known; then the estimate is new. A tooth that loads the spindle as it did a revolution before waits for the
-    /// revolution's end. One call in between, and what calls are left over, work at the solver. It is taken up where the
-    /// forces ask something new, once a revolution or as soon as they have left those of the revolutions before; when it is
-    /// done its tables are read, and the peaks worked out anew. Tooth periods that end while another one is in work are in
-    /// the averages of the next. Where the caller `is_busy`, with the law for instance, what has just ended and the solver
-    /// wait for the next call.
+    /// known; then the estimate is new. Teeth that load the spindle as they did a revolution before (ToothRepetition) wait
+    /// for the revolution's end, and in a steady moment for longest_wait_s. One call in between, and what calls are left
+    /// over, work at the solver. It is taken up where the forces ask something new, once a revolution or as soon as they
+    /// have left those of the revolutions before; when it is done its tables are read, and the peaks worked out anew. Tooth
+    /// periods that end while another one is in work are in the averages of the next.
     bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
-             const DriveSignals<Scalar>& signals, bool is_busy = false) {
+             const DriveSignals<Scalar>& signals, Moment moment = {}) {
         const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
         since_period_s_ += dt_s;
         if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
@@ -67,6 +74,9 @@ class CutEstimator {
             periods_ended_ += completed;
         }
         if (in_portions()) {
+            if (completed > 0) {
+                follow_teeth();
+            }
             if (completed == 0 && is_resting_) {
                 has_closed_ = false;
                 return false;
@@ -75,10 +85,10 @@ class CutEstimator {
             const bool closes_one = completed > 0 && !has_closed_;
             has_closed_ = completed > 0;
             is_resting_ = false;
-            if (closes_one && (is_busy || stage_ != Stage::idle)) {
+            if (closes_one && (moment.is_busy || stage_ != Stage::idle)) {
                 return false;
             }
-            return work_on(closes_one, is_busy);
+            return work_on(closes_one, moment);
         }
         if (completed > 0) {
             work_at_once();
@@ -228,6 +238,10 @@ class CutEstimator {
     }
 
     static constexpr int parts_of_engagement = 3;
+    /// A CNC takes up an override within as long; and a force that grows too slowly to be seen has grown little.
+    static constexpr Scalar longest_wait_s = static_cast<Scalar>(0.05L);
+    /// Of the tangential force: the cutting law itself is no better known.
+    static constexpr Scalar least_change = static_cast<Scalar>(0.02L);
 
     /// What is to be done next for the tooth period in work.
     enum class Stage : unsigned char { idle, axes, peaks, show };
@@ -246,7 +260,7 @@ class CutEstimator {
     }
 
     /// The next piece of work. True where the estimate is new by it.
-    bool work_on(bool is_end_of_period, bool is_busy) {
+    bool work_on(bool is_end_of_period, Moment moment) {
         switch (stage_) {
             case Stage::axes:
                 take_axes();
@@ -261,10 +275,10 @@ class CutEstimator {
                 break;
         }
         const bool is_engagement_in_work = search_due_ || !search_.done() || unread_parts_ > 0;
-        if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work) && !tooth_repeats_itself()) {
+        if (periods_ended_ > 0 && !(has_engagements_turn_ && is_engagement_in_work) && !may_wait(moment)) {
             take_period();
         } else if (is_engagement_in_work) {
-            has_waited_ = is_busy && !has_waited_;  // never twice: a slow caller is busy each time
+            has_waited_ = moment.is_busy && !has_waited_;  // never twice: a slow caller is busy each time
             if (!has_waited_) {
                 work_on_engagement(is_end_of_period);
             }
@@ -275,17 +289,33 @@ class CutEstimator {
         return false;
     }
 
-    /// The tooth that has passed loaded the spindle as it did a revolution ago, within three deviations of the noise, and
-    /// the revolution is not over.
-    [[nodiscard]] bool tooth_repeats_itself() const {
-        const int since_memory = periods_since_memory_ + periods_ended_;
-        if (since_memory >= window_.tooth_periods || !average_.has_tooth_before()) {
+    /// The teeth repeat themselves, and neither the revolution nor a steady moment's wait is over.
+    [[nodiscard]] bool may_wait(Moment moment) const {
+        if (repetition_.has_changed()) {
             return false;
         }
+        const int since_memory = periods_since_memory_ + periods_ended_;
+        return since_memory < window_.tooth_periods ||
+               (moment.is_steady && Scalar(since_memory) * tooth_period_s_ < longest_wait_s);
+    }
+
+    void follow_teeth() {
         const auto& tooth = average_.tooth();
-        const auto& before = average_.tooth_before();
-        return (tooth.present & before.present & 1U) != 0U &&
-               spindle_.differs_by_noise(tooth.mean[0], before.mean[0], tooth.samples);
+        if (!average_.has_tooth_before() || (tooth.present & average_.tooth_before().present & 1U) == 0U) {
+            repetition_.lose();
+            return;
+        }
+        repetition_.follow(tooth.mean[0], average_.tooth_before().mean[0]);
+    }
+
+    /// What comes is compared with the teeth of this estimate.
+    void follow_teeth_from(const CutEstimate<Scalar>& e) {
+        const Scalar share = Scalar(1) / Scalar(window_.tooth_periods);
+        tooth_period_s_ = window_.duration_s * share;
+        const Scalar newtons_per_A = spindle_.torque_constant_Nm_per_A(e.spindle_speed_rad_s) * per_Nm_;
+        const bool has_force = e.tangential_N.valid && newtons_per_A > Scalar(0);
+        repetition_.start(spindle_.difference_variance_A2(window_.samples * share),
+                          has_force ? least_change * e.tangential_N.value / newtons_per_A : Scalar(0));
     }
 
     /// What does not belong to a tooth period: a value of the solver, or the reading of its solution.
@@ -296,12 +326,20 @@ class CutEstimator {
         } else if (!is_end_of_period) {
             has_engagements_turn_ = false;
             read_engagement();
-            if (unread_parts_ == 0 && estimate().window_s > Scalar(0)) {
+            if (unread_parts_ == 0 && estimate().window_s > Scalar(0) && must_be_shown()) {
                 work() = estimate();
                 work().tooth_periods = 0;
                 stage_ = Stage::peaks;
             }
         }
+    }
+
+    /// The solution that has been read cannot wait for the next tooth period: it tells of a higher force, or of less that is
+    /// known.
+    [[nodiscard]] bool must_be_shown() const {
+        const EngagementEstimate<Scalar>& shown = estimate().engagement;
+        return peaks_.factors().now > shown_factor_ + least_change * shown_factor_ ||
+               (shown.immersion_valid && !engagement_.immersion_valid) || (shown.solved && !engagement_.solved);
     }
 
     void solve_on() {
@@ -336,6 +374,9 @@ class CutEstimator {
         e.window_s = window_.duration_s;
         e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
         estimate_tangential(e);
+        if (in_portions()) {
+            follow_teeth_from(e);
+        }
         periods_since_memory_ = periods_since_memory_ + e.tooth_periods;
         is_new_revolution_ = periods_since_memory_ >= window_.tooth_periods;
         const bool has_axes = estimate().window_s > Scalar(0);
@@ -375,6 +416,7 @@ class CutEstimator {
             estimate_feed(e);
         }
         e.engagement = engagement_;
+        shown_factor_ = peaks_.factors().now;
         tooth_force_.fill(e, peaks_, solver_.table(peaks_.side()));
         stage_ = Stage::show;
     }
@@ -447,21 +489,30 @@ class CutEstimator {
         }
     }
 
-    /// A solution's answer is known while its question stays: within a third of a deviation of one window's noise, at
-    /// the same feed within a twentieth, and not yet known much better.
+    /// A solution's answer is known while its question stays: the forces, carried to the present feed, within a third of a
+    /// deviation of one window's noise or within least_change, the feed within a fifth, and nothing known much better.
     [[nodiscard]] bool asks_anything_new(const AverageForceMeasurement<Scalar>& forces, const CutEstimate<Scalar>& e) const {
-        const Scalar a_twentieth_mm = static_cast<Scalar>(0.05L) * asked_feed_per_tooth_mm_;
         const Scalar more_feed_mm = e.feed_per_tooth_mm - asked_feed_per_tooth_mm_;
-        return told_immersion_.valid || asked_.radial_immersion.valid || !feed_in_one_direction(forces, asked_) ||
-               more_feed_mm > a_twentieth_mm || -more_feed_mm > a_twentieth_mm ||
-               has_moved(forces.tangential_N, asked_.tangential_N) || has_moved(forces.x_N, asked_.x_N) ||
-               has_moved(forces.y_N, asked_.y_N);
+        const Scalar a_fifth_mm = static_cast<Scalar>(0.2L) * asked_feed_per_tooth_mm_;
+        if (told_immersion_.valid || asked_.radial_immersion.valid || !feed_in_one_direction(forces, asked_) ||
+            !(more_feed_mm < a_fifth_mm && -more_feed_mm < a_fifth_mm)) {
+            return true;
+        }
+        // F ∝ f^m: for so small a step its tangent.
+        const Scalar carried = Scalar(1) + tooth_force_.force_exponent() * more_feed_mm / asked_feed_per_tooth_mm_;
+        const Scalar least_N = least_change * forces.tangential_N.value;
+        return has_moved(forces.tangential_N, asked_.tangential_N, carried, least_N) ||
+               has_moved(forces.x_N, asked_.x_N, carried, least_N) || has_moved(forces.y_N, asked_.y_N, carried, least_N);
     }
-    [[nodiscard]] static bool has_moved(const Measurement<Scalar>& now, const Measurement<Scalar>& asked) {
+    [[nodiscard]] static bool has_moved(const Measurement<Scalar>& now, const Measurement<Scalar>& asked, Scalar carried,
+                                        Scalar least_N) {
+        if (!now.valid || !asked.valid) {
+            return now.valid != asked.valid;
+        }
         constexpr Scalar ninth = static_cast<Scalar>(1.0L / 9.0L);
-        return now.valid != asked.valid ||
-               (now.valid && (square(now.value - asked.value) > ninth * now.noise ||
-                              now.variance < static_cast<Scalar>(0.8L) * asked.variance));
+        const Scalar off_N2 = square(now.value - carried * asked.value);
+        return (off_N2 > ninth * now.noise && off_N2 > square(least_N)) ||
+               now.variance < static_cast<Scalar>(0.8L) * square(carried) * asked.variance;
     }
 
     [[nodiscard]] CutEstimate<Scalar>& work() { return estimates_[1U - shown_]; }
@@ -484,6 +535,8 @@ class CutEstimator {
     CuttingLaw<Scalar> law_{};
     EncoderAngle<Scalar> encoder_{};
     Averager average_{};
+    ToothRepetition<Scalar> repetition_{};
+    Scalar tooth_period_s_{0};
     SpindleDrive<Scalar> spindle_{};
     Scalar per_Nm_{0};     // F_at of a torque, 1000/R
     Scalar count_rad_{0};
@@ -495,6 +548,7 @@ class CutEstimator {
     Scalar asked_feed_per_tooth_mm_{0};
     EngagementPeaks<Scalar> peaks_{};
     ToothForce<Scalar> tooth_force_{};
+    Scalar shown_factor_{0};  // of the peaks, in the newest estimate
 
     typename Averager::Window window_{};
     typename Averager::Window air_window_{};

@@ -72,10 +72,9 @@ class SpindleDrive {
         drift_Nm_.correct({true, torque_without_drift_Nm(average), noise + doubt, noise});
     }
 
-    /// Two means of the current, each of so many samples, differ by less than three deviations of their noise.
-    [[nodiscard]] bool differs_by_noise(Scalar current_A, Scalar other_A, Scalar samples) const {
-        constexpr Scalar nine_of_two = Scalar(9 * 2);
-        return square(current_A - other_A) * samples < nine_of_two * square(parameters_.current_sd_A);
+    /// Of the difference of two means of the current, each of so many samples, by its noise; of none: 0.
+    [[nodiscard]] Scalar difference_variance_A2(Scalar samples) const {
+        return samples > Scalar(0) ? Scalar(2) * square(parameters_.current_sd_A) / samples : Scalar(0);
     }
 
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }

@@ -58,7 +58,7 @@ class ForceControlTick {
         since_control_s_ += dt_s;
         const bool law_is_due = control_is_due_ || since_control_s_ > control_interval_s || !is_told(program);
         const bool fresh = has_angle && estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count,
-                                                       sample.spindle_index_number, signals, law_is_due);
+                                                       sample.spindle_index_number, signals, {law_is_due, is_steady_});
         if (fresh) {
             rezero_in_air(program.rapid);
             follow_section();
@@ -343,6 +343,8 @@ class ForceControlTick {
         input_.rapid = program.rapid;
         input_.feed_hold = program.feed_hold;
         control_ = controller_.step(input_);
+        is_steady_ = control_.state == control::CutState::air || control_.state == control::CutState::exit ||
+                     (control_.state == control::CutState::in_cut && !control_.fading && !control_.rising);
     }
 
     hal::FeedOverride output() {
@@ -368,6 +370,7 @@ class ForceControlTick {
     std::uint32_t heartbeat_ = 0;
     bool has_time_ = false;
     bool control_is_due_ = false;
+    bool is_steady_ = false;  // no state in which each revolution is to be looked at
     bool was_rezeroed_ = false;
     int air_periods_ = 0;
     control::FeedController<Scalar> controller_;
