@@ -52,10 +52,15 @@ class Spindle {
     std::array<float, teeth> last_A_{};
 };
 
-ToothRepetition<float> started(float least_change_A = 0.0F) {
+ToothRepetition<float> started_with(float noise, float least_change_A) {
     ToothRepetition<float> repetition(teeth);
-    repetition.start(noise_A2, least_change_A);
+    repetition.set_scale(noise, least_change_A);
+    repetition.start();
     return repetition;
+}
+
+ToothRepetition<float> started(float least_change_A = 0.0F) {
+    return started_with(noise_A2, least_change_A);
 }
 
 }  // namespace
@@ -89,7 +94,7 @@ TEST(ToothRepetition, a_jump_is_remembered_though_the_teeth_behind_it_repeat_the
     spindle.turn(0.0F, &repetition);
     spindle.turn(0.0F, &repetition);
     CHECK(repetition.has_changed());
-    repetition.start(noise_A2, 0.0F);
+    repetition.start();
     spindle.turn(0.0F, &repetition);
     CHECK_FALSE(repetition.has_changed());
 }
@@ -126,7 +131,7 @@ TEST(ToothRepetition, noise_alone_is_a_change_in_less_than_one_tooth_of_a_hundre
         spindle.turn(0.0F, &repetition);
         if (repetition.has_changed()) {
             ++changes;
-            repetition.start(noise_A2, 0.0F);
+            repetition.start();
         }
     }
     CHECK(changes > 0);
@@ -134,9 +139,7 @@ TEST(ToothRepetition, noise_alone_is_a_change_in_less_than_one_tooth_of_a_hundre
 }
 
 TEST(ToothRepetition, below_the_least_change_there_is_none_however_fine_the_current) {
-    constexpr float least_A = 0.1F;
-    ToothRepetition<float> repetition(teeth);
-    repetition.start(1e-6F, least_A);
+    auto repetition = started_with(1e-6F, 0.1F);
     for (int k = 0; k < 3 * teeth; ++k) {
         repetition.follow(k < teeth ? 5.09F : 5.0F, 5.0F);
     }
@@ -146,8 +149,7 @@ TEST(ToothRepetition, below_the_least_change_there_is_none_however_fine_the_curr
 }
 
 TEST(ToothRepetition, what_creeps_by_more_than_the_least_change_is_one) {
-    ToothRepetition<float> repetition(teeth);
-    repetition.start(1e-6F, 0.1F);
+    auto repetition = started_with(1e-6F, 0.1F);
     for (int k = 0; k < 6; ++k) {  // each by 0.06 A
         repetition.follow(5.06F, 5.0F);
         CHECK_FALSE(repetition.has_changed());
@@ -166,8 +168,7 @@ TEST(ToothRepetition, knows_nothing_before_the_start_nor_without_a_tooth_to_comp
         repetition.follow(bad, 5.0F);
         CHECK(repetition.has_changed());
     }
-    auto noisy = started();
-    noisy.start(std::numeric_limits<float>::quiet_NaN(), 0.0F);
+    auto noisy = started_with(std::numeric_limits<float>::quiet_NaN(), 0.0F);
     noisy.follow(5.1F, 5.0F);
     CHECK(noisy.has_changed());
 }

@@ -20,9 +20,11 @@ using namespace millforce;
 
 namespace {
 
+bool has_own_scenario() { return std::getenv("MILLFORCE_LOOP_SCENARIO") != nullptr; }
+
 std::string scenario_file() {
-    const char* named = std::getenv("MILLFORCE_LOOP_SCENARIO");
-    return named != nullptr ? named : MILLFORCE_SOURCE_DIR "/sim/scenarios/width_step.toml";
+    return has_own_scenario() ? std::getenv("MILLFORCE_LOOP_SCENARIO")
+                              : MILLFORCE_SOURCE_DIR "/sim/scenarios/width_step.toml";
 }
 
 /// Gives the plant what the image says, and compares it with the host's own tick.
@@ -107,9 +109,10 @@ TEST_GROUP(ProcessorInTheLoop) {
 };
 
 TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit) {
-    mill_on<float>("cortex-m4f", 6, {1100, 5000});
+    // 600 is the budget. A part whose path bends all the time has another cut in each revolution.
+    mill_on<float>("cortex-m4f", 6, {has_own_scenario() ? 700U : 600U, 5000});
 }
 
 TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) {
-    mill_on<estimation::Fixed>("cortex-m3", 1, {5500, 10000});
+    mill_on<estimation::Fixed>("cortex-m3", 1, {4400, 10000});
 }

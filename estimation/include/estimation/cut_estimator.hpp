@@ -270,6 +270,9 @@ class CutEstimator {
                 return false;
             case Stage::show:
                 show();
+                if (window_.revolutions > 0) {
+                    set_scale_of_repetition(estimate());
+                }
                 return true;
             case Stage::idle:
                 break;
@@ -308,14 +311,13 @@ class CutEstimator {
         repetition_.follow(tooth.mean[0], average_.tooth_before().mean[0]);
     }
 
-    /// What comes is compared with the teeth of this estimate.
-    void follow_teeth_from(const CutEstimate<Scalar>& e) {
+    void set_scale_of_repetition(const CutEstimate<Scalar>& e) {
         const Scalar share = Scalar(1) / Scalar(window_.tooth_periods);
         tooth_period_s_ = window_.duration_s * share;
         const Scalar newtons_per_A = spindle_.torque_constant_Nm_per_A(e.spindle_speed_rad_s) * per_Nm_;
         const bool has_force = e.tangential_N.valid && newtons_per_A > Scalar(0);
-        repetition_.start(spindle_.difference_variance_A2(window_.samples * share),
-                          has_force ? least_change * e.tangential_N.value / newtons_per_A : Scalar(0));
+        repetition_.set_scale(spindle_.difference_variance_A2(window_.samples * share),
+                              has_force ? least_change * e.tangential_N.value / newtons_per_A : Scalar(0));
     }
 
     /// What does not belong to a tooth period: a value of the solver, or the reading of its solution.
@@ -374,9 +376,7 @@ class CutEstimator {
         e.window_s = window_.duration_s;
         e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
         estimate_tangential(e);
-        if (in_portions()) {
-            follow_teeth_from(e);
-        }
+        repetition_.start();
         periods_since_memory_ = periods_since_memory_ + e.tooth_periods;
         is_new_revolution_ = periods_since_memory_ >= window_.tooth_periods;
         const bool has_axes = estimate().window_s > Scalar(0);
@@ -490,12 +490,12 @@ class CutEstimator {
     }
 
     /// A solution's answer is known while its question stays: the forces, carried to the present feed, within a third of a
-    /// deviation of one window's noise or within least_change, the feed within a fifth, and nothing known much better.
+    /// deviation of one window's noise or within least_change, the feed within three tenths, and nothing known much better.
     [[nodiscard]] bool asks_anything_new(const AverageForceMeasurement<Scalar>& forces, const CutEstimate<Scalar>& e) const {
         const Scalar more_feed_mm = e.feed_per_tooth_mm - asked_feed_per_tooth_mm_;
-        const Scalar a_fifth_mm = static_cast<Scalar>(0.2L) * asked_feed_per_tooth_mm_;
+        const Scalar most_mm = static_cast<Scalar>(0.3L) * asked_feed_per_tooth_mm_;
         if (told_immersion_.valid || asked_.radial_immersion.valid || !feed_in_one_direction(forces, asked_) ||
-            !(more_feed_mm < a_fifth_mm && -more_feed_mm < a_fifth_mm)) {
+            !(more_feed_mm < most_mm && -more_feed_mm < most_mm)) {
             return true;
         }
         // F ∝ f^m: for so small a step its tangent.
@@ -512,7 +512,7 @@ class CutEstimator {
         constexpr Scalar ninth = static_cast<Scalar>(1.0L / 9.0L);
         const Scalar off_N2 = square(now.value - carried * asked.value);
         return (off_N2 > ninth * now.noise && off_N2 > square(least_N)) ||
-               now.variance < static_cast<Scalar>(0.8L) * square(carried) * asked.variance;
+               now.variance < halved(square(carried) * asked.variance);
     }
 
     [[nodiscard]] CutEstimate<Scalar>& work() { return estimates_[1U - shown_]; }

@@ -19,11 +19,15 @@ class ToothRepetition {
   public:
     explicit ToothRepetition(int teeth = 1) : teeth_(teeth) {}
 
-    /// What comes is compared anew. `noise_A2`: σ², `least_change_A`: ΔI ≥ 0.
-    void start(Scalar noise_A2, Scalar least_change_A) {
+    /// What is to count as nothing from now on: σ² and ΔI ≥ 0. Before the first call that is 0.
+    void set_scale(Scalar noise_A2, Scalar least_change_A) {
         noise_A2_ = square(deviations) * noise_A2;
         least_change_A2_ = square(least_change_A);
         of_one_A2_ = larger(noise_A2_, least_change_A2_);
+    }
+
+    /// What comes is compared anew.
+    void start() {
         sum_A_ = Scalar(0);
         followed_ = 0;
         has_changed_ = false;

@@ -343,8 +343,8 @@ class ForceControlTick {
         input_.rapid = program.rapid;
         input_.feed_hold = program.feed_hold;
         control_ = controller_.step(input_);
-        is_steady_ = control_.state == control::CutState::air || control_.state == control::CutState::exit ||
-                     (control_.state == control::CutState::in_cut && !control_.fading && !control_.rising);
+        const bool cuts = control_.state != control::CutState::air && control_.state != control::CutState::exit;
+        is_steady_ = !cuts || (!control_.fading && !control_.rising);
     }
 
     hal::FeedOverride output() {
