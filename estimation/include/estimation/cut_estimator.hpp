@@ -244,7 +244,7 @@ class CutEstimator {
     static constexpr Scalar least_change = static_cast<Scalar>(0.02L);
 
     /// What is to be done next for the tooth period in work.
-    enum class Stage : unsigned char { idle, axes, peaks, show };
+    enum class Stage : unsigned char { idle, axes, peaks, show, scale };
 
     void work_at_once() {
         predict_drifts();
@@ -270,10 +270,12 @@ class CutEstimator {
                 return false;
             case Stage::show:
                 show();
-                if (window_.revolutions > 0) {
-                    set_scale_of_repetition(estimate());
-                }
+                stage_ = window_.revolutions > 0 && estimate().tooth_periods > 0 ? Stage::scale : Stage::idle;
                 return true;
+            case Stage::scale:
+                set_scale_of_repetition(estimate());
+                stage_ = Stage::idle;
+                return false;
             case Stage::idle:
                 break;
         }
