@@ -343,8 +343,8 @@ class ForceControlTick {
         input_.rapid = program.rapid;
         input_.feed_hold = program.feed_hold;
         control_ = controller_.step(input_);
-        const bool cuts = control_.state != control::CutState::air && control_.state != control::CutState::exit;
-        is_steady_ = !cuts || (!control_.fading && !control_.rising);
+        const bool cuts = control_.state == control::CutState::entry || control_.state == control::CutState::in_cut;
+        is_steady_ = cuts && !control_.fading && !control_.rising;
     }
 
     hal::FeedOverride output() {
@@ -370,7 +370,7 @@ class ForceControlTick {
     std::uint32_t heartbeat_ = 0;
     bool has_time_ = false;
     bool control_is_due_ = false;
-    bool is_steady_ = false;  // no state in which each revolution is to be looked at
+    bool is_steady_ = false;  // in air each revolution is looked at as well: it teaches the idle torque
     bool was_rezeroed_ = false;
     int air_periods_ = 0;
     control::FeedController<Scalar> controller_;
