@@ -59,9 +59,7 @@ ToothRepetition<float> started_with(float noise, float least_change_A) {
     return repetition;
 }
 
-ToothRepetition<float> started(float least_change_A = 0.0F) {
-    return started_with(noise_A2, least_change_A);
-}
+ToothRepetition<float> started() { return started_with(noise_A2, 0.0F); }
 
 }  // namespace
 

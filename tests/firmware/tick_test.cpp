@@ -245,37 +245,28 @@ TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period
         tick.step(sample_of(k), program());
         const auto& e = tick.estimate();
         CHECK(e.tangential_N.valid && e.x_N.valid && e.tooth_force_N.valid && e.engagement.immersion_valid);
-        if (&e.window_s == last_shown) {
-            continue;
-        }
-        if (e.tooth_periods == 0) {  // the engagement is new, no tooth
-            last_shown = &e.window_s;
+        const bool is_new = &e.window_s != last_shown;
+        last_shown = &e.window_s;
+        if (!is_new || e.tooth_periods == 0) {  // nothing, or the engagement alone
             continue;
         }
         tooth_periods += first > 0 ? e.tooth_periods : 0;
         first = first > 0 ? first : k;
         last = k;
-        last_shown = &e.window_s;
         DOUBLES_EQUAL((last - first) / 3.75, tooth_periods, 2.0);  // of which one or two wait to be shown
     }
     constexpr int longest_wait = 50 + 2 * 4;  // ticks, and two teeth
     CHECK(first < 700 + longest_wait && last >= 1450 - longest_wait);
 }
 
-/// Estimates that 300 ticks show, from the cut's 900th on.
-int estimates_shown(ForceControlTick<float>& tick, hal::DriveSample (*sample_at)(int)) {
-    int shown = 0;
-    for (int k = 0; k < 1200; ++k) {
-        const float* before = &tick.estimate().window_s;
-        tick.step(sample_at(k), program());
-        shown += k >= 900 && &tick.estimate().window_s != before ? 1 : 0;
-    }
-    return shown;
-}
-
 TEST(Tick, in_small_portions_looks_seldom_at_a_cut_that_stays) {
     ForceControlTick<float> tick(in_small_portions(well_known_machine(), 6.0F));
-    const int shown = estimates_shown(tick, [](int k) { return sample_of(k); });
+    int shown = 0;  // in the last 300 ticks
+    for (int k = 0; k < 1200; ++k) {
+        const float* before = &tick.estimate().window_s;
+        tick.step(sample_of(k), program());
+        shown += k >= 900 && &tick.estimate().window_s != before ? 1 : 0;
+    }
     CHECK(tick.control().state == CutState::in_cut);
     CHECK(shown >= 5 && shown <= 7);  // 300 ms by 50 ms: a revolution is 15
 }
