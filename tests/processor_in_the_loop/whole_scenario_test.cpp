@@ -110,7 +110,7 @@ TEST_GROUP(ProcessorInTheLoop) {
 
 TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit) {
     // The project's budget is a mean of 600 (firmware/README.md).
-    mill_on<float>("cortex-m4f", 6, {has_own_scenario() ? 750U : 650U, 5000});
+    mill_on<float>("cortex-m4f", 6, {600, 5000});
 }
 
 TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) {

@@ -28,7 +28,7 @@ namespace millforce::control {
 template <typename Scalar>
 class FeedController {
   public:
-    explicit FeedController(const FeedControllerParameters<Scalar>& parameters = {})
+    [[gnu::cold, gnu::noinline]] explicit FeedController(const FeedControllerParameters<Scalar>& parameters = {})
         : parameters_(parameters),
           recovery_per_rad_(parameters.recovery_per_rev * estimation::turns_per_rad<Scalar>),
           ratio_(parameters.override_min),
@@ -45,13 +45,13 @@ class FeedController {
     [[nodiscard]] CutState state() const { return state_; }
 
     /// Leaves a latched fault. Only at standstill: the caller has seen the spindle stop or the operator acknowledge.
-    void reset() {
+    [[gnu::cold]] void reset() {
         if (fault_ != Fault::bad_configuration) {
             *this = FeedController(parameters_);
         }
     }
 
-    ControlOutput<Scalar> step(const ControlInput<Scalar>& input) {
+    [[gnu::always_inline]] ControlOutput<Scalar> step(const ControlInput<Scalar>& input) {
         // A step of unknown, negative or absurd length moves nothing; a speed that is no number counts as rest.
         dt_s_ = input.dt_s > Scalar(0) && input.dt_s < Scalar(1) ? input.dt_s : Scalar(0);
         path_speed_mm_s_ = is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
@@ -78,7 +78,7 @@ class FeedController {
     }
 
   private:
-    [[nodiscard]] bool configuration_is_sound() const {
+    [[nodiscard, gnu::cold]] bool configuration_is_sound() const {
         const auto& p = parameters_;
         const auto positive = [](Scalar value) { return is_finite(value) && value > Scalar(0); };
         const auto not_negative = [](Scalar value) { return is_finite(value) && value >= Scalar(0); };
@@ -258,7 +258,9 @@ class FeedController {
             const bool same = flags == now.flags && programmed_feed_mm_s == now.programmed_feed_mm_s &&
                               operator_override == now.operator_override &&
                               spindle_speed_rad_s == now.spindle_speed_rad_s;
-            *this = now;
+            if (!same) {
+                *this = now;
+            }
             return !same;
         }
     };
@@ -357,7 +359,7 @@ class FeedController {
     }
 
     /// The override that goes with it.
-    [[nodiscard]] static Scalar feed_at(Scalar growth, const ControlInput<Scalar>& input) {
+    [[nodiscard, gnu::noinline]] static Scalar feed_at(Scalar growth, const ControlInput<Scalar>& input) {
         using estimation::elementary::exp;
         using estimation::elementary::log;
         if (!(growth > Scalar(0))) {

@@ -30,8 +30,9 @@ template <typename Scalar>
 class CutEstimator {
   public:
     CutEstimator() = default;
-    CutEstimator(const CutEstimatorSettings<Scalar>& settings, const SpindleDriveParameters<Scalar>& spindle,
-                 const std::array<FeedDriveParameters<Scalar>, 3>& axes, const CuttingLaw<Scalar>& law)
+    [[gnu::cold]] CutEstimator(const CutEstimatorSettings<Scalar>& settings,
+                               const SpindleDriveParameters<Scalar>& spindle,
+                               const std::array<FeedDriveParameters<Scalar>, 3>& axes, const CuttingLaw<Scalar>& law)
         : settings_(settings),
           law_(law),
           encoder_(settings.encoder_counts_per_rev),
@@ -57,17 +58,18 @@ class CutEstimator {
     /// over, work at the solver. It is taken up where the forces ask something new, once a revolution or as soon as they
     /// have left those of the revolutions before; when it is done its tables are read, and the peaks worked out anew. Tooth
     /// periods that end while another one is in work are in the averages of the next.
-    bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
-             const DriveSignals<Scalar>& signals, Moment moment = {}) {
-        const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
+    [[gnu::always_inline]] bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count,
+                                    std::uint8_t index_number, const DriveSignals<Scalar>& signals,
+                                    Moment moment = {}) {
+        const EncoderReading<Scalar> reading = encoder_.advance(count, index_count, index_number);
         since_period_s_ += dt_s;
-        if (reading.event == EncoderEvent::reversed || reading.event == EncoderEvent::too_fast ||
-            reading.event == EncoderEvent::index_slipped || reading.event == EncoderEvent::index_found) {
+        if (reading.is_break()) {
             average_.restart();
             periods_ended_ = 0;
             return false;
         }
-        const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values, signals.present);
+        const auto angle_rev = [this] { return encoder_.angle_rev(); };
+        const int completed = average_.add(dt_s, reading.turned_rev, angle_rev, signals.values, signals.present);
         if (completed > 0) {
             since_prediction_s_ += since_period_s_;
             since_period_s_ = Scalar(0);
@@ -118,7 +120,7 @@ class CutEstimator {
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
     /// with the window one revolution ago: the first contact must not be taken for drift before it is known as contact.
     /// Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
-    bool rezero() {
+    [[gnu::cold]] bool rezero() {
         if (window_.revolutions == 0) {
             return false;
         }
@@ -357,8 +359,9 @@ class CutEstimator {
             return;
         }
         if (solver_.advance(search_, values)) {
+            const bool tells = search_.estimate().solved || engagement_.solved;  // nothing again: all is read
             engagement_ = search_.estimate();
-            unread_parts_ = parts_of_engagement;
+            unread_parts_ = tells ? parts_of_engagement : 0;
         }
     }
 

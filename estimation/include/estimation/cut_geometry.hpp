@@ -35,7 +35,8 @@ struct EngagementAngles {
 /// centre_offset ± R_r/2 (in cutter radii, positive on the φ = 0 side), clipped to the cutter.
 /// `unknown` is treated as down. Immersion outside 0…2 is clipped.
 template <typename Scalar>
-EngagementAngles<Scalar> engagement_angles(CutSide side, Scalar radial_immersion, Scalar centre_offset_in_radii = 0) {
+[[gnu::cold]] EngagementAngles<Scalar> engagement_angles(CutSide side, Scalar radial_immersion,
+                                                         Scalar centre_offset_in_radii = 0) {
     using elementary::acos;
     const auto clip = [](Scalar value, Scalar low, Scalar high) {
         return value < low ? low : (value > high ? high : value);

@@ -81,7 +81,7 @@ struct EngagementIntegrals {
 };
 
 template <typename Scalar>
-EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles) {
+[[gnu::cold]] EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles) {
     using elementary::cos;
     using elementary::sin;
     const Scalar delta = angles.exit_rad - angles.entry_rad;
@@ -117,7 +117,8 @@ struct CuttingCoefficients {
 };
 
 template <typename Scalar>
-CuttingCoefficients<Scalar> cutting_coefficients(const CuttingLaw<Scalar>& law, Scalar chip_thickness_mm) {
+[[gnu::cold]] CuttingCoefficients<Scalar> cutting_coefficients(const CuttingLaw<Scalar>& law,
+                                                               Scalar chip_thickness_mm) {
     using elementary::exp;
     using elementary::log;
     if (!(chip_thickness_mm > Scalar(0))) {

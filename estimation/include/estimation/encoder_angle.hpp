@@ -4,7 +4,7 @@
 
 namespace millforce::estimation {
 
-/// What one encoder reading showed.
+/// What one encoder reading showed. Those behind `standstill` end what has been averaged.
 enum class EncoderEvent : unsigned char {
     none,
     forward,       ///< turned in the cutting direction
@@ -20,6 +20,9 @@ struct EncoderReading {
     EncoderEvent event = EncoderEvent::none;
     Scalar turned_rev{0};  ///< since the last accepted reading, in revolutions, ≥ 0
     Scalar angle_rev{0};   ///< after it, 0…1 from the index (from the first reading where no index is wired)
+
+    /// No average reaches from before it to behind it.
+    [[nodiscard]] bool is_break() const { return event > EncoderEvent::standstill; }
 };
 
 /// Spindle angle from encoder counts and index pulse.
@@ -29,7 +32,7 @@ struct EncoderReading {
 /// first one `index_found`.
 /// A direction change is reported once per reading; a jitter of one count is not a reversal.
 /// Readings must be less than 0.45 revolutions apart. Integer arithmetic only, no accumulation of rounding.
-/// Not thread-safe; about 40 instructions a reading.
+/// Not thread-safe; about 15 instructions a reading, and as many for its angle, which can be left out.
 template <typename Scalar>
 class EncoderAngle {
   public:
@@ -41,39 +44,61 @@ class EncoderAngle {
     void reset() { started_ = false; }
 
     EncoderReading<Scalar> update(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
+        EncoderReading<Scalar> reading = advance(count, index_count, index_number);
+        reading.angle_rev = angle_rev();
+        return reading;
+    }
+
+    /// A reading without its angle: for whoever asks for that now and then, at least once in 2³¹ counts of `forward`.
+    EncoderReading<Scalar> advance(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
         EncoderReading<Scalar> reading;
-        if (!started_) {
-            started_ = true;
-            last_count_ = count;
-            zero_count_ = index_number == 0 ? count : index_count;
-            last_index_number_ = index_number;
-            reading.angle_rev = angle_rev(count);
-            return reading;
-        }
         const auto turned = static_cast<std::int32_t>(count - last_count_);
-        if (turned >= too_many_ || turned <= -too_many_) {
-            reading.event = EncoderEvent::too_fast;
-            last_count_ = count;
-        } else if (turned > 0) {
+        if (started_ && turned > 0 && turned < too_many_) [[likely]] {
             reading.event = EncoderEvent::forward;
             reading.turned_rev = static_cast<Scalar>(turned) * rev_per_count_;
             last_count_ = count;
-        } else if (turned >= -1) {
-            reading.event = EncoderEvent::standstill;
+        } else if (!started_) {
+            start(count, index_count, index_number);
+            return reading;
         } else {
-            reading.event = EncoderEvent::reversed;
-            last_count_ = count;
+            reading.event = other_event(turned);
+            last_count_ = reading.event == EncoderEvent::standstill ? last_count_ : count;
+            static_cast<void>(angle_rev());
         }
         if (index_number != last_index_number_) {
             take_index(index_count, index_number, reading);
         }
-        reading.angle_rev = angle_rev(last_count_);
         return reading;
+    }
+
+    /// After the last reading.
+    [[nodiscard]] Scalar angle_rev() {
+        std::uint32_t since_zero = last_count_ - zero_count_;
+        if (since_zero >= counts_per_rev_) {
+            since_zero = modulo(since_zero);
+            zero_count_ = last_count_ - since_zero;  // so near that the 32-bit difference never wraps
+        }
+        return static_cast<Scalar>(since_zero) * rev_per_count_;
     }
 
     [[nodiscard]] std::uint32_t counts_per_rev() const { return counts_per_rev_; }
 
   private:
+    void start(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
+        started_ = true;
+        last_count_ = count;
+        zero_count_ = index_number == 0 ? count : index_count;
+        last_index_number_ = index_number;
+    }
+
+    /// Of a reading that is not `forward`.
+    [[nodiscard]] EncoderEvent other_event(std::int32_t turned) const {
+        if (turned >= too_many_ || turned <= -too_many_) {
+            return EncoderEvent::too_fast;
+        }
+        return turned >= -1 ? EncoderEvent::standstill : EncoderEvent::reversed;
+    }
+
     void take_index(std::uint32_t index_count, std::uint8_t index_number, EncoderReading<Scalar>& reading) {
         const bool first_index = last_index_number_ == 0;
         last_index_number_ = index_number;
@@ -90,15 +115,6 @@ class EncoderAngle {
         const auto period = static_cast<std::int32_t>(counts_per_rev_);
         const std::int32_t rest = static_cast<std::int32_t>(difference) % period;
         return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
-    }
-
-    Scalar angle_rev(std::uint32_t count) {
-        std::uint32_t since_zero = count - zero_count_;
-        if (since_zero >= counts_per_rev_) {
-            since_zero = modulo(since_zero);
-            zero_count_ = count - since_zero;  // so near that the 32-bit difference never wraps
-        }
-        return static_cast<Scalar>(since_zero) * rev_per_count_;
     }
 
     std::uint32_t counts_per_rev_;

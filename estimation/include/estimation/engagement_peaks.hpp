@@ -47,7 +47,7 @@ class EngagementPeaks {
     };
 
     EngagementPeaks() = default;
-    EngagementPeaks(const CuttingLaw<Scalar>& law, const Settings& settings)
+    [[gnu::cold]] EngagementPeaks(const CuttingLaw<Scalar>& law, const Settings& settings)
         : largest_depth_mm_(settings.largest_depth_mm),
           surge_(place_of(settings.surge_immersion)),
           turn_(place_of(settings.turn_immersion)),

@@ -82,14 +82,15 @@ class EngagementSolver {
     using Table = EngagementTable<Scalar, Nodes>;
 
     EngagementSolver() = default;
-    EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings)
+    [[gnu::cold]] EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings)
         : settings_(settings) {
         for (const CutSide side : {CutSide::down, CutSide::up}) {
             table_of(side).build(law, settings.teeth, side, Scalar(0), largest_angle(side));
         }
     }
     /// For a tool whose side is told; CutSide::centred takes this one.
-    EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings, CutSide side)
+    [[gnu::cold]] EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings,
+                                   CutSide side)
         : EngagementSolver(law, settings) {
         if (side == CutSide::centred) {
             for (Table& table : tables_) {
@@ -309,7 +310,7 @@ class EngagementSolver {
         return 1;
     }
 
-    [[nodiscard]] Profile profile_at(const Search& s, Scalar theta_rad) const {
+    [[nodiscard, gnu::noinline]] Profile profile_at(const Search& s, Scalar theta_rad) const {
         return profile_of(s.question_, table(s.side_).at(theta_rad, s.question_.feed), theta_rad);
     }
 
@@ -457,7 +458,7 @@ class EngagementSolver {
         }
     }
 
-    void look_at_node(Search& s, std::size_t k) const {
+    [[gnu::noinline]] void look_at_node(Search& s, std::size_t k) const {
         s.J_[k] = profile_at_node(s.question_, table(s.side_), k).misfit;
     }
 

@@ -49,7 +49,7 @@ class EngagementTable {
 
     EngagementTable() = default;
 
-    void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
+    [[gnu::cold]] void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
                Scalar largest_rad) {
         using elementary::log;
         law_ = law;
@@ -154,7 +154,7 @@ class EngagementTable {
                 half_x * (x + Scalar(1))};
     }
 
-    [[nodiscard]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
+    [[nodiscard, gnu::cold]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
         using elementary::cos;
         using elementary::exp;
         using elementary::log;

@@ -134,7 +134,7 @@ class FeedDrive {
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 
     /// The tool is known to be in air: the current is friction, weight and inertia alone.
-    void rezero(const Average& average) {
+    [[gnu::cold]] void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
         if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
             return;

@@ -42,7 +42,7 @@ struct PeakFactors {
 
 /// In-plane force of one tooth whose tip stands at θ (the tip leads; the edge above it lags by the helix).
 template <typename Scalar>
-AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm,
+[[gnu::cold]] AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm,
                                          Scalar axial_depth_mm, Scalar sweep_rad, EngagementAngles<Scalar> engagement,
                                          Scalar tip_angle_rad) {
     constexpr Scalar least_sweep = static_cast<Scalar>(1e-3L);  // a straight edge: the limit of a small helix
@@ -66,8 +66,9 @@ AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar f
 /// κ and τ by search over one pitch and one tooth's passage (Steps values each). About Steps·(N + 1) single-tooth
 /// forces: for set-up, not for the tick.
 template <typename Scalar, int Steps = 72>
-PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
-                                 Scalar radial_immersion, Scalar axial_depth_mm) {
+[[gnu::cold]] PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law,
+                                               const PeakFactorSettings<Scalar>& settings, Scalar radial_immersion,
+                                               Scalar axial_depth_mm) {
     using std::sqrt;
     using elementary::tan;
     const EngagementAngles<Scalar> engagement =
@@ -134,7 +135,7 @@ class ToothPeakTable {
   public:
     ToothPeakTable() = default;
 
-    void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
+    [[gnu::cold]] void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
         using elementary::tan;
         sweep_rad_per_mm_ = tan(settings.helix_rad) / settings.cutter_radius_mm;
         side_ = settings.side;
@@ -160,7 +161,8 @@ class ToothPeakTable {
 
     /// The same where θ is known as well, R_r = 1 − cos θ. Some 40 operations but for CutSide::centred, which takes two
     /// arc cosines.
-    [[nodiscard]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion, Scalar axial_depth_mm) const {
+    [[nodiscard, gnu::noinline]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion,
+                                                 Scalar axial_depth_mm) const {
         const Scalar immersion = clamp(radial_immersion, least_immersion, Scalar(2));
         const Scalar theta = clamp(theta_rad, first_rad, pi<Scalar>);
         const Scalar engagement_rad = side_ == CutSide::centred ? engagement_at(immersion) : theta;

@@ -131,7 +131,7 @@ template <typename Scalar>
 class RoughnessPredictor {
   public:
     RoughnessPredictor() = default;
-    explicit RoughnessPredictor(const RoughnessModel<Scalar>& model);
+    [[gnu::cold]] explicit RoughnessPredictor(const RoughnessModel<Scalar>& model);
 
     [[nodiscard]] bool has_model() const { return has_model_; }
     [[nodiscard]] bool has_interval() const { return has_interval_; }
@@ -166,15 +166,15 @@ class RoughnessPredictor {
     /// No ceiling without an interval, without a told range of feeds, or where R does not grow with the feed (a₂ ≤ 0:
     /// a slower feed would not help). Cost: 18 times 15 products and a root, and
     /// two predictions.
-    [[nodiscard]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
+    [[nodiscard, gnu::cold]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
                                            const Measurement<Scalar>& f_z, Scalar limit_um) const;
 
   private:
     static constexpr std::size_t count = static_cast<std::size_t>(roughness_variable_count);
 
-    [[nodiscard]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
+    [[nodiscard, gnu::cold]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
                                                             Scalar ratio_ln_variance) const;
-    [[nodiscard]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
+    [[nodiscard, gnu::cold]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
                                              Scalar ratio_ln_variance) const;
     [[nodiscard]] static bool are_usable(const RoughnessConditions<Scalar>& cut);
     [[nodiscard]] RoughnessValues<Scalar> logarithms(const RoughnessConditions<Scalar>& cut) const;

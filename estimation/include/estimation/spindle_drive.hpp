@@ -63,7 +63,7 @@ class SpindleDrive {
 
     /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of its
     /// inertia's torque a share is in doubt.
-    void rezero(const Average& average) {
+    [[gnu::cold]] void rezero(const Average& average) {
         if (!is_usable(average)) {
             return;
         }

@@ -3,6 +3,7 @@
 #include "estimation/measurement.hpp"
 
 #include <Eigen/Core>
+#include <concepts>
 #include <cstdint>
 
 /// Averages of drive signals over spindle angle, per tooth period and per window of whole revolutions.
@@ -60,12 +61,18 @@ class SynchronousAverage {
     /// Adds one sample. `turned_rev` since the last sample (0 ≤ turned < 0.45), `angle_rev` after it (0…1).
     /// Returns how many tooth periods were completed (0 or more).
     int add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
+        return add(dt_s, turned_rev, [angle_rev] { return angle_rev; }, signals, present);
+    }
+    /// The same with an angle that is asked for where it is needed. Inlined: it is most of a tick.
+    template <std::invocable Angle>
+    [[gnu::always_inline]] int add(Scalar dt_s, Scalar turned_rev, Angle angle_rev, const Signals& signals,
+                                   std::uint32_t present) {
         if (has_previous_ && dt_s != previous_dt_s_) {
             take_interval(dt_s, turned_rev);
         }
         if (!has_previous_) {
             has_previous_ = true;
-            to_boundary_rev_ = pitch_rev_ - offset_in_pitch(angle_rev);
+            to_boundary_rev_ = pitch_rev_ - offset_in_pitch(angle_rev());
             remember(signals, present);
             return 0;
         }
@@ -74,7 +81,7 @@ class SynchronousAverage {
             to_boundary_rev_ -= turned_rev;  // counted on; the angle itself is asked at each boundary
             accumulate_whole(dt_s, turned_rev, present);
         } else {
-            completed = cross_boundaries(dt_s, turned_rev, angle_rev, signals, present);
+            completed = cross_boundaries(dt_s, turned_rev, angle_rev(), signals, present);
         }
         remember(signals, present);
         return completed;
@@ -119,7 +126,8 @@ class SynchronousAverage {
 
   private:
     /// An interval in which a tooth boundary lies, or several.
-    int cross_boundaries(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
+    [[gnu::noinline]] int cross_boundaries(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals,
+                                           std::uint32_t present) {
         int completed = 0;
         Scalar remaining_rev = turned_rev;
         Scalar used_share{0};
@@ -127,9 +135,8 @@ class SynchronousAverage {
             const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
             const Scalar share = used_share + step_rev / turned_rev;
             const Weights weights = weights_of(used_share, share, turned_rev);
-            sum_ += previous_signals_ * (pending_rev_ + weights.previous_rev) + signals * weights.present_rev;
             add_interval(share - used_share, (share - used_share) * dt_s, step_rev, present);
-            completed += close_period();
+            completed += close_period(signals, {pending_rev_ + weights.previous_rev, weights.present_rev});
             used_share = share;
             remaining_rev -= step_rev;
             to_boundary_rev_ = pitch_rev_;
@@ -215,12 +222,14 @@ class SynchronousAverage {
         present_ &= present & previous_present_;
     }
 
-    int close_period() {
+    /// With what the interval at its end adds to its sum.
+    int close_period(const Signals& signals, Weights last) {
         int completed = 0;
         if (period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0)) {
             newest_ = newest_ + 1 < MaxPeriods ? newest_ + 1 : 0;
             Means& period = periods_[newest_];
-            period.mean = sum_ * (Scalar(1) / turned_rev_);
+            period.mean = (sum_ + (previous_signals_ * last.previous_rev + signals * last.present_rev)) *
+                          (Scalar(1) / turned_rev_);
             period.present = present_;
             period.duration_s = duration_s_;
             period.samples = samples_;

@@ -29,7 +29,7 @@ namespace millforce::firmware {
 template <typename Scalar, typename WideBand = WideBandMonitor<Scalar>>
 class ForceControlTick {
   public:
-    explicit ForceControlTick(const Parameters<Scalar>& parameters)
+    [[gnu::cold, gnu::noinline]] explicit ForceControlTick(const Parameters<Scalar>& parameters)
         : controller_(controller_parameters(parameters)),
           estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
                      parameters.tool.law),
@@ -330,8 +330,8 @@ class ForceControlTick {
                program.feed_hold == program_.feed_hold;
     }
 
-    void run_control(const estimation::DriveSignals<Scalar>& signals, const hal::ProgramStatus& program,
-                     Scalar time_since_sample_s) {
+    [[gnu::noinline]] void run_control(const estimation::DriveSignals<Scalar>& signals,
+                                       const hal::ProgramStatus& program, Scalar time_since_sample_s) {
         set_motion(signals);
         input_.time_since_sample_s = time_since_sample_s;
         program_ = program;

@@ -53,10 +53,11 @@ class AnalogueController {
   public:
     using Tick = firmware::SmallTick<float>;
 
-    AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
+    [[gnu::cold]] AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
 
     /// `parameters` are used where the report says that there are some.
-    void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us);
+    [[gnu::cold]] void start(const StartReport& report, const firmware::Parameters<float>& parameters,
+                             std::uint64_t now_us);
     /// As often as possible, at least once per sample period.
     void poll(std::uint64_t now_us);
     /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is asked
@@ -81,7 +82,7 @@ class AnalogueController {
     [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
 
   private:
-    void tell_start(const StartReport& report);
+    [[gnu::cold]] void tell_start(const StartReport& report);
     void receive_frames(std::uint64_t now_us);
     void send_frames();
     bool send_last_words(emergency::Reason reason, std::uint32_t detail);
