@@ -28,7 +28,7 @@ char* next_word(char* text) {
     return space + 1;
 }
 
-[[gnu::noinline]] hal::FeedOverride counted_step(Tick& tick, const lock_step::Request& request) {
+[[gnu::noipa]] hal::FeedOverride counted_step(Tick& tick, const lock_step::Request& request) {
     return tick.step(request.sample, request.program);
 }
 

@@ -59,7 +59,7 @@ constexpr float solver_values_per_tick = 1.0F;
 #endif
 
 template <typename Scalar>
-[[gnu::noinline]] hal::FeedOverride counted_step(Tick<Scalar>& tick, const hal::DriveSample& sample,
+[[gnu::noipa]] hal::FeedOverride counted_step(Tick<Scalar>& tick, const hal::DriveSample& sample,
                                                  const hal::ProgramStatus& program) {
     return tick.step(sample, program);
 }

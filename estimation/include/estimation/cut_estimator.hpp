@@ -245,6 +245,9 @@ class CutEstimator {
     /// Of the tangential force: the cutting law itself is no better known.
     static constexpr Scalar least_change = static_cast<Scalar>(0.02L);
 
+    /// Idle torque and friction drift over minutes.
+    static constexpr Scalar drifts_move_in_s = static_cast<Scalar>(0.1L);
+
     /// What is to be done next for the tooth period in work.
     enum class Stage : unsigned char { idle, axes, peaks, show, scale };
 
@@ -352,7 +355,9 @@ class CutEstimator {
         int values = settings_.solver_values_per_step;
         if (search_due_) {
             search_due_ = false;
-            predict_drifts();
+            if (since_prediction_s_ > drifts_move_in_s) {
+                predict_drifts();
+            }
             solver_.begin(search_, asked_, asked_feed_per_tooth_mm_, settings_.side);
             --values;
         } else if (search_.done()) {
@@ -439,7 +444,7 @@ class CutEstimator {
         } else if (unread_parts_ == 2) {
             peaks_.take_changes(solver_);
         } else {
-            peaks_.take_bounds(engagement_, solver_, asked_feed_per_tooth_mm_);
+            peaks_.take_bounds(engagement_, solver_, search_.feed());
         }
         --unread_parts_;
     }

@@ -87,11 +87,11 @@ class EngagementPeaks {
         }
     }
 
-    /// The third part of take(), with the same solution.
+    /// The third part of take(), with the same solution and the feed that it was asked for.
     void take_bounds(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver,
-                     Scalar feed_per_tooth_mm) {
+                     const typename Table::Feed& feed) {
         read_bounds(found, found.immersion_valid && found.axial_depth_mm > Scalar(0));
-        factors_.by_K_s = change_by_K_s(solver.table(side_), feed_per_tooth_mm);
+        factors_.by_K_s = change_by_K_s(solver.table(side_), feed);
     }
 
     [[nodiscard]] const Factors& factors() const { return factors_; }
@@ -133,12 +133,12 @@ class EngagementPeaks {
     }
 
     /// An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
-    [[nodiscard]] Scalar change_by_K_s(const Table& table, Scalar feed_per_tooth_mm) const {
+    [[nodiscard]] Scalar change_by_K_s(const Table& table, const typename Table::Feed& feed) const {
         using std::sqrt;
-        if (!(feed_per_tooth_mm > Scalar(0))) {
+        if (!(feed.G_N_per_mm > Scalar(0))) {
             return Scalar(0);
         }
-        const Scalar variance = table.doubt_of_K_s().variance_at(table.ln_t_in_references(here_node_, feed_per_tooth_mm));
+        const Scalar variance = table.doubt_of_K_s().variance_at(Table::ln_t_in_references(here_node_, feed));
         const Scalar shallower_mm = depth_mm_ * (Scalar(1) - sqrt(variance));
         return factor(side_, now_, shallower_mm) - factors_.now;
     }

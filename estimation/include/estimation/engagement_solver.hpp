@@ -136,6 +136,8 @@ class EngagementSolver {
       public:
         [[nodiscard]] bool done() const { return phase_ == Phase::done; }
         [[nodiscard]] const EngagementEstimate<Scalar>& estimate() const { return estimate_; }
+        /// What the last question that could be solved was asked for.
+        [[nodiscard]] const typename Table::Feed& feed() const { return question_.feed; }
         /// Gives it up: no estimate.
         void cancel() {
             estimate_ = {};

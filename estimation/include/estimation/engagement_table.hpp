@@ -94,10 +94,9 @@ class EngagementTable {
     [[nodiscard]] Doubt doubt_of_K_s() const { return {square(law_.K_s_relative_sd), law_.K_s_exponent_sd}; }
     [[nodiscard]] Doubt doubt_of_r_1() const { return {square(law_.r_1_relative_sd), law_.r_1_exponent_sd}; }
 
-    /// ln(t_a/t_ref) at a node, f_z > 0, without the forces.
-    [[nodiscard]] Scalar ln_t_in_references(const Node& node, Scalar feed_per_tooth_mm) const {
-        using elementary::log;
-        return has_reference_ ? log(feed_per_tooth_mm) - ln_reference_ + node[ln_sine] : Scalar(0);
+    /// ln(t_a/t_ref) at a node without the forces.
+    [[nodiscard]] static Scalar ln_t_in_references(const Node& node, const Feed& feed) {
+        return feed.ln_f_in_references + node[ln_sine];
     }
 
     [[nodiscard]] Forces at_node(std::size_t k, const Feed& feed) const { return forces(nodes_[k], feed); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "control/feed_controller.hpp"
@@ -62,7 +63,9 @@ class ForceControlTick {
         if (fresh) {
             rezero_in_air(program.rapid);
             follow_section();
-            predict_roughness(signals);
+            if (roughness_model_.has_model()) {
+                predict_roughness(signals);
+            }
             set_cut();
         }
         if (fresh || law_is_due) {
@@ -248,9 +251,6 @@ class ForceControlTick {
     /// prediction. F_x is the force along the feed. Not inlined: once per tooth period, and every tick is shorter for it.
     [[gnu::noinline]] void predict_roughness(const estimation::DriveSignals<Scalar>& signals) {
         using std::sqrt;
-        if (!roughness_model_.has_model()) {
-            return;
-        }
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
         constexpr Scalar turn = Scalar(2) * estimation::pi<Scalar>;
         const Scalar turns_per_s = e.spindle_speed_rad_s / turn;
@@ -323,10 +323,11 @@ class ForceControlTick {
         input_.surface = surface_;
     }
 
-    /// The controller knows the program's words. What is no number is always new.
+    /// The controller knows the program's words, to the bit: so comparing them takes no floating-point unit.
     [[nodiscard]] bool is_told(const hal::ProgramStatus& program) const {
-        return program.programmed_feed_mm_s == program_.programmed_feed_mm_s &&
-               program.operator_override == program_.operator_override && program.rapid == program_.rapid &&
+        const auto same = [](float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); };
+        return same(program.programmed_feed_mm_s, program_.programmed_feed_mm_s) &&
+               same(program.operator_override, program_.operator_override) && program.rapid == program_.rapid &&
                program.feed_hold == program_.feed_hold;
     }
 
