@@ -16,9 +16,9 @@ using millforce::firmware::ForceControlTick;
 using millforce::firmware::Parameters;
 
 /// What callgrind counts: its --toggle-collect names this function.
-extern "C" [[gnu::noinline]] void counted_step(ForceControlTick<float>& tick, const hal::DriveSample& sample,
-                                               const hal::ProgramStatus& program) {
-    tick.step(sample, program);
+extern "C" [[gnu::noipa]] hal::FeedOverride counted_step(ForceControlTick<float>& tick, const hal::DriveSample& sample,
+                                                         const hal::ProgramStatus& program) {
+    return tick.step(sample, program);
 }
 
 int main() {

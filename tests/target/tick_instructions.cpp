@@ -60,7 +60,7 @@ constexpr float solver_values_per_tick = 1.0F;
 
 template <typename Scalar>
 [[gnu::noipa]] hal::FeedOverride counted_step(Tick<Scalar>& tick, const hal::DriveSample& sample,
-                                                 const hal::ProgramStatus& program) {
+                                              const hal::ProgramStatus& program) {
     return tick.step(sample, program);
 }
 
