@@ -33,35 +33,37 @@ class PathTurn {
         constexpr Scalar settling_s = static_cast<Scalar>(0.015L);
         const Scalar beyond_s = measured.tooth_period_s - settling_s;
         const Scalar over_s = beyond_s + beyond_s;
+        Motion motion = measured;
         if (over_s > measured.dt_s) {
-            return has_turned_in(smoothed(measured, measured.dt_s / over_s));
+            follow({measured.velocity_x_mm_s, measured.velocity_y_mm_s, measured.path_speed_mm_s}, measured.dt_s / over_s);
+            motion.velocity_x_mm_s = smooth_.x_mm_s;
+            motion.velocity_y_mm_s = smooth_.y_mm_s;
+            motion.path_speed_mm_s = smooth_.path_mm_s;
+            motion.way_mm = motion.path_speed_mm_s * motion.dt_s;
+        } else {
+            smooth_ = {measured.velocity_x_mm_s, measured.velocity_y_mm_s, measured.path_speed_mm_s};
         }
-        smooth_ = {measured.velocity_x_mm_s, measured.velocity_y_mm_s, measured.path_speed_mm_s};
-        return has_turned_in(measured);
+        const bool slowed = has_slowed(motion);
+        return has_turned(motion) || slowed;
     }
 
   private:
-    bool has_turned_in(const Motion& motion) {
-        const bool slowed = has_slowed(motion);
-        return has_turned(motion) || slowed;
+    struct Velocity {
+        Scalar x_mm_s{0};
+        Scalar y_mm_s{0};
+        Scalar path_mm_s{0};
+    };
+
+    [[gnu::noinline]] void follow(Velocity now, Scalar share) {
+        follow(smooth_.x_mm_s, now.x_mm_s, share);
+        follow(smooth_.y_mm_s, now.y_mm_s, share);
+        follow(smooth_.path_mm_s, now.path_mm_s, share);
     }
 
     /// What is no number passes through and does not stay.
     static void follow(Scalar& smooth, Scalar now, Scalar share) {
         const Scalar next = smooth + (now - smooth) * share;
         smooth = next - next == Scalar(0) ? next : now;
-    }
-
-    [[gnu::noinline]] Motion smoothed(const Motion& m, Scalar share) {
-        follow(smooth_.velocity_x_mm_s, m.velocity_x_mm_s, share);
-        follow(smooth_.velocity_y_mm_s, m.velocity_y_mm_s, share);
-        follow(smooth_.path_speed_mm_s, m.path_speed_mm_s, share);
-        Motion motion = m;
-        motion.velocity_x_mm_s = smooth_.velocity_x_mm_s;
-        motion.velocity_y_mm_s = smooth_.velocity_y_mm_s;
-        motion.path_speed_mm_s = smooth_.path_speed_mm_s;
-        motion.way_mm = motion.path_speed_mm_s * motion.dt_s;
-        return motion;
     }
 
     bool has_turned(const Motion& m) {
@@ -105,11 +107,7 @@ class PathTurn {
         return false;
     }
 
-    struct {
-        Scalar velocity_x_mm_s{0};
-        Scalar velocity_y_mm_s{0};
-        Scalar path_speed_mm_s{0};
-    } smooth_{};
+    Velocity smooth_{};
     Scalar mean_x_{0};
     Scalar mean_y_{0};
     bool was_at_speed_ = false;

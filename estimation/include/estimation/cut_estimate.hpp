@@ -43,7 +43,14 @@ struct DriveSignals {
     Eigen::Matrix<Scalar, channels, 1> values = Eigen::Matrix<Scalar, channels, 1>::Zero();
     std::uint32_t present = 0;
 
-    [[nodiscard]] Scalar velocity_mm_s(int axis) const { return values[first_velocity + axis]; }
+    struct Velocity {
+        Scalar x_mm_s{0};
+        Scalar y_mm_s{0};
+        Scalar z_mm_s{0};
+    };
+    [[nodiscard]] Velocity velocity() const {
+        return {values[first_velocity], values[first_velocity + 1], values[first_velocity + 2]};
+    }
 };
 
 /// Mean forces on the workpiece over the window. With solver_values_per_step they are worked out once a revolution, and

@@ -33,19 +33,19 @@ class CutEstimator {
     [[gnu::cold]] CutEstimator(const CutEstimatorSettings<Scalar>& settings,
                                const SpindleDriveParameters<Scalar>& spindle,
                                const std::array<FeedDriveParameters<Scalar>, 3>& axes, const CuttingLaw<Scalar>& law)
-        : settings_(settings),
-          law_(law),
+        : per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
+          count_rad_(Scalar(2) * pi<Scalar> / static_cast<Scalar>(settings.encoder_counts_per_rev)),
           encoder_(settings.encoder_counts_per_rev),
-          average_({static_cast<int>(settings.teeth), settings.min_samples}),
           repetition_(static_cast<int>(settings.teeth)),
           spindle_(spindle),
-          per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
-          count_rad_(Scalar(2) * pi<Scalar> / static_cast<Scalar>(settings.encoder_counts_per_rev)),
+          average_({static_cast<int>(settings.teeth), settings.min_samples}),
+          settings_(settings),
           axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
-          solver_(law, solver_settings(settings), settings.side),
           peaks_(law, {peak_settings(settings.side), settings.largest_depth_mm, settings.assumed_immersion,
                        settings.surge_immersion, settings.turn_immersion}),
-          tooth_force_(settings, law) {
+          tooth_force_(settings, law),
+          law_(law),
+          solver_(law, solver_settings(settings), settings.side) {
         read_whole_engagement();
     }
 
@@ -102,7 +102,7 @@ class CutEstimator {
     void tell_immersion(const Measurement<Scalar>& radial_immersion) { told_immersion_ = radial_immersion; }
 
     /// The encoder failed or the samples stopped: start anew, keep what was learnt in air.
-    void restart() {
+    [[gnu::cold, gnu::noinline]] void restart() {
         encoder_.reset();
         average_.restart();
         estimates_[shown_] = {};
@@ -527,7 +527,8 @@ class CutEstimator {
 
     [[nodiscard]] CutEstimate<Scalar>& work() { return estimates_[1U - shown_]; }
 
-    // What each sample touches comes first: near the object's start an access is one instruction.
+    // What each sample touches comes first, then what each tooth period does; the large tables are last. Near the object's
+    // start an access is one instruction.
     Scalar since_period_s_{0};
     Scalar since_prediction_s_{0};  // of the drifts, to the end of the last tooth period
     Scalar period_timeout_s_{0};  // 0: no window
@@ -539,37 +540,36 @@ class CutEstimator {
     bool search_due_ = false;
     bool has_engagements_turn_ = false;  // before the next tooth period: where teeth pass fast there is no other time
     bool has_waited_ = false;            // the engagement has, for a caller that was busy
+    bool is_new_revolution_ = false;  // no period of the window is one that memory_ has taken
     int unread_parts_ = 0;  // of engagement_, that peaks_ has not seen yet
-
-    CutEstimatorSettings<Scalar> settings_{};
-    CuttingLaw<Scalar> law_{};
-    EncoderAngle<Scalar> encoder_{};
-    Averager average_{};
-    ToothRepetition<Scalar> repetition_{};
+    int periods_since_memory_ = 0;
     Scalar tooth_period_s_{0};
-    SpindleDrive<Scalar> spindle_{};
     Scalar per_Nm_{0};     // F_at of a torque, 1000/R
     Scalar count_rad_{0};
-    std::array<FeedDrive<Scalar>, 3> axes_{};
-    EngagementSolver<Scalar> solver_{};
+    EncoderAngle<Scalar> encoder_{};
+    ToothRepetition<Scalar> repetition_{};
+    typename Averager::Window window_{};
+    SpindleDrive<Scalar> spindle_{};
+    Averager average_{};
+
+    CutEstimatorSettings<Scalar> settings_{};
     typename EngagementSolver<Scalar>::Search search_{};
     EngagementEstimate<Scalar> engagement_{};  // the last that the solver gave
     AverageForceMeasurement<Scalar> asked_{};  // what it is to be given next
     Scalar asked_feed_per_tooth_mm_{0};
+    std::array<FeedDrive<Scalar>, 3> axes_{};
     EngagementPeaks<Scalar> peaks_{};
     ToothForce<Scalar> tooth_force_{};
     Scalar shown_factor_{0};  // of the peaks, in the newest estimate
-
-    typename Averager::Window window_{};
-    typename Averager::Window air_window_{};
-    int air_periods_ = 0;
     ForceMemory<Scalar> memory_{};
     Measurement<Scalar> told_immersion_{};
-    int periods_since_memory_ = 0;
-    bool is_new_revolution_ = false;  // no period of the window is one that memory_ has taken
-    std::array<CutEstimate<Scalar>, 2> estimates_{};
     Scalar direction_x_{1};
     Scalar direction_y_{0};
+    std::array<CutEstimate<Scalar>, 2> estimates_{};
+    typename Averager::Window air_window_{};
+    int air_periods_ = 0;
+    CuttingLaw<Scalar> law_{};
+    EngagementSolver<Scalar> solver_{};
 };
 
 }  // namespace millforce::estimation

@@ -50,12 +50,11 @@ class SynchronousAverage {
     explicit SynchronousAverage(const Settings& settings = {})
         : settings_(settings), pitch_rev_(Scalar(1) / Scalar(settings.teeth)) {}
 
-    void restart() {
+    [[gnu::cold, gnu::noinline]] void restart() {
         available_ = 0;
         has_previous_ = false;
         period_is_whole_ = false;
-        sum_.setZero();
-        clear_period();
+        begin_period();
     }
 
     /// Adds one sample. `turned_rev` since the last sample (0 ≤ turned < 0.45), `angle_rev` after it (0…1).
@@ -81,14 +80,16 @@ class SynchronousAverage {
             to_boundary_rev_ -= turned_rev;  // counted on; the angle itself is asked at each boundary
             accumulate_whole(dt_s, turned_rev, present);
         } else {
-            completed = cross_boundaries(dt_s, turned_rev, angle_rev(), signals, present);
+            Signals in_memory;  // here alone: elsewhere they stay in registers
+            copy(signals, in_memory);
+            completed = cross_boundaries(dt_s, turned_rev, angle_rev(), in_memory, present);
         }
         remember(signals, present);
         return completed;
     }
 
     /// The tooth period that ended last. Valid after add() returned at least 1 since the last start.
-    [[nodiscard]] const Means& tooth() const { return at(0); }
+    [[nodiscard]] const Means& tooth() const { return periods_[newest_]; }
     [[nodiscard]] Scalar tooth_speed_rad_s() const { return two_pi * pitch_rev_ / tooth().duration_s; }
     [[nodiscard]] bool has_tooth() const { return available_ > 0; }
 
@@ -128,39 +129,45 @@ class SynchronousAverage {
     /// An interval in which a tooth boundary lies, or several.
     [[gnu::noinline]] int cross_boundaries(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals,
                                            std::uint32_t present) {
-        int completed = 0;
-        Scalar remaining_rev = turned_rev;
-        Scalar used_share{0};
-        while (true) {
-            const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
-            const Scalar share = used_share + step_rev / turned_rev;
-            const Weights weights = weights_of(used_share, share, turned_rev);
-            add_interval(share - used_share, (share - used_share) * dt_s, step_rev, present);
-            completed += close_period(signals, {pending_rev_ + weights.previous_rev, weights.present_rev});
-            used_share = share;
-            remaining_rev -= step_rev;
-            to_boundary_rev_ = pitch_rev_;
-            if (remaining_rev < pitch_rev_) {
-                break;
-            }
-            sum_.setZero();
+        const std::uint32_t both_present = present & previous_present_;
+        const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
+        Scalar share = step_rev / turned_rev;
+        Scalar remaining_rev = turned_rev - step_rev;
+        int completed = close_period({Scalar(0), share, turned_rev, step_rev}, dt_s, signals, both_present);
+        while (!(remaining_rev < pitch_rev_)) [[unlikely]] {
+            const Scalar next = share + pitch_rev_ / turned_rev;
+            begin_period();
+            completed += close_period({share, next, turned_rev, pitch_rev_}, dt_s, signals, both_present);
+            share = next;
+            remaining_rev -= pitch_rev_;
         }
         to_boundary_rev_ = distance_to_boundary(angle_rev, pitch_rev_ - remaining_rev);
-        const Weights weights = weights_of(used_share, Scalar(1), turned_rev);
+        const Weights weights = weights_of({share, Scalar(1), turned_rev, remaining_rev});
         sum_ = previous_signals_ * weights.previous_rev;
         pending_rev_ = weights.present_rev;
-        add_interval(Scalar(1) - used_share, (Scalar(1) - used_share) * dt_s, remaining_rev, present);
+        turned_rev_ = remaining_rev;
+        samples_ = Scalar(1) - share;
+        duration_s_ = samples_ * dt_s;
+        present_ = both_present;
         return completed;
     }
+
+    /// Of the interval between the previous sample and the present one.
+    struct Part {
+        Scalar from_share;
+        Scalar to_share;
+        Scalar turned_rev;  ///< in the whole interval
+        Scalar step_rev;    ///< in this part
+    };
 
     /// Of the samples at both ends of an interval, in the integral of the line between them over a part of it.
     struct Weights {
         Scalar previous_rev;
         Scalar present_rev;
     };
-    static Weights weights_of(Scalar from_share, Scalar to_share, Scalar turned_rev) {
-        const Scalar part_rev = (to_share - from_share) * turned_rev;
-        const Scalar present_rev = part_rev * halved(from_share + to_share);
+    static Weights weights_of(const Part& part) {
+        const Scalar part_rev = (part.to_share - part.from_share) * part.turned_rev;
+        const Scalar present_rev = part_rev * halved(part.from_share + part.to_share);
         return {part_rev - present_rev, present_rev};
     }
 
@@ -201,8 +208,16 @@ class SynchronousAverage {
     }
 
     void remember(const Signals& signals, std::uint32_t present) {
-        previous_signals_ = signals;
+        copy(signals, previous_signals_);
         previous_present_ = present;
+    }
+
+    /// One by one: the compiler keeps what is never copied as a whole in registers.
+    [[gnu::always_inline]] static void copy(const Signals& from, Signals& to) {
+#pragma GCC unroll 16
+        for (int k = 0; k < Channels; ++k) {
+            to[k] = from[k];
+        }
     }
 
     /// Adds a whole interval between the previous sample and the present one, as is usual. A line's integral is the mean
@@ -212,36 +227,36 @@ class SynchronousAverage {
         const Scalar half_rev = halved(turned_rev);
         sum_ += previous_signals_ * (pending_rev_ + half_rev);
         pending_rev_ = half_rev;
-        add_interval(Scalar(1), dt_s, turned_rev, present);
-    }
-
-    void add_interval(Scalar samples, Scalar duration_s, Scalar turned_rev, std::uint32_t present) {
         turned_rev_ += turned_rev;
-        duration_s_ += duration_s;
-        samples_ += samples;
+        duration_s_ += dt_s;
+        samples_ += Scalar(1);
         present_ &= present & previous_present_;
     }
 
-    /// With what the interval at its end adds to its sum.
-    int close_period(const Signals& signals, Weights last) {
-        int completed = 0;
-        if (period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0)) {
-            newest_ = newest_ + 1 < MaxPeriods ? newest_ + 1 : 0;
-            Means& period = periods_[newest_];
-            period.mean = (sum_ + (previous_signals_ * last.previous_rev + signals * last.present_rev)) *
-                          (Scalar(1) / turned_rev_);
-            period.present = present_;
-            period.duration_s = duration_s_;
-            period.samples = samples_;
-            available_ = available_ < MaxPeriods ? available_ + 1 : MaxPeriods;
-            completed = 1;
-        }
+    /// With a part of an interval, which ends at a boundary. Returns how many tooth periods were completed by it.
+    int close_period(const Part& part, Scalar dt_s, const Signals& signals, std::uint32_t both_present) {
+        const Scalar share = part.to_share - part.from_share;
+        const Scalar turned_rev = turned_rev_ + part.step_rev;
+        const Scalar duration_s = duration_s_ + share * dt_s;
+        const bool is_whole = period_is_whole_ && turned_rev > Scalar(0) && duration_s > Scalar(0);
         period_is_whole_ = true;
-        clear_period();
-        return completed;
+        if (!is_whole) {
+            return 0;
+        }
+        newest_ = newest_ + 1 < MaxPeriods ? newest_ + 1 : 0;
+        available_ = available_ < MaxPeriods ? available_ + 1 : MaxPeriods;
+        const Weights last = weights_of(part);
+        Means& period = periods_[newest_];
+        period.mean = (sum_ + (previous_signals_ * (pending_rev_ + last.previous_rev) + signals * last.present_rev)) *
+                      (Scalar(1) / turned_rev);
+        period.present = present_ & both_present;
+        period.duration_s = duration_s;
+        period.samples = samples_ + share;
+        return 1;
     }
 
-    void clear_period() {
+    void begin_period() {
+        sum_.setZero();
         turned_rev_ = Scalar(0);
         duration_s_ = Scalar(0);
         samples_ = Scalar(0);

@@ -41,8 +41,9 @@ class ForceControlTick {
           declared_depth_mm_(parameters.tool.declared_axial_depth_mm),
           reaction_s_(parameters.machine.cnc.override_latency_s) {}
 
-    /// A new drive sample. Cost: accumulation, every 5 ms the law, and once per tooth period the estimate.
-    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    /// A new drive sample. Cost: accumulation, every 5 ms the law, and once per tooth period the estimate. Inlined: a
+    /// controller calls it in one place.
+    [[gnu::always_inline]] hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
         const Scalar dt_s = elapsed_s(sample.time_us);
         const estimation::DriveSignals<Scalar> signals = taken_from(sample);
         const bool has_angle = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
@@ -64,13 +65,13 @@ class ForceControlTick {
             rezero_in_air(program.rapid);
             follow_section();
             if (roughness_model_.has_model()) {
-                predict_roughness(signals);
+                predict_roughness(signals.velocity());
             }
             set_cut();
         }
         if (fresh || law_is_due) {
             input_.cut.fresh = fresh;
-            run_control(signals, program, dt_s);
+            run_control(signals.velocity(), program, dt_s);
         }
         return output();
     }
@@ -122,6 +123,8 @@ class ForceControlTick {
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return roughness_; }
 
   private:
+    using Velocity = typename estimation::DriveSignals<Scalar>::Velocity;
+
     [[nodiscard]] bool is_in_cut() const {
         const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
         return is_cutting && !control_.fading;
@@ -191,41 +194,38 @@ class ForceControlTick {
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
         const auto& [x_A, y_A, z_A] = sample.axis_current_A;
         const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
-        if ((sample.present & all_drives) != all_drives ||
-            !hal::all_finite(sample.spindle_current_A, x_A, y_A, z_A, x_mm_s, y_mm_s, z_mm_s)) {
-            return partly_taken_from(sample);
-        }
-        return wholly_taken_from(sample);
+        const bool is_whole =
+            (sample.present & all_drives) == all_drives &&
+            hal::all_finite(sample.spindle_current_A, x_A, y_A, z_A, x_mm_s, y_mm_s, z_mm_s);
+        return is_whole ? signals_of(sample) : signals_of(usable_part_of(sample));
     }
 
-    static estimation::DriveSignals<Scalar> wholly_taken_from(const hal::DriveSample& sample) {
+    static estimation::DriveSignals<Scalar> signals_of(const hal::DriveSample& sample) {
         const auto& [x_A, y_A, z_A] = sample.axis_current_A;
         const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
         estimation::DriveSignals<Scalar> signals;
-        signals.present = all_drives >> 1U;
+        signals.present = (sample.present & all_drives) >> 1U;
         signals.values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s),
             Scalar(y_mm_s), Scalar(z_mm_s);
         return signals;
     }
 
-    [[gnu::noinline]] static estimation::DriveSignals<Scalar> partly_taken_from(const hal::DriveSample& sample) {
-        using Signals = estimation::DriveSignals<Scalar>;
-        Signals signals;
-        const auto take = [&](int channel, float value) { signals.values[channel] = Scalar(value); };
+    /// What is there and finite; an axis as a whole.
+    [[gnu::noinline]] static hal::DriveSample usable_part_of(const hal::DriveSample& sample) {
+        hal::DriveSample part;
         if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A)) {
-            signals.present = 1U;
-            take(0, sample.spindle_current_A);
+            part.present = hal::mask(hal::Present::spindle_current);
+            part.spindle_current_A = sample.spindle_current_A;
         }
         for (std::size_t k = 0; k < hal::axis_count; ++k) {
             if ((sample.present & hal::axis_mask(k)) != 0 && hal::is_finite(sample.axis_current_A[k]) &&
                 hal::is_finite(sample.axis_velocity_mm_s[k])) {
-                const int axis = static_cast<int>(k);
-                signals.present |= 2U << k;
-                take(Signals::first_current + axis, sample.axis_current_A[k]);
-                take(Signals::first_velocity + axis, sample.axis_velocity_mm_s[k]);
+                part.present = static_cast<std::uint8_t>(part.present | hal::axis_mask(k));
+                part.axis_current_A[k] = sample.axis_current_A[k];
+                part.axis_velocity_mm_s[k] = sample.axis_velocity_mm_s[k];
             }
         }
-        return signals;
+        return part;
     }
 
     [[gnu::noinline]] void rezero_in_air(bool rapid) {
@@ -249,13 +249,13 @@ class ForceControlTick {
 
     /// From F_x/F_z, F_z by the z drive's current: where z stands its force hides in static friction, and there is no
     /// prediction. F_x is the force along the feed. Not inlined: once per tooth period, and every tick is shorter for it.
-    [[gnu::noinline]] void predict_roughness(const estimation::DriveSignals<Scalar>& signals) {
+    [[gnu::noinline]] void predict_roughness(Velocity velocity) {
         using std::sqrt;
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
         constexpr Scalar turn = Scalar(2) * estimation::pi<Scalar>;
         const Scalar turns_per_s = e.spindle_speed_rad_s / turn;
         const Scalar path_mm_s =
-            sqrt(estimation::square(e.feed_mm_s) + estimation::square(signals.velocity_mm_s(2)));
+            sqrt(estimation::square(e.feed_mm_s) + estimation::square(velocity.z_mm_s));
         const Scalar estimated_depth_mm = e.engagement.depth_valid ? e.engagement.axial_depth_mm : Scalar(0);
         const estimation::RoughnessConditions<Scalar> cut{
             Scalar(60) * turns_per_s, turns_per_s > Scalar(0) ? path_mm_s / turns_per_s : Scalar(0), tool_diameter_mm_,
@@ -275,12 +275,12 @@ class ForceControlTick {
     }
 
     /// What the controller is told of the present sample.
-    void set_motion(const estimation::DriveSignals<Scalar>& signals) {
+    void set_motion(Velocity velocity) {
         using std::sqrt;
-        input_.velocity_x_mm_s = signals.velocity_mm_s(0);
-        input_.velocity_y_mm_s = signals.velocity_mm_s(1);
+        input_.velocity_x_mm_s = velocity.x_mm_s;
+        input_.velocity_y_mm_s = velocity.y_mm_s;
         const Scalar plane2 = estimation::square(input_.velocity_x_mm_s) + estimation::square(input_.velocity_y_mm_s);
-        const Scalar axial2 = estimation::square(signals.velocity_mm_s(2));
+        const Scalar axial2 = estimation::square(velocity.z_mm_s);
         input_.path_speed_mm_s = sqrt(plane2 + axial2);
         input_.plunging = axial2 > plane2 && axial2 > Scalar(0.25F);
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
@@ -331,9 +331,9 @@ class ForceControlTick {
                program.feed_hold == program_.feed_hold;
     }
 
-    [[gnu::noinline]] void run_control(const estimation::DriveSignals<Scalar>& signals,
-                                       const hal::ProgramStatus& program, Scalar time_since_sample_s) {
-        set_motion(signals);
+    [[gnu::noinline]] void run_control(Velocity velocity, const hal::ProgramStatus& program,
+                                       Scalar time_since_sample_s) {
+        set_motion(velocity);
         input_.time_since_sample_s = time_since_sample_s;
         program_ = program;
         input_.dt_s = since_control_s_;
