@@ -46,7 +46,44 @@ std::uint32_t counted(Fixed (*operation)(Fixed, Fixed), Fixed a, Fixed b) {
     return saturations() - before;
 }
 
+/// Of a product: the 128 bits of |a| |b|, bit by bit.
+struct Product {
+    std::uint64_t high = 0;
+    std::uint64_t low = 0;
+};
+Product product_of_sizes(Raw a, Raw b) {
+    const auto size_of = [](Raw raw) {
+        return raw < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(raw) : static_cast<std::uint64_t>(raw);
+    };
+    const std::uint64_t x = size_of(a);
+    const std::uint64_t y = size_of(b);
+    Product product;
+    for (unsigned bit = 64; bit-- > 0;) {
+        product.high = product.high << 1U | product.low >> 63U;
+        product.low <<= 1U;
+        if ((y >> bit & 1U) != 0U) {
+            product.low += x;
+            product.high += product.low < x ? 1U : 0U;
+        }
+    }
+    return product;
+}
+
+/// To nearest, halves upwards; clipped.
+Raw rounded_product(Raw a, Raw b) {
+    Product exact = product_of_sizes(a, b);
+    const bool negative = (a < 0) != (b < 0);
+    const std::uint64_t half = negative ? 0x7FFF'FFFFU : 0x8000'0000U;
+    exact.low += half;
+    exact.high += exact.low < half ? 1U : 0U;
+    const std::uint64_t size = exact.high << 32U | exact.low >> 32U;
+    const bool fits = exact.high >> 31U == 0U;
+    const Raw clipped = fits ? static_cast<Raw>(size) : highest;
+    return negative ? -clipped : clipped;
+}
+
 Fixed sum(Fixed a, Fixed b) { return a + b; }
+Fixed difference(Fixed a, Fixed b) { return a - b; }
 Fixed product(Fixed a, Fixed b) { return a * b; }
 Fixed quotient(Fixed a, Fixed b) { return a / b; }
 
@@ -66,6 +103,43 @@ double largest_error(double low, double high, Function function, Oracle oracle) 
 
 TEST_GROUP(FixedPoint) {};
 
+TEST(FixedPoint, a_product_is_the_exact_one_rounded_to_nearest) {
+    RawNumbers numbers;
+    for (int k = 0; k < 20000; ++k) {
+        const Raw a = numbers.next();
+        const Raw b = numbers.next();
+        CHECK_TRUE(rounded_product(a, b) == (Fixed::from_raw(a) * Fixed::from_raw(b)).raw());
+        CHECK_TRUE(rounded_product(a, b) == detail::multiply_by_words<detail::NeverSaturates>(a, b));
+    }
+}
+
+TEST(FixedPoint, a_product_is_exact_on_both_sides_of_where_a_shorter_way_ends) {
+    constexpr Raw limit = Raw{32768} << 32U;
+    for (const Raw a : {limit, limit - 1, limit + 1, -limit, -limit - 1, -limit + 1}) {
+        for (const Raw b : {limit, limit - 1, -limit, -limit - 1, Raw{1} << 31U, -(Raw{1} << 31U), Raw{1}, Raw{-1}, Raw{0}}) {
+            CHECK_TRUE(rounded_product(a, b) == (Fixed::from_raw(a) * Fixed::from_raw(b)).raw());
+            CHECK_TRUE(rounded_product(a, b) == detail::multiply_by_words<detail::NeverSaturates>(a, b));
+        }
+    }
+}
+
+TEST(FixedPoint, halves_of_the_resolution_are_rounded_upwards) {
+    const Fixed half(0.5F);
+    CHECK_TRUE((Fixed::from_raw(3) * half).raw() == 2);
+    CHECK_TRUE((Fixed::from_raw(-3) * half).raw() == -1);
+}
+
+TEST(FixedPoint, the_least_sum_of_all_is_a_number_like_others) {
+    const Fixed least = Fixed::from_raw(-highest) - Fixed::from_raw(1);
+    CHECK_TRUE(least < Fixed::from_raw(-highest));
+    CHECK_TRUE((-least).raw() == highest);
+    CHECK_TRUE(abs(least).raw() == highest);
+    CHECK_TRUE((least * Fixed(-1)).raw() == highest);
+    CHECK_TRUE((least * Fixed(0.5F)).raw() == -(Raw{1} << 62U));
+    CHECK_TRUE((least / Fixed(2)).raw() == -(Raw{1} << 62U));
+    CHECK_TRUE((Fixed(1) - least).raw() == highest);
+}
+
 #ifdef __SIZEOF_INT128__
 namespace {
 __extension__ using Wide = __int128;
@@ -80,16 +154,13 @@ Raw rounded_and_clipped(Wide numerator, Wide denominator) {
 }
 }  // namespace
 
-TEST(FixedPoint, product_and_quotient_are_the_exact_ones_rounded_to_nearest) {
+TEST(FixedPoint, a_quotient_is_the_exact_one_rounded_to_nearest) {
     RawNumbers numbers;
     for (int k = 0; k < 200000; ++k) {
         const Raw a = numbers.next();
         const Raw b = numbers.next();
         const Fixed x = Fixed::from_raw(a);
         const Fixed y = Fixed::from_raw(b);
-        const Raw exact = rounded_and_clipped(Wide{a} * b, Wide{1} << 32U);
-        CHECK_TRUE(exact == (x * y).raw());
-        CHECK_TRUE(exact == detail::multiply_by_words<detail::NeverSaturates>(a, b));
         if (b != 0) {
             CHECK_TRUE(rounded_and_clipped(Wide{a} * (Wide{1} << 32U), b) == (x / y).raw());
         }
@@ -101,11 +172,14 @@ TEST(FixedPoint, what_does_not_fit_is_the_end_of_the_range_and_is_counted) {
     const Fixed big = Fixed::from_raw(highest);
     CHECK_TRUE((big + Fixed(1)).raw() == highest);
     CHECK_TRUE((-big - Fixed(1)).raw() == -highest);
+    CHECK_TRUE((-big + Fixed(-1)).raw() == -highest);
+    CHECK_TRUE((big - Fixed(-1)).raw() == highest);
     CHECK_TRUE((big * Fixed(-2)).raw() == -highest);
     CHECK_TRUE((big / Fixed(0.5F)).raw() == highest);
     CHECK_TRUE(Fixed(4e9F).raw() == highest);
     CHECK_TRUE(Fixed(-4000000000LL).raw() == -highest);
     UNSIGNED_LONGS_EQUAL(1, counted(sum, big, Fixed(1)));
+    UNSIGNED_LONGS_EQUAL(1, counted(difference, -big, Fixed(1)));
     UNSIGNED_LONGS_EQUAL(1, counted(product, big, Fixed(2)));
     UNSIGNED_LONGS_EQUAL(1, counted(quotient, big, Fixed(0.5F)));
     UNSIGNED_LONGS_EQUAL(0, counted(product, big, Fixed(1)));

@@ -69,10 +69,10 @@ class FixedPoint {
         return static_cast<Integer>(raw_ / detail::raw_one);
     }
 
-    constexpr FixedPoint operator-() const { return from_raw(-raw_); }
+    constexpr FixedPoint operator-() const { return from_raw(detail::negate<Policy>(raw_)); }
     constexpr FixedPoint operator+() const { return *this; }
     friend constexpr FixedPoint operator+(FixedPoint a, FixedPoint b) { return seen(detail::add<Policy>(a.raw_, b.raw_)); }
-    friend constexpr FixedPoint operator-(FixedPoint a, FixedPoint b) { return seen(detail::add<Policy>(a.raw_, -b.raw_)); }
+    friend constexpr FixedPoint operator-(FixedPoint a, FixedPoint b) { return seen(detail::subtract<Policy>(a.raw_, b.raw_)); }
     friend constexpr FixedPoint operator*(FixedPoint a, FixedPoint b) { return seen(detail::multiply<Policy>(a.raw_, b.raw_)); }
     friend constexpr FixedPoint operator/(FixedPoint a, FixedPoint b) { return seen(detail::divide<Policy>(a.raw_, b.raw_)); }
     constexpr FixedPoint& operator+=(FixedPoint other) { return *this = *this + other; }
@@ -108,15 +108,19 @@ class FixedPoint {
     }
     template <typename Integer>
     static constexpr Raw from_integer(Integer value) {
-        constexpr Integer zero{0};
-        constexpr std::uint64_t most = INT32_MAX;
-        const bool negative = value < zero;
-        const std::uint64_t size =
-            negative ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
-        if (size > most) {
-            return detail::end_of_range<Policy>(negative);
+        if constexpr (std::signed_integral<Integer> && sizeof(Integer) <= sizeof(std::int32_t)) {
+            return Raw{value} * detail::raw_one;
+        } else {
+            constexpr Integer zero{0};
+            constexpr std::uint64_t most = INT32_MAX;
+            const bool negative = value < zero;
+            const std::uint64_t size =
+                negative ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+            if (size > most) {
+                return detail::end_of_range<Policy>(negative);
+            }
+            return detail::signed_raw(size << 32U, negative);
         }
-        return detail::signed_raw(size << 32U, negative);
     }
 
     template <typename Float>
@@ -130,23 +134,24 @@ class FixedPoint {
     static constexpr Raw from_float(float value) {
         const auto bits = std::bit_cast<std::uint32_t>(value);
         const bool negative = (bits >> 31U) != 0U;
-        const auto exponent = static_cast<int>(bits >> 23U & 0xFFU);
-        const std::uint64_t mantissa = (bits & 0x7F'FFFFU) | 0x80'0000U;
-        constexpr int all_ones = 0xFF;
-        constexpr int shift_of_zero = 127 + 23 - detail::fraction_bits;
-        const int up = exponent - shift_of_zero;
-        if (exponent == all_ones) {
-            Policy::saturated();
-            return 0;
+        const std::uint32_t exponent = bits >> 23U & 0xFFU;
+        const std::uint32_t mantissa = bits << 8U | 0x8000'0000U;
+        constexpr std::uint32_t of_half = 126;  // |value| is then the mantissa as raw
+        if (exponent < of_half) {
+            const std::uint32_t down = of_half - 1U - exponent;
+            const std::uint32_t twice = down < 32U ? mantissa >> down : 0U;
+            return detail::signed_raw((twice + 1U) >> 1U, negative);
         }
-        if (up > 39) {
-            return detail::end_of_range<Policy>(negative);
+        const std::uint32_t up = exponent - of_half;
+        if (up > 31U) [[unlikely]] {
+            return out_of_range(exponent, negative);
         }
-        if (up >= 0) {
-            return detail::signed_raw(mantissa << static_cast<unsigned>(up), negative);
-        }
-        const auto down = static_cast<unsigned>(-up);
-        return down > 25U ? 0 : detail::signed_raw((mantissa + (1ULL << (down - 1U))) >> down, negative);
+        return detail::signed_raw(detail::joined(mantissa >> 1U >> (31U - up), mantissa << up), negative);
+    }
+    static constexpr Raw out_of_range(std::uint32_t exponent, bool negative) {
+        constexpr std::uint32_t of_no_number = 0xFF;
+        const Raw end = detail::end_of_range<Policy>(negative);
+        return exponent == of_no_number ? 0 : end;
     }
 
     /// Rounded to nearest, halves to even, as the processor's own conversion.

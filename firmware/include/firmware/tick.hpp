@@ -203,11 +203,10 @@ class ForceControlTick {
     static estimation::DriveSignals<Scalar> signals_of(const hal::DriveSample& sample) {
         const auto& [x_A, y_A, z_A] = sample.axis_current_A;
         const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
-        estimation::DriveSignals<Scalar> signals;
-        signals.present = (sample.present & all_drives) >> 1U;
-        signals.values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s),
-            Scalar(y_mm_s), Scalar(z_mm_s);
-        return signals;
+        decltype(estimation::DriveSignals<Scalar>::values) values;
+        values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s), Scalar(y_mm_s),
+            Scalar(z_mm_s);
+        return {values, (sample.present & all_drives) >> 1U};
     }
 
     /// What is there and finite; an axis as a whole.

@@ -3,9 +3,12 @@
 #include <bit>
 #include <cstdint>
 #include <initializer_list>
+#include <type_traits>
 
 /// Integer arithmetic behind fixed_point.hpp: 64-bit raw values in Q31.32, made of 32 × 32 → 64 bit products, which a
-/// Cortex-M3 has as one instruction. Nothing here needs a 128-bit type, a floating-point unit or a library call.
+/// Cortex-M3 has as one instruction. Nothing here needs a 128-bit type, a floating-point unit or a library call. Where the
+/// compiler takes several times what a 32-bit ARM needs, it is told the instructions: overflow by the flags, and products
+/// added where their sum stands.
 
 namespace millforce::estimation::detail {
 
@@ -14,7 +17,7 @@ using Raw = std::int64_t;
 inline constexpr int fraction_bits = 32;
 inline constexpr Raw raw_one = Raw{1} << fraction_bits;
 inline constexpr Raw raw_highest = INT64_MAX;
-inline constexpr Raw raw_lowest = -INT64_MAX;  // symmetric: −x and |x| never overflow
+inline constexpr Raw raw_lowest = -INT64_MAX;  // symmetric. A sum may be one less, −2³¹ itself.
 
 // Where a product is four instructions it is worth a call: an inlined one makes the image twice as large.
 #ifdef __SIZEOF_INT128__
@@ -30,6 +33,8 @@ constexpr std::uint32_t high_word(std::uint64_t value) { return static_cast<std:
 constexpr std::uint32_t low_word(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
 constexpr std::uint64_t product(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} * b; }
 
+constexpr std::uint64_t joined(std::uint32_t high, std::uint32_t low) { return std::uint64_t{high} << 32U | low; }
+
 constexpr Raw signed_raw(std::uint64_t magnitude_of, bool negative) {
     return negative ? -static_cast<Raw>(magnitude_of) : static_cast<Raw>(magnitude_of);
 }
@@ -40,47 +45,121 @@ constexpr Raw end_of_range(bool negative) {
     return negative ? raw_lowest : raw_highest;
 }
 
-template <typename Policy>
-constexpr Raw add(Raw a, Raw b) {
-    Raw sum = 0;
-    if (__builtin_add_overflow(a, b, &sum) || sum == INT64_MIN) [[unlikely]] {
-        return end_of_range<Policy>(a < 0);
+#if defined(__arm__) && defined(__GCC_ASM_FLAG_OUTPUTS__)
+#define MILLFORCE_ARM_INSTRUCTIONS 1
+#endif
+
+/// a becomes a + b modulo 2⁶⁴. Returns whether that is not the sum.
+constexpr bool add_overflows(Raw& a, Raw b) {
+#ifdef MILLFORCE_ARM_INSTRUCTIONS
+    if (!std::is_constant_evaluated()) {
+        bool overflows = false;
+        __asm__("adds %Q0, %Q0, %Q2\n\tadcs %R0, %R0, %R2" : "+r"(a), "=@ccvs"(overflows) : "r"(b));
+        return overflows;
     }
-    return sum;
+#endif
+    return __builtin_add_overflow(a, b, &a);
 }
 
-/// a b, rounded to nearest, halves away from zero. Four products of 32 bits.
+/// … a − b.
+constexpr bool subtract_overflows(Raw& a, Raw b) {
+#ifdef MILLFORCE_ARM_INSTRUCTIONS
+    if (!std::is_constant_evaluated()) {
+        bool overflows = false;
+        __asm__("subs %Q0, %Q0, %Q2\n\tsbcs %R0, %R0, %R2" : "+r"(a), "=@ccvs"(overflows) : "r"(b));
+        return overflows;
+    }
+#endif
+    return __builtin_sub_overflow(a, b, &a);
+}
+
 template <typename Policy>
-MILLFORCE_CALLED constexpr Raw multiply_by_words(Raw a, Raw b) {
+constexpr Raw add(Raw a, Raw b) {
+    Raw sum = a;
+    return add_overflows(sum, b) ? end_of_range<Policy>(b < 0) : sum;
+}
+
+template <typename Policy>
+constexpr Raw subtract(Raw a, Raw b) {
+    Raw difference = a;
+    return subtract_overflows(difference, b) ? end_of_range<Policy>(b >= 0) : difference;
+}
+
+template <typename Policy>
+constexpr Raw negate(Raw a) {
+    return subtract<Policy>(0, a);
+}
+
+/// a b of two numbers below 2¹⁵, rounded to nearest, halves upwards. Worked out modulo 2⁶⁴ with the words as they are: of a
+/// negative number the upper word is 2³² too large.
+constexpr Raw small_product(Raw a, Raw b) {
+    const std::uint32_t a_low = low_word(static_cast<std::uint64_t>(a));
+    const std::uint32_t b_low = low_word(static_cast<std::uint64_t>(b));
+    const std::uint32_t a_high = high_word(static_cast<std::uint64_t>(a));
+    const std::uint32_t b_high = high_word(static_cast<std::uint64_t>(b));
+#ifdef MILLFORCE_ARM_INSTRUCTIONS
+    if (!std::is_constant_evaluated()) {
+        std::uint32_t low = 0;
+        std::uint32_t high = 0;
+        std::uint32_t scratch = 0;
+        __asm__("mul %[high], %[a_high], %[b_high]\n\t"
+                "and %[scratch], %[b_low], %[a_high], asr #31\n\t"
+                "sub %[high], %[high], %[scratch]\n\t"
+                "and %[scratch], %[a_low], %[b_high], asr #31\n\t"
+                "sub %[high], %[high], %[scratch]\n\t"
+                "umull %[scratch], %[low], %[a_low], %[b_low]\n\t"
+                "add %[low], %[low], %[scratch], lsr #31\n\t"
+                "umlal %[low], %[high], %[a_high], %[b_low]\n\t"
+                "umlal %[low], %[high], %[a_low], %[b_high]"
+                : [low] "=&r"(low), [high] "=&r"(high), [scratch] "=&r"(scratch)
+                : [a_low] "r"(a_low), [a_high] "r"(a_high), [b_low] "r"(b_low), [b_high] "r"(b_high));
+        return static_cast<Raw>(joined(high, low));
+    }
+#endif
+    const auto if_negative = [](std::uint32_t word, Raw x) { return x < 0 ? word : 0U; };
+    const std::uint64_t low = product(a_low, b_low);
+    const std::uint64_t middle = product(a_high, b_low) + product(a_low, b_high) + high_word(low) + (low_word(low) >> 31U);
+    const std::uint32_t high =
+        high_word(middle) + a_high * b_high - if_negative(b_low, a) - if_negative(a_low, b);
+    return static_cast<Raw>(joined(high, low_word(middle)));
+}
+
+/// … of any two.
+template <typename Policy>
+[[gnu::noinline]] constexpr Raw large_product(Raw a, Raw b) {
+    const bool negative = (a ^ b) < 0;
     const std::uint64_t x = magnitude(a);
     const std::uint64_t y = magnitude(b);
-    constexpr std::uint64_t half = 1ULL << 31U;
-    // Each sum is written as its product is added: one instruction.
+    const std::uint64_t half = (1ULL << 31U) - (negative ? 1U : 0U);
     const std::uint64_t low = half + product(low_word(x), low_word(y));
-    std::uint64_t middle = high_word(low);
-    middle += product(high_word(x), low_word(y));
-    middle += product(low_word(x), high_word(y));
-    std::uint64_t high = high_word(middle);
-    high += product(high_word(x), high_word(y));
-    const bool negative = (a ^ b) < 0;
+    const std::uint64_t middle_a = product(high_word(x), low_word(y)) + high_word(low);
+    const std::uint64_t middle_b = product(low_word(x), high_word(y)) + low_word(middle_a);
+    const std::uint64_t high = product(high_word(x), high_word(y)) + high_word(middle_a) + high_word(middle_b);
     if ((high_word(high) | low_word(high) >> 31U) != 0U) {
         return end_of_range<Policy>(negative);
     }
-    return signed_raw(high << 32U | low_word(middle), negative);
+    return signed_raw(high << 32U | low_word(middle_b), negative);
+}
+
+template <typename Policy>
+MILLFORCE_CALLED constexpr Raw multiply_by_words(Raw a, Raw b) {
+    constexpr std::uint32_t limit = 1U << 15U;
+    const std::uint32_t a_high = high_word(static_cast<std::uint64_t>(a));
+    const std::uint32_t b_high = high_word(static_cast<std::uint64_t>(b));
+    const bool both_are_small = ((a_high + limit) | (b_high + limit)) < 2 * limit;
+    return both_are_small ? small_product(a, b) : large_product<Policy>(a, b);
 }
 
 /// The same; in one product where the processor has it.
 template <typename Policy>
 constexpr Raw multiply(Raw a, Raw b) {
 #ifdef __SIZEOF_INT128__
-    __extension__ using Wide = unsigned __int128;
-    constexpr std::uint64_t half = 1ULL << 31U;
-    const Wide whole = Wide{magnitude(a)} * magnitude(b) + half;
-    const bool negative = (a ^ b) < 0;
-    if (static_cast<std::uint64_t>(whole >> 64U) >= half) {
-        return end_of_range<Policy>(negative);
+    __extension__ using Wide = __int128;
+    const Wide whole = (Wide{a} * b + (1LL << 31U)) >> 32U;
+    if (whole > raw_highest || whole < raw_lowest) [[unlikely]] {
+        return end_of_range<Policy>(whole < 0);
     }
-    return signed_raw(static_cast<std::uint64_t>(whole >> 32U), negative);
+    return static_cast<Raw>(whole);
 #else
     return multiply_by_words<Policy>(a, b);
 #endif
@@ -93,8 +172,6 @@ constexpr std::uint64_t scaled(std::uint64_t value, std::uint64_t fraction) {
     const std::uint64_t middle_b = product(low_word(value), high_word(fraction)) + low_word(middle_a);
     return product(high_word(value), high_word(fraction)) + high_word(middle_a) + high_word(middle_b);
 }
-
-constexpr std::uint64_t joined(std::uint32_t high, std::uint32_t low) { return std::uint64_t{high} << 32U | low; }
 
 /// x 2ˢ for s below 32, its upper 64 bits lost. (A shift by any number of places takes twice the instructions.)
 constexpr std::uint64_t shifted_up(std::uint64_t x, unsigned s) {
