@@ -258,8 +258,12 @@ constexpr std::uint64_t quotient_by_two_words(std::uint64_t x, std::uint64_t y) 
     const std::uint64_t divisor = shifted_up(y, shift);
     const Divisor upper(high_word(divisor));
     const std::uint64_t dividend = shifted_up(x, shift);
-    std::uint64_t rest = joined(high_word(x) >> 1U >> (31U - shift), high_word(dividend));
-    const std::uint32_t first = divide_step(rest, low_word(dividend), divisor, upper);
+    std::uint64_t rest = dividend;
+    std::uint32_t first = 0;
+    if (x >= y) {
+        rest = joined(high_word(x) >> 1U >> (31U - shift), high_word(dividend));
+        first = divide_step(rest, low_word(dividend), divisor, upper);
+    }
     const std::uint32_t second = divide_step(rest, 0, divisor, upper);
     return joined(first, second) + (rest >= divisor - rest ? 1U : 0U);
 }
