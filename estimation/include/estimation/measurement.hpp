@@ -23,6 +23,12 @@ constexpr Scalar halved(Scalar value) {
     return value * Scalar(0.5F);
 }
 
+/// a b. A scalar that multiplies by a call has an overload without one: for the few products of every sample.
+template <typename Scalar>
+constexpr Scalar product(Scalar a, Scalar b) {
+    return a * b;
+}
+
 template <typename Scalar>
 constexpr Scalar clamp(Scalar value, Scalar low, Scalar high) {
     return value < low ? low : (value > high ? high : value);

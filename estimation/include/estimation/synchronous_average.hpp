@@ -225,7 +225,11 @@ class SynchronousAverage {
     /// present one waits for its next.
     void accumulate_whole(Scalar dt_s, Scalar turned_rev, std::uint32_t present) {
         const Scalar half_rev = halved(turned_rev);
-        sum_ += previous_signals_ * (pending_rev_ + half_rev);
+        const Scalar weight_rev = pending_rev_ + half_rev;
+#pragma GCC unroll 16
+        for (int k = 0; k < Channels; ++k) {
+            sum_[k] += product(previous_signals_[k], weight_rev);
+        }
         pending_rev_ = half_rev;
         turned_rev_ += turned_rev;
         duration_s_ += dt_s;
@@ -247,8 +251,13 @@ class SynchronousAverage {
         available_ = available_ < MaxPeriods ? available_ + 1 : MaxPeriods;
         const Weights last = weights_of(part);
         Means& period = periods_[newest_];
-        period.mean = (sum_ + (previous_signals_ * (pending_rev_ + last.previous_rev) + signals * last.present_rev)) *
-                      (Scalar(1) / turned_rev);
+        const Scalar previous_rev = pending_rev_ + last.previous_rev;
+        const Scalar per_rev = Scalar(1) / turned_rev;
+#pragma GCC unroll 16
+        for (int k = 0; k < Channels; ++k) {
+            const Scalar ends = product(previous_signals_[k], previous_rev) + product(signals[k], last.present_rev);
+            period.mean[k] = product(sum_[k] + ends, per_rev);
+        }
         period.present = present_ & both_present;
         period.duration_s = duration_s;
         period.samples = samples_ + share;

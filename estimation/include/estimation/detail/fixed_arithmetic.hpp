@@ -141,13 +141,18 @@ template <typename Policy>
     return signed_raw(high << 32U | low_word(middle_b), negative);
 }
 
+/// The one or the other.
 template <typename Policy>
-MILLFORCE_CALLED constexpr Raw multiply_by_words(Raw a, Raw b) {
+[[gnu::always_inline]] constexpr Raw product_by_words(Raw a, Raw b) {
     constexpr std::uint32_t limit = 1U << 15U;
     const std::uint32_t a_high = high_word(static_cast<std::uint64_t>(a));
     const std::uint32_t b_high = high_word(static_cast<std::uint64_t>(b));
     const bool both_are_small = ((a_high + limit) | (b_high + limit)) < 2 * limit;
     return both_are_small ? small_product(a, b) : large_product<Policy>(a, b);
+}
+template <typename Policy>
+MILLFORCE_CALLED constexpr Raw multiply_by_words(Raw a, Raw b) {
+    return product_by_words<Policy>(a, b);
 }
 
 /// The same; in one product where the processor has it.
@@ -162,6 +167,16 @@ constexpr Raw multiply(Raw a, Raw b) {
     return static_cast<Raw>(whole);
 #else
     return multiply_by_words<Policy>(a, b);
+#endif
+}
+
+/// The same, never by a call.
+template <typename Policy>
+[[gnu::always_inline]] constexpr Raw multiply_inlined(Raw a, Raw b) {
+#ifdef __SIZEOF_INT128__
+    return multiply<Policy>(a, b);
+#else
+    return product_by_words<Policy>(a, b);
 #endif
 }
 
