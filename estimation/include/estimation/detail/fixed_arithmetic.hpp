@@ -54,7 +54,7 @@ constexpr bool add_overflows(Raw& a, Raw b) {
 #ifdef MILLFORCE_ARM_INSTRUCTIONS
     if (!std::is_constant_evaluated()) {
         bool overflows = false;
-        __asm__("adds %Q0, %Q0, %Q2\n\tadcs %R0, %R0, %R2" : "+r"(a), "=@ccvs"(overflows) : "r"(b));
+        __asm__("adds %Q0, %Q0, %Q2\n\tadcs %R0, %R0, %R2" : "+&r"(a), "=@ccvs"(overflows) : "r"(b));
         return overflows;
     }
 #endif
@@ -66,7 +66,7 @@ constexpr bool subtract_overflows(Raw& a, Raw b) {
 #ifdef MILLFORCE_ARM_INSTRUCTIONS
     if (!std::is_constant_evaluated()) {
         bool overflows = false;
-        __asm__("subs %Q0, %Q0, %Q2\n\tsbcs %R0, %R0, %R2" : "+r"(a), "=@ccvs"(overflows) : "r"(b));
+        __asm__("subs %Q0, %Q0, %Q2\n\tsbcs %R0, %R0, %R2" : "+&r"(a), "=@ccvs"(overflows) : "r"(b));
         return overflows;
     }
 #endif
