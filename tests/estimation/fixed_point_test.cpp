@@ -1,5 +1,6 @@
 #include "estimation/fixed_point.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -152,15 +153,24 @@ Raw rounded_and_clipped(Wide numerator, Wide denominator) {
     const Raw clipped = size > highest ? highest : static_cast<Raw>(size);
     return negative ? -clipped : clipped;
 }
+
+/// Of a product in Q64: to nearest, halves upwards.
+Raw rounded_upwards_and_clipped(Wide product) {
+    const Wide rounded = (product + (Wide{1} << 31U)) >> 32U;
+    return static_cast<Raw>(std::clamp<Wide>(rounded, -highest, highest));
+}
 }  // namespace
 
-TEST(FixedPoint, a_quotient_is_the_exact_one_rounded_to_nearest) {
+TEST(FixedPoint, product_and_quotient_are_the_exact_ones_rounded_to_nearest) {
     RawNumbers numbers;
     for (int k = 0; k < 200000; ++k) {
         const Raw a = numbers.next();
         const Raw b = numbers.next();
         const Fixed x = Fixed::from_raw(a);
         const Fixed y = Fixed::from_raw(b);
+        const Raw exact = rounded_upwards_and_clipped(Wide{a} * b);
+        CHECK_TRUE(exact == (x * y).raw());
+        CHECK_TRUE(exact == detail::multiply_by_words<detail::NeverSaturates>(a, b));
         if (b != 0) {
             CHECK_TRUE(rounded_and_clipped(Wide{a} * (Wide{1} << 32U), b) == (x / y).raw());
         }

@@ -3,7 +3,6 @@
 #include <libfixmath/fix16.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <random>
