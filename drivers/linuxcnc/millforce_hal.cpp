@@ -34,7 +34,9 @@ constexpr int most_unanswered = 128;  // half of what a socket holds: neither si
 
 volatile sig_atomic_t stop_asked = 0;
 
-void ask_to_stop(int) { stop_asked = 1; }
+void ask_to_stop(int) {
+    stop_asked = 1;
+}
 
 std::uint64_t monotonic_us() {
     timespec now{};
@@ -77,12 +79,12 @@ int export_pins(Pins& p, int component) {
     };
     const int failed = f32(&p.ratio, "override") | u32(&p.heartbeat, "heartbeat") | bit(&p.hold, "hold") |
                        bit(&p.connected, "connected") | u32(&p.answered, "answered") | u32(&p.state, "state") |
-                       u32(&p.fault, "fault") | u32(&p.limit, "limit") |
-                       f32(&p.tangential_force, "tangential-force") | f32(&p.feed_force, "feed-force") |
-                       f32(&p.tooth_force, "tooth-force") | bit(&p.force_valid, "tooth-force-valid") |
-                       f32(&p.immersion, "immersion") | f32(&p.immersion_sd, "immersion-sd") |
-                       bit(&p.immersion_valid, "immersion-valid") | f32(&p.depth, "depth") |
-                       f32(&p.depth_sd, "depth-sd") | bit(&p.depth_valid, "depth-valid") | u32(&p.dropped, "dropped");
+                       u32(&p.fault, "fault") | u32(&p.limit, "limit") | f32(&p.tangential_force, "tangential-force") |
+                       f32(&p.feed_force, "feed-force") | f32(&p.tooth_force, "tooth-force") |
+                       bit(&p.force_valid, "tooth-force-valid") | f32(&p.immersion, "immersion") |
+                       f32(&p.immersion_sd, "immersion-sd") | bit(&p.immersion_valid, "immersion-valid") |
+                       f32(&p.depth, "depth") | f32(&p.depth_sd, "depth-sd") | bit(&p.depth_valid, "depth-valid") |
+                       u32(&p.dropped, "dropped");
     if (failed == 0) {
         *p.hold = true;
     }
@@ -225,7 +227,8 @@ class Bridge {
         }
         --unanswered_;
         set_pins(pins_, message);
-        // Not before: samples of before the connection are never answered, whoever waits for an answer would wait in vain.
+        // Not before: samples of before the connection are never answered, whoever waits for an answer would wait in
+        // vain.
         *pins_.connected = true;
     }
 

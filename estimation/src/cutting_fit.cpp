@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/cutting_fit.hpp"
 
 namespace millforce::estimation {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depth-of-cut estimators from force profiles, instantiated for float.
 #include "estimation/depth_variation.hpp"
 #include "estimation/depth_monitor.hpp"

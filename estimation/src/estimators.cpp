@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instantiates every estimator for float, so that the core's compiler flags and warnings see all of it.
 #include "estimation/cut_estimator.hpp"
 #include "estimation/encoder_angle.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/least_squares.hpp"
 
 namespace millforce::estimation {

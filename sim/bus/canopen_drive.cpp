@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bus/canopen_drive.hpp"
 
 #include <algorithm>
@@ -28,10 +29,16 @@ std::uint32_t per_mille(double value, double rated) {
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(share));
 }
 
-std::uint8_t byte(std::uint32_t value, unsigned place) { return static_cast<std::uint8_t>(value >> (8U * place)); }
+std::uint8_t byte(std::uint32_t value, unsigned place) {
+    return static_cast<std::uint8_t>(value >> (8U * place));
+}
 
-bool is_mapping_index(std::uint32_t index) { return index >= 0x1A00 && index <= 0x1A03; }
-bool is_communication_index(std::uint32_t index) { return index >= 0x1800 && index <= 0x1803; }
+bool is_mapping_index(std::uint32_t index) {
+    return index >= 0x1A00 && index <= 0x1A03;
+}
+bool is_communication_index(std::uint32_t index) {
+    return index >= 0x1800 && index <= 0x1803;
+}
 
 }  // namespace
 
@@ -104,8 +111,12 @@ void CanopenDrive::set_power(bool on) {
     powered_ = on;
 }
 
-void CanopenDrive::set_current_A(double current_A) { set(0x6078, 0, per_mille(current_A, settings_.rated_current_A)); }
-void CanopenDrive::set_torque_Nm(double torque_Nm) { set(0x6077, 0, per_mille(torque_Nm, settings_.rated_torque_Nm)); }
+void CanopenDrive::set_current_A(double current_A) {
+    set(0x6078, 0, per_mille(current_A, settings_.rated_current_A));
+}
+void CanopenDrive::set_torque_Nm(double torque_Nm) {
+    set(0x6077, 0, per_mille(torque_Nm, settings_.rated_torque_Nm));
+}
 
 void CanopenDrive::latch_index(std::int32_t position) {
     set(0x60BA, 0, static_cast<std::uint32_t>(position));
@@ -141,19 +152,30 @@ void CanopenDrive::poll(std::uint64_t time_us) {
     send(0x700U + settings_.node_id, {nmt_state_});
 }
 
-std::vector<hal::CanFrame> CanopenDrive::take_frames() { return std::exchange(outgoing_, {}); }
+std::vector<hal::CanFrame> CanopenDrive::take_frames() {
+    return std::exchange(outgoing_, {});
+}
 
 void CanopenDrive::on_nmt(const hal::CanFrame& frame) {
     if (frame.data[1] != 0 && frame.data[1] != settings_.node_id) {
         return;
     }
     switch (frame.data[0]) {
-        case 0x01: nmt_state_ = state_operational; break;
-        case 0x02: nmt_state_ = state_stopped; break;
-        case 0x80: nmt_state_ = state_pre_operational; break;
+        case 0x01:
+            nmt_state_ = state_operational;
+            break;
+        case 0x02:
+            nmt_state_ = state_stopped;
+            break;
+        case 0x80:
+            nmt_state_ = state_pre_operational;
+            break;
         case 0x81:
-        case 0x82: boot(); break;
-        default: return;
+        case 0x82:
+            boot();
+            break;
+        default:
+            return;
     }
     next_heartbeat_us_ = time_us_;
 }
@@ -213,9 +235,8 @@ void CanopenDrive::answer_read(Key where) {
     }
     const Entry& entry = found->second;
     const std::uint32_t v = entry.value;
-    send(0x580U + settings_.node_id,
-         {static_cast<std::uint8_t>(0x43U | ((4U - entry.bytes) << 2U)), byte(where, 1), byte(where, 2), byte(where, 0),
-          byte(v, 0), byte(v, 1), byte(v, 2), byte(v, 3)});
+    send(0x580U + settings_.node_id, {static_cast<std::uint8_t>(0x43U | ((4U - entry.bytes) << 2U)), byte(where, 1),
+                                      byte(where, 2), byte(where, 0), byte(v, 0), byte(v, 1), byte(v, 2), byte(v, 3)});
 }
 
 void CanopenDrive::answer_write(Key where, const hal::CanFrame& frame) {
@@ -287,9 +308,8 @@ std::uint32_t CanopenDrive::refusal_of_mapping(Key where, std::uint32_t value) c
 
 void CanopenDrive::abort(Key where, std::uint32_t code) {
     ++aborts_;
-    send(0x580U + settings_.node_id,
-         {0x80, byte(where, 1), byte(where, 2), byte(where, 0), byte(code, 0), byte(code, 1), byte(code, 2),
-          byte(code, 3)});
+    send(0x580U + settings_.node_id, {0x80, byte(where, 1), byte(where, 2), byte(where, 0), byte(code, 0),
+                                      byte(code, 1), byte(code, 2), byte(code, 3)});
 }
 
 void CanopenDrive::send(std::uint32_t id, std::vector<std::uint8_t> bytes) {

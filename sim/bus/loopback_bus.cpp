@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bus/loopback_bus.hpp"
 
 #include <algorithm>
@@ -26,9 +27,8 @@ std::uint64_t LoopbackBus::frame_time_us(const hal::CanFrame& frame) const {
 
 /// The frame that wins arbitration when the bus is free next.
 std::vector<LoopbackBus::Waiting>::iterator LoopbackBus::next(std::uint64_t until_us) {
-    const auto earliest = std::min_element(waiting_.begin(), waiting_.end(), [](const Waiting& a, const Waiting& b) {
-        return a.ready_us < b.ready_us;
-    });
+    const auto earliest = std::min_element(waiting_.begin(), waiting_.end(),
+                                           [](const Waiting& a, const Waiting& b) { return a.ready_us < b.ready_us; });
     if (earliest == waiting_.end()) {
         return earliest;
     }

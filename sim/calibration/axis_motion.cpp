@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/axis_motion.hpp"
 
 #include "calibration/signal.hpp"

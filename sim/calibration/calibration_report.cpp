@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/calibration_report.hpp"
 
 #include "files/input_error.hpp"

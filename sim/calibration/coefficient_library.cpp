@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/coefficient_library.hpp"
 
 #include "files/input_error.hpp"
@@ -35,8 +36,8 @@ std::vector<LibraryEntry> read_coefficient_library(const std::filesystem::path& 
     }
     root.reject_unknown_keys();
     if (entries.empty()) {
-        throw InputError(fmt::format("{}: no [[coefficients]] table; expected one for each tool and workpiece",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{}: no [[coefficients]] table; expected one for each tool and workpiece", file.string()));
     }
     return entries;
 }

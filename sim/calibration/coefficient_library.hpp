@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/cutting_law.hpp"
@@ -8,7 +9,8 @@
 
 namespace millforce::sim {
 
-/// Published or measured coefficients of one tool and workpiece, Kim & Chung's law: K_s = k_s t_a^p_s, r_1 = k_1 t_a^p_1.
+/// Published or measured coefficients of one tool and workpiece, Kim & Chung's law: K_s = k_s t_a^p_s, r_1 = k_1
+/// t_a^p_1.
 struct LibraryEntry {
     std::string name;       ///< by which it is asked for
     std::string tool;       ///< free text

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/cutting_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
@@ -79,9 +80,10 @@ CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
     const auto stretches = read_recorded_cuts(options.data, options.cuts);
     CutsAndDoubt result{forces_of_cuts(stretches, machine), {}};
     if (result.cuts.empty()) {
-        throw InputError(fmt::format("{}: 'k_s_N_per_mm2' cannot be determined: the table has no cut; expected cuts at two "
-                                     "feeds and several widths",
-                                     options.cuts.string()));
+        throw InputError(
+            fmt::format("{}: 'k_s_N_per_mm2' cannot be determined: the table has no cut; expected cuts at two "
+                        "feeds and several widths",
+                        options.cuts.string()));
     }
     result.doubt = gain_doubt(machine, stretches.front().axis);
     return result;
@@ -90,7 +92,8 @@ CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
 /// A parameter that the cuts cannot determine, and the cut that is missing.
 std::string what_the_cuts_lack(const CuttingFit<double>& fit, CuttingLawForm form) {
     const auto lacks = [&](int j) { return !fit.determined(j); };
-    if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm && lacks(estimation::cutting_K_te)) {
+    if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm &&
+        lacks(estimation::cutting_K_te)) {
         return fmt::format(
             "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
             "tooth; expected cuts at a second feed, larger or smaller by half",
@@ -269,7 +272,8 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
     if (options.data.empty()) {
         throw InputError("calibrate cutting: no data file; expected at least one CSV file of conditions");
     }
-    const auto [cuts, doubt] = options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data), {}};
+    const auto [cuts, doubt] =
+        options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data), {}};
     const CutSide side = told_or_inferred_side(options, cuts, out);
     const auto fit = fit_or_refuse(options, cuts, side, doubt);
     print_fit(out, fit, options.form());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/drive_forces.hpp"
 
 #include "files/input_error.hpp"
@@ -75,10 +76,10 @@ double signed_friction_current_A(const MachineParameters& machine, std::size_t a
 void refuse_below_velocity_floor(const RecordedStretch& stretch, const MachineParameters& machine) {
     const double floor = static_cast<double>(machine.axes[stretch.axis].velocity_floor_mm_s);
     if (std::abs(stretch.feed_mm_s) < floor) {
-        throw InputError(fmt::format("{}: {} feeds at {:.3g} mm/s: friction and K_x5/w are undefined near rest; expected at "
-                                     "least {}.velocity_floor_mm_s = {:g}",
-                                     stretch.conditions.place, axes[stretch.axis], stretch.feed_mm_s, axes[stretch.axis],
-                                     floor));
+        throw InputError(
+            fmt::format("{}: {} feeds at {:.3g} mm/s: friction and K_x5/w are undefined near rest; expected at "
+                        "least {}.velocity_floor_mm_s = {:g}",
+                        stretch.conditions.place, axes[stretch.axis], stretch.feed_mm_s, axes[stretch.axis], floor));
     }
 }
 
@@ -92,9 +93,10 @@ AirBaseline air_baseline(const std::vector<RecordedStretch>& stretches, const Re
                          const MachineParameters& machine) {
     const Neighbours any = neighbours(stretches, cut, false);
     if (any.before == nullptr) {
-        throw InputError(fmt::format("{}: the idle torque cannot be told from the cut's: no row in air with the feed in "
-                                     "{}{}; expected one before or after the cut (axial_depth_mm 0)",
-                                     cut.conditions.place, cut.feed_mm_s > 0.0 ? '+' : '-', axes[cut.axis]));
+        throw InputError(
+            fmt::format("{}: the idle torque cannot be told from the cut's: no row in air with the feed in "
+                        "{}{}; expected one before or after the cut (axial_depth_mm 0)",
+                        cut.conditions.place, cut.feed_mm_s > 0.0 ? '+' : '-', axes[cut.axis]));
     }
     const Neighbours same_feed = neighbours(stretches, cut, true);
     const Neighbours& for_friction = same_feed.before != nullptr ? same_feed : any;
@@ -120,9 +122,10 @@ std::vector<CutRow> forces_of_cuts(const std::vector<RecordedStretch>& stretches
         const auto& axis = machine.axes[stretch.axis];
         const double gain = static_cast<double>(axis.K_x4_N_per_A);
         if (!(gain > 0.0)) {
-            throw InputError(fmt::format("{}: {} feeds, and the machine has no {}.K_x4_N_per_A; expected it from "
-                                         "'millforce calibrate standard-cut'",
-                                         stretch.conditions.place, axes[stretch.axis], axes[stretch.axis]));
+            throw InputError(
+                fmt::format("{}: {} feeds, and the machine has no {}.K_x4_N_per_A; expected it from "
+                            "'millforce calibrate standard-cut'",
+                            stretch.conditions.place, axes[stretch.axis], axes[stretch.axis]));
         }
         const AirBaseline air = air_baseline(stretches, stretch, machine);
         const double w = stretch.feed_m_per_min();
@@ -136,8 +139,8 @@ std::vector<CutRow> forces_of_cuts(const std::vector<RecordedStretch>& stretches
         row.axial_depth_mm = stretch.conditions.axial_depth_mm;
         row.radial_width_mm = stretch.conditions.radial_width_mm;
         row.feed_mm_s = std::abs(stretch.feed_mm_s);
-        row.spindle_torque_Nm = spindle_gain_Nm_per_A(machine, stretch.spindle_rad_s) *
-                                (stretch.spindle_current_A - air.idle_current_A);
+        row.spindle_torque_Nm =
+            spindle_gain_Nm_per_A(machine, stretch.spindle_rad_s) * (stretch.spindle_current_A - air.idle_current_A);
         row.feed_force_N = stretch.feed_mm_s > 0.0 ? force_N : -force_N;
         cuts.push_back(row);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/force_drop_calibration.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,9 @@ using estimation::CutSide;
 constexpr int revolutions_of_a_cut = 8;
 constexpr double widest_immersion = 0.95;
 
-double immersion_of(const StretchConditions& cut) { return cut.radial_width_mm / (0.5 * cut.tool_diameter_mm); }
+double immersion_of(const StretchConditions& cut) {
+    return cut.radial_width_mm / (0.5 * cut.tool_diameter_mm);
+}
 
 /// One cut while it is read: as many estimates of its jump and averages as it is long.
 struct KnownCut {
@@ -88,14 +91,16 @@ std::vector<DropCut> read_known_cuts(const ForceShapeCalibrationOptions& options
     std::vector<DropCut> measured;
     for (std::size_t k = 0; k < cuts.size(); ++k) {
         if (known[k].measured.empty()) {
-            throw InputError(fmt::format(
-                "{}: no force drop from {} to {} s in {} revolutions that were whole; expected at least {} revolutions of a "
-                "steady cut whose tooth passing the low-pass lets through",
-                cuts[k].place, cuts[k].start_s, cuts[k].end_s, known[k].refused * revolutions_of_a_cut,
-                revolutions_of_a_cut));
+            throw InputError(
+                fmt::format("{}: no force drop from {} to {} s in {} revolutions that were whole; expected at least {} "
+                            "revolutions of a "
+                            "steady cut whose tooth passing the low-pass lets through",
+                            cuts[k].place, cuts[k].start_s, cuts[k].end_s, known[k].refused * revolutions_of_a_cut,
+                            revolutions_of_a_cut));
         }
         for (const auto& m : known[k].measured) {
-            measured.push_back({m, static_cast<float>(cuts[k].axial_depth_mm), static_cast<float>(immersion_of(cuts[k]))});
+            measured.push_back(
+                {m, static_cast<float>(cuts[k].axial_depth_mm), static_cast<float>(immersion_of(cuts[k]))});
         }
     }
     return measured;
@@ -105,10 +110,10 @@ DropCalibration::Result law_of(const std::vector<DropCut>& cuts, std::optional<s
     DropCalibration calibration;
     const std::size_t step = std::max<std::size_t>(1, (cuts.size() + 63) / 64);  // it has room for 64
     for (std::size_t k = 0; k < cuts.size(); k += step) {
-        const bool is_left_out = left_out && cuts[k].radial_immersion == cuts[*left_out].radial_immersion &&
-                                 cuts[k].axial_depth_mm == cuts[*left_out].axial_depth_mm &&
-                                 std::abs(cuts[k].measured.feed_per_tooth_mm /
-                                              cuts[*left_out].measured.feed_per_tooth_mm - 1.0F) < 0.05F;
+        const bool is_left_out =
+            left_out && cuts[k].radial_immersion == cuts[*left_out].radial_immersion &&
+            cuts[k].axial_depth_mm == cuts[*left_out].axial_depth_mm &&
+            std::abs(cuts[k].measured.feed_per_tooth_mm / cuts[*left_out].measured.feed_per_tooth_mm - 1.0F) < 0.05F;
         if (!is_left_out) {
             calibration.add(cuts[k]);
         }
@@ -121,8 +126,9 @@ void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const Dr
         throw InputError(fmt::format("{}: {}", options.cuts.string(), why));
     };
     if (!result.edges_determined) {
-        refuse("'e_t_mm' and 'e_r_mm' cannot be determined: all cuts have about the same feed per tooth; expected cuts "
-               "whose feeds differ by a factor of 1.5 or more");
+        refuse(
+            "'e_t_mm' and 'e_r_mm' cannot be determined: all cuts have about the same feed per tooth; expected cuts "
+            "whose feeds differ by a factor of 1.5 or more");
     }
     if (!result.law.valid) {
         refuse("'b' cannot be determined: fewer than three cuts show their immersion; expected cuts of several widths");
@@ -198,9 +204,10 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
     auto parameters = read_parameters(options.machine.string(), options.tool.string());
     const CutSide side = firmware::cut_side(parameters.tool);
     if (side == CutSide::centred) {
-        throw InputError(fmt::format("{}: side = \"centred\", expected down, up or unknown: a centred cut has no wall "
-                                     "whose width the drop tells",
-                                     options.tool.string()));
+        throw InputError(
+            fmt::format("{}: side = \"centred\", expected down, up or unknown: a centred cut has no wall "
+                        "whose width the drop tells",
+                        options.tool.string()));
     }
     const std::vector<DropCut> cuts = read_known_cuts(options, parameters);
     const auto result = law_of(cuts);
@@ -215,9 +222,10 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
     out << fmt::format("force drops of {} times {} revolutions, {} milling\n", cuts.size(), revolutions_of_a_cut,
                        cuts.front().measured.side == CutSide::up ? "up" : "down");
     print_law(out, result);
-    out << fmt::format("  each cut by the law of the others: immersion off by {:.1f} % on average, {:.1f} % at most; no "
-                       "estimate for {} of {}\n",
-                       100.0 * left_out.mean, 100.0 * left_out.worst, left_out.without, left_out.cuts);
+    out << fmt::format(
+        "  each cut by the law of the others: immersion off by {:.1f} % on average, {:.1f} % at most; no "
+        "estimate for {} of {}\n",
+        100.0 * left_out.mean, 100.0 * left_out.worst, left_out.without, left_out.cuts);
     return left_out.worst > largest_error ? exit_bound_broken : exit_done;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -17,8 +18,8 @@ struct ForceShapeCalibrationOptions {
 
 /// Table [force_drop] of a tool: edge lengths, r = a r_av + b and ln K/K_av from cuts of known immersion (Hwang et al.,
 /// estimation/force_drop_calibration.hpp). Each cut is then estimated by the law of the others. Returns 0, or 1 where
-/// one of them is off by more than 10 %. Throws InputError for bad data, and where the cuts do not determine the law: it
-/// names what is missing.
+/// one of them is off by more than 10 %. Throws InputError for bad data, and where the cuts do not determine the law:
+/// it names what is missing.
 int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostream& out);
 
 /// tip_angle_deg of table [depth_shape]: where the teeth stand against the encoder's zero, from cuts of known depths

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/recorded_cuts.hpp"
 
 #include "files/csv.hpp"
@@ -25,8 +26,9 @@ std::string named_recording(const CsvReader& csv, std::optional<CsvColumn> colum
     std::string name = column ? std::string(csv.text(*column)) : std::string();
     if (name.empty()) {
         if (recordings.size() > 1) {
-            throw InputError(fmt::format("{}:{}: column 'recording': empty; expected the name of one of the {} recordings",
-                                         csv.file_name(), csv.line_number(), recordings.size()));
+            throw InputError(
+                fmt::format("{}:{}: column 'recording': empty; expected the name of one of the {} recordings",
+                            csv.file_name(), csv.line_number(), recordings.size()));
         }
         return recordings.front().filename().string();
     }
@@ -173,10 +175,11 @@ RecordedStretch StretchAverage::stretch(const StretchConditions& conditions) con
     const std::size_t tenth = samples_ / 10;
     for (const double end : {mean_of(0, tenth), mean_of(samples_ - tenth, samples_)}) {
         if (std::abs(end - result.feed_mm_s) > 0.1 * std::abs(result.feed_mm_s)) {
-            throw InputError(fmt::format("{}: {} feeds at {:.3g} mm/s at one end of {} to {} s and at {:.3g} mm/s on "
-                                         "average; expected a steady feed",
-                                         conditions.place, axis_letters[result.axis], end, conditions.start_s,
-                                         conditions.end_s, result.feed_mm_s));
+            throw InputError(
+                fmt::format("{}: {} feeds at {:.3g} mm/s at one end of {} to {} s and at {:.3g} mm/s on "
+                            "average; expected a steady feed",
+                            conditions.place, axis_letters[result.axis], end, conditions.start_s, conditions.end_s,
+                            result.feed_mm_s));
         }
     }
     return result;

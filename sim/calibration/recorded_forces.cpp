@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/recorded_forces.hpp"
 
 #include <fmt/format.h>
@@ -41,9 +42,10 @@ void read_recorded_forces(const std::vector<std::filesystem::path>& recordings,
         std::vector<RunningCut> running = cuts_in(path, cuts, parameters);
         RecordingReader reader(path, counts_per_rev);
         if (firmware::has_force_sensor(parameters.tool) && !reader.has_force_sensor()) {
-            throw InputError(fmt::format("{}:1: no column 'fx_N' or 'fy_N', expected the force sensor whose low_pass_hz "
-                                         "the tool's [force_sensor] tells",
-                                         path.string()));
+            throw InputError(
+                fmt::format("{}:1: no column 'fx_N' or 'fy_N', expected the force sensor whose low_pass_hz "
+                            "the tool's [force_sensor] tells",
+                            path.string()));
         }
         Progress progress("reading " + path.filename().string());
         while (reader.next()) {
@@ -67,16 +69,16 @@ std::vector<StretchConditions> cuts_of_tool(const std::filesystem::path& table,
     std::vector<StretchConditions> cuts = read_cut_table(table, recordings);
     std::erase_if(cuts, [](const StretchConditions& row) { return !row.in_cut(); });
     if (cuts.empty()) {
-        throw InputError(fmt::format("{}: no row with a depth and a width, expected cuts of known engagement",
-                                     table.string()));
+        throw InputError(
+            fmt::format("{}: no row with a depth and a width, expected cuts of known engagement", table.string()));
     }
     const auto diameter_mm = static_cast<double>(tool.diameter_mm);
     for (const StretchConditions& cut : cuts) {
         if (std::abs(cut.tool_diameter_mm - diameter_mm) > 1e-3 * diameter_mm ||
             cut.flutes != static_cast<int>(tool.teeth)) {
-            throw InputError(fmt::format("{}: a tool of Ø{:g} mm with {} flutes, expected the tool file's Ø{:g} mm and {:g}",
-                                         cut.place, cut.tool_diameter_mm, cut.flutes, diameter_mm,
-                                         static_cast<double>(tool.teeth)));
+            throw InputError(
+                fmt::format("{}: a tool of Ø{:g} mm with {} flutes, expected the tool file's Ø{:g} mm and {:g}",
+                            cut.place, cut.tool_diameter_mm, cut.flutes, diameter_mm, static_cast<double>(tool.teeth)));
         }
     }
     return cuts;

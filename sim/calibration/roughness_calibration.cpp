@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/roughness_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/standard_cut_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
@@ -36,9 +37,9 @@ estimation::AverageForces<double> known_forces(const RecordedStretch& stretch,
         return {};
     }
     const double immersion = c.radial_width_mm / (0.5 * c.tool_diameter_mm);
-    return estimation::average_forces<double>(law, {stretch.feed_per_tooth_mm(), c.axial_depth_mm,
-                                                    estimation::engagement_angles(side, immersion),
-                                                    static_cast<double>(c.flutes)});
+    return estimation::average_forces<double>(
+        law, {stretch.feed_per_tooth_mm(), c.axial_depth_mm, estimation::engagement_angles(side, immersion),
+              static_cast<double>(c.flutes)});
 }
 
 /// How cold the bearing still is: by the machine's warm-up time, or the share of the recording that is to come.
@@ -52,8 +53,8 @@ Stretch fit_row(const RecordedStretch& stretch, double last_s, const MachinePara
     const auto forces = known_forces(stretch, law, side);
     const auto& axis = machine.axes[stretch.axis];
     const double direction = stretch.feed_mm_s > 0.0 ? 1.0 : -1.0;
-    const double per_full_gain = static_cast<double>(machine.spindle.K_t1_Nm_per_A) /
-                                 spindle_gain_Nm_per_A(machine, stretch.spindle_rad_s);
+    const double per_full_gain =
+        static_cast<double>(machine.spindle.K_t1_Nm_per_A) / spindle_gain_Nm_per_A(machine, stretch.spindle_rad_s);
     Stretch row;
     // Above the base speed an ampere gives less torque: the current that would give it below.
     row.spindle_current_A = stretch.spindle_current_A / per_full_gain;
@@ -90,27 +91,32 @@ void merge(DriveGainFit<double>& all, const DriveGainFit<double>& next) {
 std::string missing(StandardCutLack lack, std::string_view gain, std::string_view offset) {
     switch (lack) {
         case StandardCutLack::cut:
-            return fmt::format("'{}' cannot be determined: the table has no cut; expected standard cuts of two widths or "
-                               "feeds, with running in air between them",
-                               gain);
+            return fmt::format(
+                "'{}' cannot be determined: the table has no cut; expected standard cuts of two widths or "
+                "feeds, with running in air between them",
+                gain);
         case StandardCutLack::air:
-            return fmt::format("'{}' cannot be determined: no row in air; expected one at the feed of each cut "
-                               "(axial_depth_mm 0)",
-                               offset);
+            return fmt::format(
+                "'{}' cannot be determined: no row in air; expected one at the feed of each cut "
+                "(axial_depth_mm 0)",
+                offset);
         case StandardCutLack::second_load:
-            return fmt::format("'{}' cannot be determined: all cuts have about the same force; expected a cut of twice "
-                               "the radial width",
-                               gain);
+            return fmt::format(
+                "'{}' cannot be determined: all cuts have about the same force; expected a cut of twice "
+                "the radial width",
+                gain);
         case StandardCutLack::second_feed:
-            return fmt::format("'{}' cannot be determined: all cuts have about the same feed; expected a cut at twice or "
-                               "half the feed",
-                               offset);
+            return fmt::format(
+                "'{}' cannot be determined: all cuts have about the same feed; expected a cut at twice or "
+                "half the feed",
+                offset);
         case StandardCutLack::rows:
             return fmt::format("'{}' has no standard error: too few rows; expected one more cut", gain);
         case StandardCutLack::response:
-            return fmt::format("'{}' cannot be determined: the current does not follow the force beyond its noise; "
-                               "expected wider cuts, or longer ones",
-                               gain);
+            return fmt::format(
+                "'{}' cannot be determined: the current does not follow the force beyond its noise; "
+                "expected wider cuts, or longer ones",
+                gain);
         case StandardCutLack::nothing:
             break;
     }
@@ -133,17 +139,17 @@ void refuse_what_cuts_lack(const StandardCutOptions& options, const StandardCutG
 }
 
 /// Prints and writes one drive's gain and offset, and the doubt of the gain.
-void report(std::ostream& out, TomlWriter& toml, const DriveGainFit<double>& fit,
-            std::array<CalibrationKey, 3> keys, double database_sd) {
-    for (const FittedValue& fitted : {FittedValue{keys[0], fit.gain, fit.gain_se},
-                                      FittedValue{keys[1], fit.offset, fit.offset_se}}) {
+void report(std::ostream& out, TomlWriter& toml, const DriveGainFit<double>& fit, std::array<CalibrationKey, 3> keys,
+            double database_sd) {
+    for (const FittedValue& fitted :
+         {FittedValue{keys[0], fit.gain, fit.gain_se}, FittedValue{keys[1], fit.offset, fit.offset_se}}) {
         print_fitted(out, fitted);
         write_fitted(toml, fitted);
     }
     const double doubt = std::hypot(fit.gain_se / fit.gain, database_sd);
     toml.key(keys[2].name, doubt);
-    out << fmt::format("  {} rows, residual {:.3g} A; with the database's doubt the gain is known to {:.1f} %\n", fit.rows,
-                       fit.residual_A, 100.0 * doubt);
+    out << fmt::format("  {} rows, residual {:.3g} A; with the database's doubt the gain is known to {:.1f} %\n",
+                       fit.rows, fit.residual_A, 100.0 * doubt);
 }
 
 /// Doubt of the forces by the database: of F_at, and of F_ax at its largest over the cuts.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <cmath>
@@ -29,7 +30,8 @@ DepthMonitor monitor_of(const StretchConditions& cut, firmware::ToolParameters<f
     return DepthMonitor(firmware::depth_shape_settings(tool), static_cast<int>(tool.depth_shape.revolutions));
 }
 
-void refuse_tools_without_shape(const ForceShapeCalibrationOptions& options, const firmware::ToolParameters<float>& tool) {
+void refuse_tools_without_shape(const ForceShapeCalibrationOptions& options,
+                                const firmware::ToolParameters<float>& tool) {
     const auto refuse = [&](std::string_view why) {
         throw InputError(fmt::format("{}: {}", options.tool.string(), why));
     };
@@ -116,13 +118,14 @@ int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostrea
     const auto parameters = read_parameters(options.machine.string(), options.tool.string());
     refuse_tools_without_shape(options, parameters.tool);
     const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
-    const double pitch_rad = 2.0 * static_cast<double>(estimation::pi<float>) / static_cast<double>(parameters.tool.teeth);
+    const double pitch_rad =
+        2.0 * static_cast<double>(estimation::pi<float>) / static_cast<double>(parameters.tool.teeth);
     const MeanAngle mean = mean_of(angles_of(options, parameters, cuts), pitch_rad);
     if (mean.cuts == 0) {
-        throw InputError(fmt::format("{}: '{}' cannot be determined: no cut tells it; expected {:g} revolutions of a steady "
-                                     "cut of known depths, its sweep no whole number of tooth pitches",
-                                     options.cuts.string(), tip_angle_key.name,
-                                     static_cast<double>(parameters.tool.depth_shape.revolutions)));
+        throw InputError(fmt::format(
+            "{}: '{}' cannot be determined: no cut tells it; expected {:g} revolutions of a steady "
+            "cut of known depths, its sweep no whole number of tooth pitches",
+            options.cuts.string(), tip_angle_key.name, static_cast<double>(parameters.tool.depth_shape.revolutions)));
     }
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/warm_up_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
@@ -47,7 +48,8 @@ class IdleSeconds {
         ++rows_;
         if (time_s - start_s_ >= 1.0) {
             const double length_s = time_s - start_s_;
-            found_.push_back({start_s_ + 0.5 * length_s, current_ / static_cast<double>(rows_), turned_rad_ / length_s});
+            found_.push_back(
+                {start_s_ + 0.5 * length_s, current_ / static_cast<double>(rows_), turned_rad_ / length_s});
             rows_ = 0;
             turned_rad_ = current_ = 0.0;
         }
@@ -88,8 +90,8 @@ std::vector<IdleSecond> read_idle_seconds(const std::filesystem::path& path) {
 /// The seconds at the speed that the spindle mostly has. Several speeds are refused: each has its own idle torque.
 std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vector<IdleSecond> seconds) {
     if (seconds.empty()) {
-        throw InputError(fmt::format("{}: less than a second; expected ten minutes or more of idling from cold",
-                                     path.string()));
+        throw InputError(
+            fmt::format("{}: less than a second; expected ten minutes or more of idling from cold", path.string()));
     }
     std::vector<double> speeds;
     speeds.reserve(seconds.size());
@@ -109,19 +111,21 @@ std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vec
 }
 
 estimation::WarmUpFit<double> warm_up_or_refuse(const std::filesystem::path& path,
-                                            const std::vector<estimation::IdleTorque<double>>& torques) {
+                                                const std::vector<estimation::IdleTorque<double>>& torques) {
     const auto fit = estimation::fit_warm_up<double>(std::span<const estimation::IdleTorque<double>>(torques));
     switch (fit.lack) {
         case estimation::WarmUpLack::samples:
             throw InputError(fmt::format("{}: '{}' cannot be determined: {} s of idling; expected ten minutes or more",
                                          path.string(), time_key.name, torques.size()));
         case estimation::WarmUpLack::excess:
-            throw InputError(fmt::format("{}: '{}' cannot be determined: the idle torque does not fall beyond its noise; "
-                                         "expected a record from cold",
-                                         path.string(), torque_key.name));
+            throw InputError(
+                fmt::format("{}: '{}' cannot be determined: the idle torque does not fall beyond its noise; "
+                            "expected a record from cold",
+                            path.string(), torque_key.name));
         case estimation::WarmUpLack::duration:
             throw InputError(fmt::format(
-                "{}: '{}' cannot be determined: {:.0f} s show too little of the curve; expected a record of {:.0f} s or "
+                "{}: '{}' cannot be determined: {:.0f} s show too little of the curve; expected a record of {:.0f} s "
+                "or "
                 "more",
                 path.string(), time_key.name, fit.duration_s,
                 std::max(600.0, std::max(2.0 * fit.duration_s, std::min(3.0 * fit.time_constant_s, 7200.0)))));
@@ -146,8 +150,8 @@ int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment("Warm-up of the idling spindle: T = T_warm + warm_up_torque exp(-t/warm_up_time).");
-    toml.comment(fmt::format("Fitted from {}, {:.0f} s at {:.4g} rad/s", options.data.filename().string(), fit.duration_s,
-                             seconds.back().speed_rad_s));
+    toml.comment(fmt::format("Fitted from {}, {:.0f} s at {:.4g} rad/s", options.data.filename().string(),
+                             fit.duration_s, seconds.back().speed_rad_s));
     toml.table("spindle");
     out << fmt::format("T_idle(t) = T_warm + T_cold e^(−t/τ), {:.0f} s at {:.4g} rad/s\n", fit.duration_s,
                        seconds.back().speed_rad_s);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/bus_objects.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +104,8 @@ void check_local(const std::string& file, std::size_t place, const LocalDriveKey
                  const cia402::DriveSettings& drive, std::uint16_t motion) {
     const char* table = firmware::drive_tables[place];
     if (drive.node_id == 0) {
-        refuse_local(file, place, fmt::format("expected node_id in [{}]: its values go over the bus as that node's", table));
+        refuse_local(file, place,
+                     fmt::format("expected node_id in [{}]: its values go over the bus as that node's", table));
     }
     if (drive.pdos[local_pdo].is_used()) {
         refuse_local(file, place, fmt::format("[{}] has a tpdo4, which the converter's values go out with", table));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"

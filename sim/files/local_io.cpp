@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/local_io_reader.hpp"
 
 #include <fmt/format.h>
@@ -113,7 +114,8 @@ void check_devices(const LocalIoKeys& keys, const TableOf& table_of) {
         table_of("iio").fail("device", "has no channel, expected [iio.spindle], [iio.x] … with current_channel");
     }
     if (has_channel && keys.mode < 0.5 && keys.buffer.empty()) {
-        table_of("iio").fail("buffer", "is missing, expected its file, e.g. \"/dev/iio:device0\", or mode = \"polled\"");
+        table_of("iio").fail("buffer",
+                             "is missing, expected its file, e.g. \"/dev/iio:device0\", or mode = \"polled\"");
     }
     TomlFile::Table& voltage = table_of("override_voltage");
     if (voltage.exists() && (keys.voltage_device.empty() || keys.voltage_channel.empty())) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/parameter_block_file.hpp"
 
 #include <fmt/format.h>
@@ -75,9 +76,10 @@ firmware::Parameters<float> read_parameter_block(const std::string& path) {
     firmware::Parameters<float> parameters;
     const firmware::BlockError error = firmware::decode(std::span<const std::uint8_t>(block).first(count), parameters);
     if (error != firmware::BlockError::none) {
-        throw InputError(fmt::format("{}: {}; expected a block of {} bytes as 'millforce parameters --write-block' of this "
-                                     "version writes it",
-                                     path, firmware::name(error), block.size()));
+        throw InputError(
+            fmt::format("{}: {}; expected a block of {} bytes as 'millforce parameters --write-block' of this "
+                        "version writes it",
+                        path, firmware::name(error), block.size()));
     }
     return parameters;
 }

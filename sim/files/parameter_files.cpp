@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/parameter_files.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +11,8 @@
 
 #include "files/bus_objects.hpp"
 #include "files/input_error.hpp"
-#include "files/machine_bus.hpp"
 #include "files/local_io_reader.hpp"
+#include "files/machine_bus.hpp"
 #include "files/parameter_choices.hpp"
 #include "files/toml_reader.hpp"
 
@@ -141,8 +142,7 @@ MachineFileParts read_file(ParameterFile file, const std::string& path, firmware
         for (std::size_t drive = 0; drive < parts.objects.size(); ++drive) {
             parts.objects[drive] = read_drive_objects(reader.table(firmware::drive_tables[drive]));
         }
-        parts.local =
-            read_local_io([&](const std::string& name) -> TomlFile::Table& { return reader.table(name); });
+        parts.local = read_local_io([&](const std::string& name) -> TomlFile::Table& { return reader.table(name); });
     }
     reader.reject_unknown_keys();
     root.reject_unknown_keys();
@@ -154,10 +154,11 @@ void refuse_a_limit_that_cannot_be_kept(const std::string& path, const firmware:
     const estimation::RoughnessPredictor<float> predictor(tool.roughness);
     const bool is_Ra = tool.roughness.measure < 0.5F;
     if (tool.control.Ra_limit_um > 0.0F && !(predictor.has_interval() && is_Ra)) {
-        throw InputError(fmt::format(
-            "{}: control.Ra_limit_um = {}: the file has no model of R_a with an interval; expected a [roughness] table as "
-            "'millforce calibrate roughness --measure Ra' writes it, or 0",
-            path, tool.control.Ra_limit_um));
+        throw InputError(
+            fmt::format("{}: control.Ra_limit_um = {}: the file has no model of R_a with an interval; expected a "
+                        "[roughness] table as "
+                        "'millforce calibrate roughness --measure Ra' writes it, or 0",
+                        path, tool.control.Ra_limit_um));
     }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/toml_reader.hpp"
 
 #include <fmt/format.h>
@@ -70,7 +71,9 @@ TomlFile TomlFile::from_text(const std::string& text, const std::string& name) {
     }
 }
 
-std::string TomlFile::Table::full(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
+std::string TomlFile::Table::full(const std::string& key) const {
+    return name_.empty() ? key : name_ + "." + key;
+}
 
 std::string TomlFile::Table::place(const toml::node* node) const {
     return node != nullptr && node->source().begin.line > 0
@@ -89,7 +92,9 @@ const toml::node* TomlFile::Table::find(const std::string& key) {
     return table_ != nullptr ? table_->get(key) : nullptr;
 }
 
-bool TomlFile::Table::has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
+bool TomlFile::Table::has(const std::string& key) const {
+    return table_ != nullptr && table_->contains(key);
+}
 
 double TomlFile::Table::number(const std::string& key, double minimum, double maximum, std::optional<double> fallback) {
     const toml::node* node = find(key);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ using estimation::CuttingLawForm;
 
 CLI::CheckedTransformer law_names() {
     CLI::CheckedTransformer names(std::map<std::string, CuttingLawForm>{{"linear_edge", CuttingLawForm::linear_edge},
-                                                                       {"power", CuttingLawForm::power},
-                                                                       {"combined", CuttingLawForm::combined}},
+                                                                        {"power", CuttingLawForm::power},
+                                                                        {"combined", CuttingLawForm::combined}},
                                   CLI::ignore_case);
     names.description("{linear_edge,power,combined}");
     return names;
@@ -89,7 +90,8 @@ void add_standard_cut(CLI::App* calibrate, int& exit_code) {
     auto options = std::make_shared<StandardCutOptions>();
     CLI::App* command = calibrate->add_subcommand("standard-cut", "Spindle and feed drives: gains from standard cuts");
     command->footer(
-        "Data: recordings of cuts with a tool and workpiece whose coefficients are in the database, with running in air\n"
+        "Data: recordings of cuts with a tool and workpiece whose coefficients are in the database, with running in "
+        "air\n"
         "between them. CUTS.csv tells which stretch is which cut: start_s, end_s, tool_diameter_mm, flutes,\n"
         "axial_depth_mm and radial_width_mm (0: in air), and recording where there are several. The tables go into\n"
         "machine.toml as they are.");
@@ -172,7 +174,8 @@ void add_force_shape(CLI::App* command, int& exit_code, ForceShapeCalibration ca
 void add_force_drop(CLI::App* calibrate, int& exit_code) {
     CLI::App* command = calibrate->add_subcommand("force-drop", "Tool and material: immersion from force drops");
     command->footer(
-        "Data: recordings of steady cuts of known width with a force sensor (fx_N, fy_N), or with feed drives where both\n"
+        "Data: recordings of steady cuts of known width with a force sensor (fx_N, fy_N), or with feed drives where "
+        "both\n"
         "axes travel and tooth passing is slow. CUTS.csv tells which stretch is which cut: start_s, end_s,\n"
         "tool_diameter_mm, flutes, axial_depth_mm and radial_width_mm. Feeds must differ by a factor of 1.5, widths\n"
         "should span those of the work. The table goes into tool.toml as it is.\n"
@@ -181,8 +184,9 @@ void add_force_drop(CLI::App* calibrate, int& exit_code) {
 }
 
 void add_tip_angle(CLI::App* calibrate, int& exit_code) {
-    CLI::App* command = calibrate->add_subcommand("tip-angle", "Tool in its holder: where the teeth stand, for depths "
-                                                               "from the force's shape");
+    CLI::App* command = calibrate->add_subcommand("tip-angle",
+                                                  "Tool in its holder: where the teeth stand, for depths "
+                                                  "from the force's shape");
     command->footer(
         "Data: recordings of steady cuts of known depth and width with a force sensor (fx_N, fy_N); one is enough.\n"
         "CUTS.csv as for force-drop. The key goes into tool.toml's [depth_shape] as it is.\n"

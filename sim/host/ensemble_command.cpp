@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -20,7 +21,9 @@ struct EnsembleOptions {
     int runs = 40;
 };
 
-void print_row(const char* label, const std::string& value) { fmt::print("{:<34}{:>14}\n", label, value); }
+void print_row(const char* label, const std::string& value) {
+    fmt::print("{:<34}{:>14}\n", label, value);
+}
 
 void print_table(const Scenario& scenario, const EnsembleFigures& figures) {
     const auto percent = [](double share) { return fmt::format("{:.1f} %", 100.0 * share); };
@@ -61,7 +64,8 @@ void add_ensemble(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("ensemble", "The same scenario with many plants: how sure the figures are");
     command->footer(
         "K_s, friction, torque and force constants of each plant are drawn from the deviations that the machine and\n"
-        "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit or above the limit\n"
+        "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit or above the "
+        "limit\n"
         "later than the reaction time after the engagement grew, or a program did not finish.");
     command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
     command->add_option("--runs", options->runs, "Number of plants")

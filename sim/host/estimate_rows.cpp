@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "host/estimate_rows.hpp"
 
 #include "control/cut_state.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ bool is_sound(const millforce_plant_command& command) {
     const auto is_within = [](double value, double largest) { return value >= -largest && value <= largest; };
     constexpr double largest_position_mm = 1e5;
     constexpr double largest_spindle_rev_s = 2000.0;
-    bool sound = command.period_s >= 1e-5 && command.period_s <= 0.1 && is_within(command.spindle_rev_s, largest_spindle_rev_s);
+    bool sound =
+        command.period_s >= 1e-5 && command.period_s <= 0.1 && is_within(command.spindle_rev_s, largest_spindle_rev_s);
     for (const double position_mm : command.position_mm) {
         sound = sound && is_within(position_mm, largest_position_mm);
     }
@@ -98,7 +100,8 @@ void add_plant(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<PlantOptions>();
     CLI::App* command = app.add_subcommand("plant", "A simulated machine and workpiece behind a real LinuxCNC");
     command->footer(
-        "LinuxCNC's component millforce_plant connects and tells the commanded positions (sim/linuxcnc/run starts all of\n"
+        "LinuxCNC's component millforce_plant connects and tells the commanded positions (sim/linuxcnc/run starts all "
+        "of\n"
         "it). Each run from spindle start to spindle stop gives a summary and a report.\n"
         "Exit code 1: the last run broke a bound, as with 'simulate'.");
     command->add_option("scenario", options->scenario, "Machine, tool, material and stock; the moves are LinuxCNC's")

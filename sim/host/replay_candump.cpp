@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "host/replay_candump.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,10 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
                         "the candump log {}",
                         options.machine, options.log));
     }
-    return {options.log, options.interface, *bus, read_parameters(options.machine, options.tool),
+    return {options.log,
+            options.interface,
+            *bus,
+            read_parameters(options.machine, options.tool),
             {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us}};
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -46,7 +47,8 @@ class WideBandCells {
     using Estimates = firmware::WideBandEstimate<float>;
 
     WideBandCells(bool has_sensor, const firmware::Parameters<float>& parameters)
-        : tool_(parameters.tool), has_sensor_(has_sensor),
+        : tool_(parameters.tool),
+          has_sensor_(has_sensor),
           is_there_(has_sensor || firmware::has_force_drop_law(tool_)) {}
 
     void tell_what_is_missing() const {
@@ -75,8 +77,8 @@ class WideBandCells {
     [[nodiscard]] std::string summary(const Estimates& made) const {
         std::string text;
         if (is_there_ && lacking_for_force_drops().empty()) {
-            text += fmt::format("immersion from force drops: {} estimates of {} that were due\n", made.force_drops_valid,
-                                made.force_drops);
+            text += fmt::format("immersion from force drops: {} estimates of {} that were due\n",
+                                made.force_drops_valid, made.force_drops);
         }
         if (has_sensor_ && lacking_for_depths().empty()) {
             text += fmt::format("depths from the force's shape: {} estimates of {} that were due\n", made.depths_valid,
@@ -176,7 +178,8 @@ int replay_table(const ReplayOptions& options) {
     }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), wide_band.summary(controller.wide_band()));
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(),
+                   wide_band.summary(controller.wide_band()));
     } else {
         std::cout << held_back.str();
     }
@@ -186,7 +189,8 @@ int replay_table(const ReplayOptions& options) {
 int replay(const ReplayOptions& options) {
     if (!is_candump_log(options.log)) {
         if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
-            throw InputError(fmt::format("{}: is no candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
+            throw InputError(fmt::format(
+                "{}: is no candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
         }
         return replay_table(options);
     }
@@ -194,9 +198,8 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
                                      options.log));
     }
-    return replay_candump(
-        {options.log, options.machine, options.tool, options.output, options.interface, options.interval_s,
-         options.run_log, options.pace});
+    return replay_candump({options.log, options.machine, options.tool, options.output, options.interface,
+                           options.interval_s, options.run_log, options.pace});
 }
 
 }  // namespace
@@ -215,7 +218,8 @@ void add_replay(CLI::App& app, int& exit_code) {
         "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
         "[force_sensor], [force_drop] and [depth_shape].\n"
         "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables.\n"
-        "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for digit.");
+        "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for "
+        "digit.");
     command->add_option("log", options->log, "Recording: CSV, or a candump log")->required()->type_name("LOG");
     command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");

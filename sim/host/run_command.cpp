@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -68,10 +69,12 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 int run_on_bus(const RunOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     const MachineBus bus = bus_of(options.machine);
-    if ((options.pace.slow_motion != 1 || options.pace.lock_step) && (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
-        throw InputError(fmt::format("--slow-motion, --lock-step: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
-                                     "machine that is on the bus alone",
-                                     options.machine));
+    if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
+        (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
+        throw InputError(
+            fmt::format("--slow-motion, --lock-step: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
+                        "machine that is on the bus alone",
+                        options.machine));
     }
     if (options.pace.lock_step && !bus.drives.produces_sync) {
         throw InputError(fmt::format("--lock-step: {}: bus.produces_sync = false, expected true", options.machine));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -67,7 +68,8 @@ int serve(const ServeOptions& options) {
     fmt::print(stderr, "millforce: {}: waiting\n", options.socket);
     while (server.wait_for_peer()) {
         fmt::print(stderr, "millforce: connected\n");
-        auto controller = std::make_unique<firmware::LinkController>(parameters, static_cast<float>(options.override_max));
+        auto controller =
+            std::make_unique<firmware::LinkController>(parameters, static_cast<float>(options.override_max));
         serve_peer(server, *controller);
         server.drop_peer();
         fmt::print(stderr, "millforce: disconnected after {} samples\n", controller->output().heartbeat);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -98,7 +99,8 @@ void print_broken_bound(const RunFigures& figures) {
     fmt::print(stderr,
                "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
                "{:.3f} s of it later than the reaction time after the engagement grew (none), {} teeth broken, {}\n",
-               100.0 * figures.peak_over_limit, 100.0 * largest_peak_over_limit, figures.late_over_limit_s, figures.teeth_broken,
+               100.0 * figures.peak_over_limit, 100.0 * largest_peak_over_limit, figures.late_over_limit_s,
+               figures.teeth_broken,
                figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
 }
 
@@ -161,7 +163,8 @@ void add_simulate(CLI::App& app, int& exit_code) {
         "The baseline beside it is the largest constant feed with which no tooth exceeds its limit, though the "
         "material\n"
         "be harder (--hardest).\n"
-        "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than the\n"
+        "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
+        "the\n"
         "reaction time after the engagement grew, or the program did not finish.");
     command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
     command->add_option("--controller", options->controller, "Who sets the override")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "link/unix_socket.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +29,9 @@ sockaddr_un address_of(const std::string& path) {
     return address;
 }
 
-int new_socket() { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0); }
+int new_socket() {
+    return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+}
 
 bool is_served(const sockaddr_un& address) {
     const int probe = new_socket();

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs OPEN_FILE of the INI file headless: LinuxCNC's DISPLAY program where there is no screen. Its exit code becomes
 that of `linuxcnc`: 0, the program came to its end; 1, LinuxCNC reported an error; 2, something did not happen in time."""
 import os

@@ -5,7 +5,8 @@
 #include <stdint.h>
 
 /* What the component millforce_plant in LinuxCNC's servo thread and `millforce plant` tell each other, once per servo
- * cycle, over a Unix socket of type SOCK_SEQPACKET. Both run on one machine and are built together: plain structures. */
+ * cycle, over a Unix socket of type SOCK_SEQPACKET. Both run on one machine and are built together: plain structures.
+ */
 
 enum { MILLFORCE_PLANT_AXES = 3 };
 
@@ -18,9 +19,9 @@ typedef struct {
     uint32_t reserved;
     double period_s;
     double position_mm[MILLFORCE_PLANT_AXES]; /* commanded */
-    double spindle_rev_s;                      /* commanded */
-    double feed_mm_s;                          /* F of the block in work */
-    double override_ratio;                     /* at motion.adaptive-feed */
+    double spindle_rev_s;                     /* commanded */
+    double feed_mm_s;                         /* F of the block in work */
+    double override_ratio;                    /* at motion.adaptive-feed */
     double tangential_N, feed_N, estimated_tooth_N;
     double radial_immersion, radial_immersion_sd;
     double axial_depth_mm, axial_depth_sd_mm;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@ namespace millforce::sim {
 struct BusTime {
     /// So many times slower than a clock: all periods and time-outs, drives and CNC too, for a computer that is busy.
     std::uint32_t slowness = 1;
-    /// Lock-step: with each SYNC by one period and not otherwise, and the next SYNC waits until every drive has answered. A
-    /// computer of any load loses nothing then; what cannot be seen so is a late frame.
+    /// Lock-step: with each SYNC by one period and not otherwise, and the next SYNC waits until every drive has
+    /// answered. A computer of any load loses nothing then; what cannot be seen so is a late frame.
     bool in_lock_step = false;
     std::uint32_t sync_id = 0x080;
     std::uint32_t sync_period_us = 1'000;
@@ -19,8 +20,8 @@ struct BusTime {
 
 inline constexpr std::uint32_t largest_slowness = 1000;
 
-/// The time of a bus, in µs. The plant, the controller and a replay must be given the same BusTime: a recorded stamp, or
-/// in lock-step the frames before it, then give the same time to all of them.
+/// The time of a bus, in µs. The plant, the controller and a replay must be given the same BusTime: a recorded stamp,
+/// or in lock-step the frames before it, then give the same time to all of them.
 class BusClock {
   public:
     /// `unix_offset_us`: what a monotonic time lacks to the time since 1970, now. It is kept where the clock is set.

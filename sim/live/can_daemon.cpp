@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "live/can_daemon.hpp"
 
 #include <algorithm>
@@ -26,8 +27,7 @@ firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
 }  // namespace
 
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
-                     const firmware::Parameters<float>& parameters, Journal& journal,
-                     const CanDaemonSettings& settings)
+                     const firmware::Parameters<float>& parameters, Journal& journal, const CanDaemonSettings& settings)
     : journal_(journal),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 namespace millforce::sim {
 
 struct CanDaemonSettings {
-    bool records = false;        ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
+    bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
     BusTime time{};
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -19,8 +20,8 @@ namespace millforce::sim {
 
 struct JournalSettings {
     std::string interface;
-    std::string record_file;  ///< candump log of every frame; empty: none
-    std::string log_file;     ///< JSON lines; empty: none
+    std::string record_file;   ///< candump log of every frame; empty: none
+    std::string log_file;      ///< JSON lines; empty: none
     bool status_line = false;  ///< on standard output, once a second
 };
 

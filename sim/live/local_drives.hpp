@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -11,9 +12,10 @@
 #include "iio/adc_currents.hpp"
 #include "iio/counter_input.hpp"
 
-/// Drives without a bus, on the bus: at each SYNC the motor currents of a converter, and the counts of encoders, go out as
-/// PDOs of their nodes. So they are recorded, replayed and watched as any drive's values are: one that is missing, stale or
-/// out of range makes the sample incomplete, and after the CNC's `stale_s` the feed is held with the fault `stale_input`.
+/// Drives without a bus, on the bus: at each SYNC the motor currents of a converter, and the counts of encoders, go out
+/// as PDOs of their nodes. So they are recorded, replayed and watched as any drive's values are: one that is missing,
+/// stale or out of range makes the sample incomplete, and after the CNC's `stale_s` the feed is held with the fault
+/// `stale_input`.
 ///
 /// | object | width | unit |
 /// |---|---|---|
@@ -21,8 +23,8 @@
 /// | 0x6064, spindle with a counter | 32 | counts |
 /// | 0x606C, axis with a counter | 32 | µm/s |
 ///
-/// The current is the converter's mean since the SYNC before. A drive of the bus that tells its motion alone keeps its own
-/// PDOs beside this one. No heap after construction; reads of a slow converter's sysfs files block. One thread.
+/// The current is the converter's mean since the SYNC before. A drive of the bus that tells its motion alone keeps its
+/// own PDOs beside this one. No heap after construction; reads of a slow converter's sysfs files block. One thread.
 
 namespace millforce::sim {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <fmt/format.h>
@@ -13,8 +14,8 @@ namespace millforce::sim {
 inline iio::Path local_path(const std::string& key, const std::string& text) {
     const iio::Path path(text);
     if (path.view().empty()) {
-        throw InputError(fmt::format("{} = \"{}\": expected a path of 1 to {} characters", key, text,
-                                     iio::path_capacity - 1));
+        throw InputError(
+            fmt::format("{} = \"{}\": expected a path of 1 to {} characters", key, text, iio::path_capacity - 1));
     }
     return path;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@ struct PlantOnCanSettings {
     CncOnBusSettings cnc{};
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
     BusTime time{};
-    /// The sample that answers a SYNC was computed before it: a plant whose computing takes a good part of a period does
-    /// not answer late. Each SYNC is one period then, as drives latch on clocks of their own that follow it: when it is
-    /// heard tells more of the computing than of the SYNC. Else it is computed when the SYNC has told its time.
+    /// The sample that answers a SYNC was computed before it: a plant whose computing takes a good part of a period
+    /// does not answer late. Each SYNC is one period then, as drives latch on clocks of their own that follow it: when
+    /// it is heard tells more of the computing than of the SYNC. Else it is computed when the SYNC has told its time.
     bool computes_ahead = false;
 };
 

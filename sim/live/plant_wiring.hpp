@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -16,8 +17,8 @@ MachineOnBusSettings drives_on_bus(const Scenario& scenario, const MachineBus& b
 /// The simulated CNC of a scenario's machine on the same bus.
 CncOnBusSettings cnc_on_bus(const Scenario& scenario, const MachineBus& bus);
 
-/// Both, as the scenario's machine file has them on an interface; InputError where no drive of it is on a bus. Its time is
-/// the clock's.
+/// Both, as the scenario's machine file has them on an interface; InputError where no drive of it is on a bus. Its time
+/// is the clock's.
 PlantOnCanSettings plant_on_bus(const Scenario& scenario, const std::string& interface);
 
 }  // namespace millforce::sim

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/ensemble.hpp"
 
 #include <algorithm>
@@ -71,7 +72,8 @@ std::vector<RunFigures> run_ensemble(const Scenario& scenario, int runs, const s
         const int first = static_cast<int>(figures.size());
         std::vector<std::future<RunFigures>> batch;
         for (int k = first; k < std::min(runs, first + workers); ++k) {
-            batch.push_back(std::async(std::launch::async, run_one, scenario, scenario.seed + static_cast<std::uint64_t>(k)));
+            batch.push_back(
+                std::async(std::launch::async, run_one, scenario, scenario.seed + static_cast<std::uint64_t>(k)));
         }
         for (std::future<RunFigures>& run : batch) {
             figures.push_back(run.get());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -11,8 +12,8 @@
 namespace millforce::sim {
 
 /// Draws how a plant differs from what the controller believes, from the deviations that its parameters state:
-/// K_s and r_1 log-normal (K_s_relative_sd, r_1_relative_sd), their exponents normal (…_exponent_sd), friction normal (friction_relative_sd), torque and force
-/// constants normal (gain_relative_sd). Deterministic in `seed`.
+/// K_s and r_1 log-normal (K_s_relative_sd, r_1_relative_sd), their exponents normal (…_exponent_sd), friction normal
+/// (friction_relative_sd), torque and force constants normal (gain_relative_sd). Deterministic in `seed`.
 [[nodiscard]] PlantDeviation drawn_deviation(const Scenario& scenario, std::uint64_t seed);
 
 struct EnsembleFigures {
@@ -23,7 +24,7 @@ struct EnsembleFigures {
     double peak_over_limit_worst = 0.0;
     double late_over_limit_s_worst = 0.0;  ///< see RunFigures
     double time_s_mean = 0.0;
-    double estimate_share = 0.0;           ///< of the time in cut: with an immersion
+    double estimate_share = 0.0;  ///< of the time in cut: with an immersion
     double immersion_rms = no_estimate;
     double immersion_coverage = no_estimate;  ///< mean over the runs
     double depth_rms_mm = no_estimate;

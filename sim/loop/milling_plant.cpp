@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/milling_plant.hpp"
 
 #include <algorithm>
@@ -13,9 +14,8 @@ std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
         return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
     }
     const auto& tool = scenario.parameters.tool;
-    return std::make_unique<ProfileWorkpiece>(
-        scenario.profile, scenario.cutter, firmware::cut_side(tool),
-        static_cast<double>(tool.centre_offset_mm));
+    return std::make_unique<ProfileWorkpiece>(scenario.profile, scenario.cutter, firmware::cut_side(tool),
+                                              static_cast<double>(tool.centre_offset_mm));
 }
 
 }  // namespace
@@ -46,8 +46,9 @@ void MillingPlant::advance(double dt_s, const Command& command) {
         workpiece_->move_to(machine_.position_mm(), Eigen::Vector3d::UnitZ(), command.path_mm);
         load_ = {};
     }
-    judge_.observe(dt_s, {machine_.position_mm(), velocity.norm(), path_mm_, command.programmed_feed_mm_s,
-                          command.is_rapid, machine_.spindle_speed_rad_s(), command.override_ratio},
+    judge_.observe(dt_s,
+                   {machine_.position_mm(), velocity.norm(), path_mm_, command.programmed_feed_mm_s, command.is_rapid,
+                    machine_.spindle_speed_rad_s(), command.override_ratio},
                    cutting_load_, workpiece_->truth());
 }
 
@@ -72,7 +73,8 @@ void MillingPlant::cut(double dt_s, const Eigen::Vector3d& direction) {
         cutting_load_.fz_N += part.fz_N / points;
         cutting_load_.spindle_torque_Nm += part.spindle_torque_Nm / points;
         for (std::size_t tooth = 0; tooth < part.tooth_force_N.size(); ++tooth) {
-            cutting_load_.tooth_force_N[tooth] = std::max(cutting_load_.tooth_force_N[tooth], part.tooth_force_N[tooth]);
+            cutting_load_.tooth_force_N[tooth] =
+                std::max(cutting_load_.tooth_force_N[tooth], part.tooth_force_N[tooth]);
         }
         peak_total_N_ = std::max(peak_total_N_, std::hypot(part.fx_N, part.fy_N));
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/override_source.hpp"
 
 #include <algorithm>
@@ -111,6 +112,8 @@ double constant_load_reference_N(const firmware::Parameters<float>& parameters) 
     return static_cast<double>(parameters.tool.tooth_force_limit_N / factors.tooth);
 }
 
-std::vector<std::string> controller_names() { return {"millforce", "millforce_fixed", "constant", "constant_load"}; }
+std::vector<std::string> controller_names() {
+    return {"millforce", "millforce_fixed", "constant", "constant_load"};
+}
 
 }  // namespace millforce::sim

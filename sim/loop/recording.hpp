@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -64,9 +65,9 @@ class RecordingWriter {
 /// one axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError:
 /// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
 ///
-/// A recording with a force sensor (fx_N and fy_N, on the workpiece in the machine's axes) needs no currents, and of the
-/// axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that begins again after
-/// each turn goes on. An axis whose velocity is not recorded stands.
+/// A recording with a force sensor (fx_N and fy_N, on the workpiece in the machine's axes) needs no currents, and of
+/// the axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that begins again
+/// after each turn goes on. An axis whose velocity is not recorded stands.
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);

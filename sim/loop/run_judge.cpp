@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/run_judge.hpp"
 
 #include <algorithm>
@@ -169,9 +170,7 @@ RunResult RunJudge::result(const std::string& controller, bool finished) const {
         f.mean_force_use = use_sum_ / f.cutting_time_s;
     }
     const auto rms = [](double sum, int count) { return count > 0 ? std::sqrt(sum / count) : no_estimate; };
-    const auto share = [](int part, int count) {
-        return count > 0 ? static_cast<double>(part) / count : no_estimate;
-    };
+    const auto share = [](int part, int count) { return count > 0 ? static_cast<double>(part) / count : no_estimate; };
     f.immersion_rms = rms(immersion_error2_, immersion_samples_);
     f.immersion_coverage = share(immersion_inside_, immersion_samples_);
     f.depth_rms_mm = rms(depth_error2_, depth_samples_);

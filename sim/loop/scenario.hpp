@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -31,8 +32,8 @@ struct StockCylinder {
 struct StockSettings {
     StockBox block{};
     double cell_mm = 0.1;
-    std::vector<StockBox> boxes;          ///< set the height within their rectangle, in order
-    std::vector<StockCylinder> drilled;   ///< set the height within their circle
+    std::vector<StockBox> boxes;         ///< set the height within their rectangle, in order
+    std::vector<StockCylinder> drilled;  ///< set the height within their circle
     double start_x_mm = 0.0;
     double start_y_mm = 0.0;
     double start_z_mm = 50.0;
@@ -59,10 +60,10 @@ struct PlantDeviation {
     double size_effect_shift = 0.0;    ///< added to the exponent of K_s over chip thickness, K_s fixed at the pivot …
     double radial_size_effect_shift = 0.0;  ///< … and to that of r_1
     double size_effect_pivot_mm = 1.0;
-    double friction_scale = 1.0;       ///< of the feed drives and the spindle bearing
-    double current_noise_share = 0.01; ///< of rated current, per sample
-    double spindle_gain_scale = 1.0;   ///< torque constant true / believed
-    double axis_gain_scale = 1.0;      ///< force constant true / believed
+    double friction_scale = 1.0;        ///< of the feed drives and the spindle bearing
+    double current_noise_share = 0.01;  ///< of rated current, per sample
+    double spindle_gain_scale = 1.0;    ///< torque constant true / believed
+    double axis_gain_scale = 1.0;       ///< force constant true / believed
 };
 
 struct Scenario {

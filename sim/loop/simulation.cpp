@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/simulation.hpp"
 
 #include <fmt/format.h>
@@ -112,9 +113,9 @@ class Loop {
     void step_plant() {
         const double dt_s = steps_.step_s;
         cnc_.step(static_cast<double>(override_.ratio), override_.hold);
-        plant_.advance(dt_s, {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(),
-                              cnc_.path_mm(), cnc_.is_rapid(), cnc_.spindle_speed_rad_s(),
-                              static_cast<double>(override_.ratio)});
+        plant_.advance(
+            dt_s, {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(), cnc_.path_mm(),
+                   cnc_.is_rapid(), cnc_.spindle_speed_rad_s(), static_cast<double>(override_.ratio)});
     }
 
     [[nodiscard]] hal::ProgramStatus program_status() const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -36,8 +37,8 @@ Simulated simulate(const Scenario& scenario, OverrideSource& controller, const s
 /// chooses a constant feed.
 inline constexpr double hardest_material = 1.3;
 
-/// The largest constant override with which no tooth exceeds its limit anywhere on the part, for a material whose K_s is
-/// `hardest` times that of the scenario. With 1.0 it is the best constant feed in hindsight, K_s known exactly.
+/// The largest constant override with which no tooth exceeds its limit anywhere on the part, for a material whose K_s
+/// is `hardest` times that of the scenario. With 1.0 it is the best constant feed in hindsight, K_s known exactly.
 double safe_constant_override(const Scenario& scenario, double hardest = hardest_material,
                               const SimulationSettings& settings = {});
 

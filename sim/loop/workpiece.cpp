@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/workpiece.hpp"
 
 #include <algorithm>
@@ -63,7 +64,9 @@ Strip strip_of(estimation::CutSide side, double width_mm, double radius_mm, doub
 }
 
 /// A tooth stands at y = R cos φ.
-double angle_at(double y_mm, double radius_mm) { return std::acos(std::clamp(y_mm / radius_mm, -1.0, 1.0)); }
+double angle_at(double y_mm, double radius_mm) {
+    return std::acos(std::clamp(y_mm / radius_mm, -1.0, 1.0));
+}
 
 }  // namespace
 

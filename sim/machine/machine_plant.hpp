@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +20,7 @@ struct MachinePlantSettings {
     double current_noise_share = 0.01;        ///< of rated current, per sample
     double velocity_resolution_mm_s = 0.001;  ///< of the drive's velocity object
     std::uint32_t encoder_counts_per_rev = 8192;
-    double index_offset_rad = 1.0;  ///< the index stands anywhere beside tooth 0
+    double index_offset_rad = 1.0;       ///< the index stands anywhere beside tooth 0
     ForceSensorSettings force_sensor{};  ///< under the workpiece
     std::uint64_t seed = 1;
 

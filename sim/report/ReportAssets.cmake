@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Embeds what the pages are made of into their libraries, so that the program needs no file at run time: templates,
 # styles and scripts, and the chart library dygraphs.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 "use strict";
 
 /** Charts along the run: linked zoom, linked cursor, one legend each. Drawn with dygraphs. */

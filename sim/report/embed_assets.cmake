@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes OUTPUT, a C++ file that defines the functions of HEADER in NAMESPACE, from ASSETS: name;file;name;file…
 # The bytes go through hexadecimal, so that no character of a file can be mistaken for C++ or CMake.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/html_report.hpp"
 
 #include <fmt/format.h>
@@ -65,9 +66,10 @@ std::string headline_html(std::span<const RunResult> runs) {
     const std::string time = readable_time(figures.time_s, longest_s);
     std::string out;
     if (saved) {
-        out += stat(limit_held(figures) && *saved >= 0.0 ? "hero held" : "hero", fmt::format("{:.1f} %", std::abs(*saved)),
-                    *saved < 0.0 ? "more machining time than a constant feed that is safe everywhere"
-                                 : "less machining time than a constant feed that is safe everywhere");
+        out +=
+            stat(limit_held(figures) && *saved >= 0.0 ? "hero held" : "hero", fmt::format("{:.1f} %", std::abs(*saved)),
+                 *saved < 0.0 ? "more machining time than a constant feed that is safe everywhere"
+                              : "less machining time than a constant feed that is safe everywhere");
         out += stat("", time, fmt::format("instead of {}", readable_time(constant_s, longest_s)));
     } else {
         out += stat("hero", time, figures.finished ? "machining time" : "until the run stopped");
@@ -92,9 +94,10 @@ std::string verdict_html(std::span<const RunResult> runs) {
         "The limit was exceeded for {:.2f} s in total, {:.3f} s at a stretch: {}. Teeth broken: {}.",
         figures.time_over_limit_s, figures.longest_over_limit_s,
         figures.late_over_limit_s > 0.0
-            ? fmt::format("{:.3f} s of it when the engagement had not grown for the {:.3f} s that latency, deceleration "
-                          "and two revolutions need",
-                          figures.late_over_limit_s, figures.reaction_time_s)
+            ? fmt::format(
+                  "{:.3f} s of it when the engagement had not grown for the {:.3f} s that latency, deceleration "
+                  "and two revolutions need",
+                  figures.late_over_limit_s, figures.reaction_time_s)
             : fmt::format("only while the engagement grew, and within the {:.3f} s after it that latency, deceleration "
                           "and two revolutions need",
                           figures.reaction_time_s),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 "use strict";
 
 /** Builds the page from the embedded data: which curves stand in which chart, the choices, and what follows what. */

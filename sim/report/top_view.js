@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 "use strict";
 
 /** The part from above: the tool centre's path, coloured by tooth force over its limit. */

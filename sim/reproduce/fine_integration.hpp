@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 /// The cutting force of a helical end mill a second time, by brute force: the judge of the plant (sim/cutting), of

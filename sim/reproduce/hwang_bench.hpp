@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -35,8 +36,8 @@ struct BenchCut {
     double runout_angle_rad = 0.7;
 };
 
-/// What stands between the force and the sample. Pressure varies along the cut like an inhomogeneous workpiece, with the
-/// correlation length of a tooth pitch.
+/// What stands between the force and the sample. Pressure varies along the cut like an inhomogeneous workpiece, with
+/// the correlation length of a tooth pitch.
 struct BenchChain {
     ForceSensorSettings sensor{.low_pass_hz = 300.0};
     double pressure_variation = 0.02;

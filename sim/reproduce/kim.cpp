@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/kim_campaign.hpp"
 #include "reproduce/kim_plots.hpp"
 #include "reproduce/reproduction.hpp"
@@ -56,8 +57,7 @@ void add_table_1(Reproduction& result) {
     figures.push_back({"Table 1: cutting speed", "m/min", 31.6673,
                        std::numbers::pi * KimStandardCut::diameter_mm * KimStandardCut::spindle_rpm / 1000.0,
                        Judged::difference, 1e-4});
-    figures.push_back(
-        {"Table 1: feed per tooth", "mm", 0.0496, standard_feed_per_tooth_mm, Judged::difference, 5e-5});
+    figures.push_back({"Table 1: feed per tooth", "mm", 0.0496, standard_feed_per_tooth_mm, Judged::difference, 5e-5});
     figures.push_back({"Table 1: volume removed per tooth", "mm³", 0.4762,
                        standard_feed_per_tooth_mm * KimStandardCut::radial_width_mm * KimStandardCut::axial_depth_mm,
                        Judged::difference, 5e-5});
@@ -94,11 +94,11 @@ estimation::AverageForces<double> by_integration(const AverageChipLaw& law,
     cutter.flute_length_mm = 19.0;
     cutter.helix_rad = std::numbers::pi / 6.0;
     const double t_a = estimation::mean_chip_thickness_mm(cut.feed_per_tooth_mm, cut.engagement);
-    const CuttingForce force(cutter, coefficients_at(law, t_a), 
+    const CuttingForce force(cutter, coefficients_at(law, t_a),
                              {.chip_model = ChipModel::circular, .resolution = {.largest_angle_per_slice_rad = 0.01}});
-    const RevolutionLoad load =
-        revolution_load(force, cut.feed_per_tooth_mm,
-                        uniform_engagement(cut.engagement.entry_rad, cut.engagement.exit_rad, cut.axial_depth_mm), 0.003);
+    const RevolutionLoad load = revolution_load(
+        force, cut.feed_per_tooth_mm,
+        uniform_engagement(cut.engagement.entry_rad, cut.engagement.exit_rad, cut.axial_depth_mm), 0.003);
     return {load.mean_torque_Nm * 1000.0 / radius_mm, load.mean_fx_N, load.mean_fy_N};
 }
 
@@ -123,24 +123,27 @@ void add_average_forces(Reproduction& result) {
         }
     }
     auto& figures = result.figures;
-    figures.push_back({"Eq. 4 with R_a and φ_r in their places, against the closed averages for any engagement: largest "
-                       "deviation over F_at, 30 cuts, down milling",
-                       "", not_printed, of_equation_4, Judged::at_most, 1e-9});
-    figures.push_back({"Eq. 4 against the plant's integration of edge elements: largest deviation, 30 cuts, down milling",
-                       "%", not_printed, 100.0 * of_integration, Judged::at_most, 0.02});
+    figures.push_back(
+        {"Eq. 4 with R_a and φ_r in their places, against the closed averages for any engagement: largest "
+         "deviation over F_at, 30 cuts, down milling",
+         "", not_printed, of_equation_4, Judged::at_most, 1e-9});
+    figures.push_back(
+        {"Eq. 4 against the plant's integration of edge elements: largest deviation, 30 cuts, down milling", "%",
+         not_printed, 100.0 * of_integration, Judged::at_most, 0.02});
     figures.push_back({"The same averages in up milling, which the paper leaves out", "%", not_printed,
                        100.0 * up_of_integration, Judged::at_most, 0.02});
     const auto standard = by_integration(law, conditions(0.2, CutSide::down, standard_feed_per_tooth_mm));
-    const auto closed = estimation::average_forces(closed_law(law),
-                                                   conditions(0.2, CutSide::down, standard_feed_per_tooth_mm));
+    const auto closed =
+        estimation::average_forces(closed_law(law), conditions(0.2, CutSide::down, standard_feed_per_tooth_mm));
     figures.push_back({"Standard cut: F_at by integration, against the closed average", "N", closed.tangential_N,
                        standard.tangential_N, Judged::difference, 0.1});
     figures.push_back({"Standard cut: F_ax", "N", closed.feed_N, standard.feed_N, Judged::difference, 0.1});
     figures.push_back({"Standard cut: F_ay", "N", closed.normal_N, standard.normal_N, Judged::difference, 0.1});
     const auto widest = by_integration(law, conditions(0.5, CutSide::down, 700.0 / 5040.0));
-    figures.push_back({"Section 3.1: largest average force of its feeds (to 700 mm/min) and widths (to 2 mm), designed not "
-                       "to exceed 1000 N",
-                       "N", 1000.0, widest.tangential_N, Judged::shown});
+    figures.push_back(
+        {"Section 3.1: largest average force of its feeds (to 700 mm/min) and widths (to 2 mm), designed not "
+         "to exceed 1000 N",
+         "N", 1000.0, widest.tangential_N, Judged::shown});
 }
 
 /// Eq. 6: the ratio that tells the immersion, and where it does not.
@@ -169,9 +172,10 @@ void add_force_ratio(Reproduction& result) {
     };
     result.figures.push_back({"Eq. 6: F_ax/F_at grows with the immersion throughout in down milling (1: yes)", "",
                               not_printed, monotone ? 1.0 : 0.0, Judged::at_least, 1.0});
-    result.figures.push_back({"Eq. 6: change of F_ax/F_at from R_r 0.05 to 0.2 in up milling, as a share of that in down "
-                              "milling: it tells hardly any immersion there",
-                              "", not_printed, change(CutSide::up) / change(CutSide::down), Judged::at_most, 0.1});
+    result.figures.push_back(
+        {"Eq. 6: change of F_ax/F_at from R_r 0.05 to 0.2 in up milling, as a share of that in down "
+         "milling: it tells hardly any immersion there",
+         "", not_printed, change(CutSide::up) / change(CutSide::down), Judged::at_most, 0.1});
 }
 
 /// Values worked out beside the program, by disc integration of Eqs. 2 and 3 at f_z 0.0496 mm.
@@ -182,11 +186,11 @@ void add_check_values(Reproduction& result) {
     constexpr double f_z = 0.0496;
     const AverageChipLaw& law = tools()[0].law;
     double largest_N = 0.0;
-    for (const Forces& check : {Forces{0.2, 221.92, -160.96, -176.06}, {1.0, 923.72, -184.36, -902.15},
-                                {2.0, 1847.44, 555.00, -1450.98}}) {
+    for (const Forces& check :
+         {Forces{0.2, 221.92, -160.96, -176.06}, {1.0, 923.72, -184.36, -902.15}, {2.0, 1847.44, 555.00, -1450.98}}) {
         const auto forces = estimation::average_forces(closed_law(law), conditions(check.R_r, CutSide::down, f_z));
-        for (const double error : {forces.tangential_N - check.F_at, forces.feed_N - check.F_ax,
-                                   forces.normal_N - check.F_ay}) {
+        for (const double error :
+             {forces.tangential_N - check.F_at, forces.feed_N - check.F_ax, forces.normal_N - check.F_ay}) {
             largest_N = std::max(largest_N, std::abs(error));
         }
     }
@@ -195,10 +199,17 @@ void add_check_values(Reproduction& result) {
         double R_r, F_ax_over_F_at;
     };
     double largest_ratio = 0.0;
-    for (const Ratio& check : {Ratio{CutSide::down, 0.05, -0.876}, {CutSide::down, 0.2, -0.725}, {CutSide::down, 0.5, -0.504},
-                               {CutSide::down, 1.0, -0.200}, {CutSide::down, 1.5, 0.066}, {CutSide::down, 2.0, 0.300},
-                               {CutSide::up, 0.05, 1.0743}, {CutSide::up, 0.2, 1.0747}, {CutSide::up, 0.5, 0.996},
-                               {CutSide::up, 1.0, 0.800}, {CutSide::up, 2.0, 0.300}}) {
+    for (const Ratio& check : {Ratio{CutSide::down, 0.05, -0.876},
+                               {CutSide::down, 0.2, -0.725},
+                               {CutSide::down, 0.5, -0.504},
+                               {CutSide::down, 1.0, -0.200},
+                               {CutSide::down, 1.5, 0.066},
+                               {CutSide::down, 2.0, 0.300},
+                               {CutSide::up, 0.05, 1.0743},
+                               {CutSide::up, 0.2, 1.0747},
+                               {CutSide::up, 0.5, 0.996},
+                               {CutSide::up, 1.0, 0.800},
+                               {CutSide::up, 2.0, 0.300}}) {
         const auto forces = estimation::average_forces(closed_law(law), conditions(check.R_r, check.side, f_z));
         largest_ratio = std::max(largest_ratio, std::abs(forces.feed_N / forces.tangential_N - check.F_ax_over_F_at));
     }
@@ -230,10 +241,10 @@ void add_drive_equations(Reproduction& result) {
     figures.push_back({"Eq. 8 with its constants: F_at at 12 units of current", "N", K_t1 * 12.0 + K_t2, F_at(12.0),
                        Judged::difference, 1e-6});
     figures.push_back({"Eq. 8: current of the idle spindle, −K_t2/K_t1", "", not_printed, -K_t2 / K_t1, Judged::shown});
-    figures.push_back({"Eqs. 9 and 10 with Table 3: F_ax at 0.25 m/min where the current is friction's alone: K_x4 and K_x5 "
-                       "repeat Eq. 8",
-                       "N", K_t2 / w, feed_drive.force_N({I_axf, w / 0.06, 0.0, 1.0, 1.0, true}).value,
-                       Judged::difference, 1e-6});
+    figures.push_back(
+        {"Eqs. 9 and 10 with Table 3: F_ax at 0.25 m/min where the current is friction's alone: K_x4 and K_x5 "
+         "repeat Eq. 8",
+         "N", K_t2 / w, feed_drive.force_N({I_axf, w / 0.06, 0.0, 1.0, 1.0, true}).value, Judged::difference, 1e-6});
 }
 
 /// Over all machines: errors, and how many lie within two standard errors.
@@ -260,18 +271,18 @@ void add_gains(const std::vector<KimCampaign>& campaigns, Reproduction& result) 
     }
     auto& figures = result.figures;
     const auto add = [&](const std::string& what, const Tally& tally, double bound) {
-        figures.push_back({fmt::format("Step 2: {} by standard cuts, largest error over {} machines", what, machines), "%",
-                           not_printed, 100.0 * tally.largest, Judged::at_most, bound});
+        figures.push_back({fmt::format("Step 2: {} by standard cuts, largest error over {} machines", what, machines),
+                           "%", not_printed, 100.0 * tally.largest, Judged::at_most, bound});
     };
     add("K_t1", spindle, 1.0);
     add("K_t2, the warm idle torque,", idle, 3.0);
     add("K_x4", feed, 1.5);
     const double within = spindle.within + idle.within + feed.within;
-    figures.push_back({"Step 2: K_t1, K_t2 and K_x4 within two standard errors (Student's t, 10 degrees of freedom: 93 %)",
-                       "%", not_printed, 100.0 * within / (3.0 * static_cast<double>(machines)), Judged::within, 100.0,
-                       85.0});
-    figures.push_back({"Step 2: K_x5 of the first machine: what the quadratic friction leaves at low feed, and no more", "N·m/min",
-                       not_printed, campaigns.front().gains.axes[0]->offset, Judged::shown});
+    figures.push_back(
+        {"Step 2: K_t1, K_t2 and K_x4 within two standard errors (Student's t, 10 degrees of freedom: 93 %)", "%",
+         not_printed, 100.0 * within / (3.0 * static_cast<double>(machines)), Judged::within, 100.0, 85.0});
+    figures.push_back({"Step 2: K_x5 of the first machine: what the quadratic friction leaves at low feed, and no more",
+                       "N·m/min", not_printed, campaigns.front().gains.axes[0]->offset, Judged::shown});
 }
 
 void add_coefficients(const PublishedTool& tool, const std::vector<KimUnknownTool>& found, Reproduction& result) {
@@ -289,18 +300,19 @@ void add_coefficients(const PublishedTool& tool, const std::vector<KimUnknownToo
     const auto& first = found.front().fit;
     auto& figures = result.figures;
     const auto from_currents = [&](const char* what, double published, double ours, double se, double bound) {
-        figures.push_back({fmt::format("{}, {}: {} from currents alone (standard error {:.2g})", tool.table, tool.name,
-                                       what, se),
-                           "", published, ours, Judged::relative_difference, bound});
+        figures.push_back(
+            {fmt::format("{}, {}: {} from currents alone (standard error {:.2g})", tool.table, tool.name, what, se), "",
+             published, ours, Judged::relative_difference, bound});
     };
     from_currents("k_s", tool.law.k_s, first.law.k_s_N_per_mm2, first.k_s_standard_error(), 0.045);
     from_currents("p_s", tool.law.p_s, first.law.p_s, first.standard_error(estimation::cutting_p_s), 0.06);
     from_currents("k_1", tool.law.k_1, first.law.k_1, first.k_1_standard_error(), 0.045);
     from_currents("p_1", tool.law.p_1, first.law.p_1, first.standard_error(estimation::cutting_p_1), 0.06);
     const auto worst = [&](const char* what, const Tally& tally, double printed, double bound) {
-        figures.push_back({fmt::format("Table 5, {}: largest deviation of {} over {} machines (printed: the paper's one)",
-                                       tool.name, what, machines),
-                           "%", printed, 100.0 * tally.largest, Judged::at_most, bound});
+        figures.push_back(
+            {fmt::format("Table 5, {}: largest deviation of {} over {} machines (printed: the paper's one)", tool.name,
+                         what, machines),
+             "%", printed, 100.0 * tally.largest, Judged::at_most, bound});
     };
     worst("k_s", k_s, 100.0 * std::abs(tool.k_s_by_currents / tool.law.k_s - 1.0), 4.5);
     worst("p_s", p_s, 100.0 * std::abs(tool.p_s_by_currents / tool.law.p_s - 1.0), 6.0);
@@ -337,11 +349,11 @@ estimation::AverageForceMeasurement<double> measured_forces(const CutRow& row, c
     const double F_at = row.spindle_torque_Nm * 1000.0 / radius_mm;
     const auto square = [](double value) { return value * value; };
     estimation::AverageForceMeasurement<double> m;
-    m.tangential_N = {true, F_at,
-                      square(torque_sd * 1000.0 / radius_mm) + square(campaign.gain_doubt.tangential_relative_sd * F_at),
-                      0.0};
-    m.x_N = {true, row.feed_force_N,
-             square(force_sd) + square(campaign.gain_doubt.feed_relative_sd * row.feed_force_N), 0.0};
+    m.tangential_N = {
+        true, F_at, square(torque_sd * 1000.0 / radius_mm) + square(campaign.gain_doubt.tangential_relative_sd * F_at),
+        0.0};
+    m.x_N = {true, row.feed_force_N, square(force_sd) + square(campaign.gain_doubt.feed_relative_sd * row.feed_force_N),
+             0.0};
     return m;
 }
 
@@ -359,8 +371,7 @@ void tally_engagements(const KimCampaign& campaign, const KimUnknownTool& tool, 
         const double depth = rows[k].axial_depth_mm;
         tally.immersion_squares += std::pow(found.radial_immersion - R_r, 2.0);
         tally.depth_squares += std::pow(found.axial_depth_mm / depth - 1.0, 2.0);
-        tally.immersion_within +=
-            found.radial_immersion_low <= R_r && R_r <= found.radial_immersion_high ? 1 : 0;
+        tally.immersion_within += found.radial_immersion_low <= R_r && R_r <= found.radial_immersion_high ? 1 : 0;
         tally.depth_within += std::abs(found.axial_depth_mm - depth) <= 1.96 * found.axial_depth_sd_mm ? 1 : 0;
         ++tally.count;
     }
@@ -385,27 +396,37 @@ void add_engagement(const std::vector<KimCampaign>& campaigns, const std::vector
 
 std::vector<std::string> deviations() {
     return {
-        ("Eq. 4 prints R_r before the brackets of F_ax and F_ay; integration of the edge elements gives R_a. In B_r the "
-        "printed φ_N is the entry angle φ_r."),
-        ("Table 3 prints K_x4 = 196.61 and K_x5 = −1911.00: K_t1 and K_t2 of Eq. 8 to the digit. With them F_ax is −7644 N "
-        "at 0.25 m/min where the axis only overcomes its friction. Here both are calibrated, by standard cuts."),
-        ("Section 3.3 refers to Tables 3 and 4 for the coefficients; they stand in Tables 2 and 4. Fig. 5 and Fig. 6 give no "
-        "unit of current; here: ampere."),
-        ("The tangential force of its largest feed and width is some 1070 N by its own coefficients, not below 1000 N."),
-        ("The paper's forces for the comparison come from a dynamometer. Here the plant's cutting force has the published "
-        "law, and between it and the coefficients stand the simulated drives: inertia, friction with pre-sliding and "
-        "Stribeck's fall at low feed, ripple over the screw's pitch, noise of 1 % of the rated current, quantisation to a "
-        "per mille, and a bearing that warms up."),
+        ("Eq. 4 prints R_r before the brackets of F_ax and F_ay; integration of the edge elements gives R_a. In B_r "
+         "the "
+         "printed φ_N is the entry angle φ_r."),
+        ("Table 3 prints K_x4 = 196.61 and K_x5 = −1911.00: K_t1 and K_t2 of Eq. 8 to the digit. With them F_ax is "
+         "−7644 N "
+         "at 0.25 m/min where the axis only overcomes its friction. Here both are calibrated, by standard cuts."),
+        ("Section 3.3 refers to Tables 3 and 4 for the coefficients; they stand in Tables 2 and 4. Fig. 5 and Fig. 6 "
+         "give no "
+         "unit of current; here: ampere."),
+        ("The tangential force of its largest feed and width is some 1070 N by its own coefficients, not below 1000 "
+         "N."),
+        ("The paper's forces for the comparison come from a dynamometer. Here the plant's cutting force has the "
+         "published "
+         "law, and between it and the coefficients stand the simulated drives: inertia, friction with pre-sliding and "
+         "Stribeck's fall at low feed, ripple over the screw's pitch, noise of 1 % of the rated current, quantisation "
+         "to a "
+         "per mille, and a bearing that warms up."),
         ("The helix is not printed: 30°. At 12 mm depth its lag is a tooth pitch, and the force hardly ripples."),
-        ("Each cut has running in air at its own feed before it: idle current and friction are taken from there, not from "
-        "Eqs. 8 and 9 of another day. So r_1 comes out as well, where the paper finds large errors."),
+        ("Each cut has running in air at its own feed before it: idle current and friction are taken from there, not "
+         "from "
+         "Eqs. 8 and 9 of another day. So r_1 comes out as well, where the paper finds large errors."),
         ("In the plant K_x5 has no counterpart. What the fit gives is what the quadratic of Eq. 9 leaves of Stribeck's "
-        "friction at the lowest feed."),
-        ("The plant's chip is the paper's, f_z sin φ. With the trochoidal chip over the same engagement angles the force of a "
-        "cut 0.2 mm wide at 0.14 mm per tooth is 9 % higher, because such a cut removes more than f_z a_e."),
-        ("Immersion and depth are solved together, since t_a depends on the immersion; the depth comes from F_at as well, "
-        "because F_ax crosses zero near R_r = 1.4. In up milling below R_r = 0.3 the ratio tells nothing, and the estimator "
-        "says so."),
+         "friction at the lowest feed."),
+        ("The plant's chip is the paper's, f_z sin φ. With the trochoidal chip over the same engagement angles the "
+         "force of a "
+         "cut 0.2 mm wide at 0.14 mm per tooth is 9 % higher, because such a cut removes more than f_z a_e."),
+        ("Immersion and depth are solved together, since t_a depends on the immersion; the depth comes from F_at as "
+         "well, "
+         "because F_ax crosses zero near R_r = 1.4. In up milling below R_r = 0.3 the ratio tells nothing, and the "
+         "estimator "
+         "says so."),
     };
 }
 

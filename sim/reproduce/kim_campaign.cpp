@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/kim_campaign.hpp"
 
 #include "cutting/cutting_force.hpp"
@@ -49,8 +50,8 @@ class PitchForce {
         const auto angles =
             estimation::engagement_angles(side, 2.0 * cut.radial_width_mm / KimStandardCut::diameter_mm);
         const double f_z = plant_feed_per_tooth_mm(cut);
-        const double t_a = f_z * (std::cos(angles.entry_rad) - std::cos(angles.exit_rad)) /
-                           (angles.exit_rad - angles.entry_rad);
+        const double t_a =
+            f_z * (std::cos(angles.entry_rad) - std::cos(angles.exit_rad)) / (angles.exit_rad - angles.entry_rad);
         // The paper's chip, h = f_z sin φ. It keeps the volume of a narrow cut, f_z a_e, exactly.
         const CuttingForce force(cutter, coefficients_at(law, t_a), {.chip_model = ChipModel::circular});
         const EngagementMap map = uniform_engagement(angles.entry_rad, angles.exit_rad, cut.axial_depth_mm);
@@ -227,12 +228,13 @@ KimCampaign calibrate_machine(const KimMachine& machine, const AverageChipLaw& d
     campaign.machine = machine;
     campaign.air_cuts = simulate_air_cuts(machine);
     MachineParameters& calibrated = campaign.calibrated;
-    calibrated.spindle.K_t1_Nm_per_A = 0.7F;  // the data sheets'
+    calibrated.spindle.K_t1_Nm_per_A = 0.7F;     // the data sheets'
     calibrated.spindle.warm_up_time_s = 240.0F;  // of its own calibration: see warm_up_fit.hpp
     calibrated.axes[0].K_x4_N_per_A = 120.0F;
     fill_friction(campaign.air_cuts, calibrated);
     campaign.standard_cuts = simulate_cuts(machine, database, kim_standard_cuts(), 2);
-    campaign.gains = standard_cut_gains(campaign.standard_cuts, calibrated, closed_law(database), estimation::CutSide::down);
+    campaign.gains =
+        standard_cut_gains(campaign.standard_cuts, calibrated, closed_law(database), estimation::CutSide::down);
     const auto& spindle = campaign.gains.spindle;
     const auto& feed = *campaign.gains.axes[0];
     calibrated.spindle.K_t1_Nm_per_A = static_cast<float>(spindle.gain);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "calibration/cutting_calibration.hpp"
@@ -58,11 +59,11 @@ struct KimAirCut {
 struct KimCampaign {
     KimMachine machine;
     std::vector<KimAirCut> air_cuts;
-    MachineParameters calibrated;   ///< after steps 1 and 2
-    StandardCutGains gains;         ///< of step 2
+    MachineParameters calibrated;  ///< after steps 1 and 2
+    StandardCutGains gains;        ///< of step 2
     std::vector<RecordedStretch> standard_cuts;
     estimation::DriveGainDoubt<double> gain_doubt;
-    double idle_torque_Nm = 0.0;    ///< of the plant's warm bearing at the spindle's speed
+    double idle_torque_Nm = 0.0;  ///< of the plant's warm bearing at the spindle's speed
 };
 
 /// Steps 1 and 2; the forces of the standard cuts by `database`, which is the plant's law as well.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/kim_plots.hpp"
 
 #include <fmt/format.h>
@@ -38,12 +39,13 @@ struct CutCoefficients {
 CutCoefficients of_cut(const CutRow& row) {
     const auto m = row.measurement(estimation::CutSide::down);
     const auto i = estimation::engagement_integrals(m.cut.engagement);
-    const double per_pressure = m.cut.feed_per_tooth_mm * m.cut.axial_depth_mm * m.cut.teeth / (2.0 * estimation::pi<double>);
+    const double per_pressure =
+        m.cut.feed_per_tooth_mm * m.cut.axial_depth_mm * m.cut.teeth / (2.0 * estimation::pi<double>);
     const double K_s = m.tangential_N / (per_pressure * i.c);
     return {m.cut.feed_per_tooth_mm * i.mean_sine, K_s, (m.feed_N / (per_pressure * K_s) - i.s) / i.b};
 }
 
-PlotSeries points_of(const std::string& name, const KimUnknownTool& tool, double CutCoefficients::* value) {
+PlotSeries points_of(const std::string& name, const KimUnknownTool& tool, double CutCoefficients::*value) {
     PlotSeries series{name, PlotSeries::Style::points, {}, {}};
     for (const CutRow& row : tool.cuts) {
         const CutCoefficients cut = of_cut(row);
@@ -56,20 +58,22 @@ PlotSeries points_of(const std::string& name, const KimUnknownTool& tool, double
 }  // namespace
 
 void add_coefficient_plot(const KimDrawn& drawn, const KimUnknownTool& tool, Reproduction& result) {
-    result.plots.push_back({fmt::format("Cutting pressure over the mean chip thickness, {} ({})", drawn.name, drawn.figure),
-                            "mean chip thickness in mm",
-                            "K_s in N/mm²",
-                            "Line: the published law, by forces. Points: single cuts on the simulated machine, from the "
-                            "spindle's current alone.",
-                            {curve("published", thinnest_mm, thickest_mm, power(drawn.law.k_s, drawn.law.p_s)),
-                             points_of("from currents", tool, &CutCoefficients::K_s)}});
-    result.plots.push_back({fmt::format("Force ratio r_1 over the mean chip thickness, {} ({})", drawn.name, drawn.figure),
-                            "mean chip thickness in mm",
-                            "r_1",
-                            "The same for r_1, from both drives' currents. F_ax is the difference of two larger terms: the "
-                            "points scatter more than those of K_s.",
-                            {curve("published", thinnest_mm, thickest_mm, power(drawn.law.k_1, drawn.law.p_1)),
-                             points_of("from currents", tool, &CutCoefficients::r_1)}});
+    result.plots.push_back(
+        {fmt::format("Cutting pressure over the mean chip thickness, {} ({})", drawn.name, drawn.figure),
+         "mean chip thickness in mm",
+         "K_s in N/mm²",
+         "Line: the published law, by forces. Points: single cuts on the simulated machine, from the "
+         "spindle's current alone.",
+         {curve("published", thinnest_mm, thickest_mm, power(drawn.law.k_s, drawn.law.p_s)),
+          points_of("from currents", tool, &CutCoefficients::K_s)}});
+    result.plots.push_back(
+        {fmt::format("Force ratio r_1 over the mean chip thickness, {} ({})", drawn.name, drawn.figure),
+         "mean chip thickness in mm",
+         "r_1",
+         "The same for r_1, from both drives' currents. F_ax is the difference of two larger terms: the "
+         "points scatter more than those of K_s.",
+         {curve("published", thinnest_mm, thickest_mm, power(drawn.law.k_1, drawn.law.p_1)),
+          points_of("from currents", tool, &CutCoefficients::r_1)}});
 }
 
 void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
@@ -84,12 +88,13 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
             air.y.push_back(cut.current_A);
         }
     }
-    result.plots.push_back({"Feed drive's current in air over the feed (Fig. 5)",
-                            "feed in m/min",
-                            "current in A",
-                            "Points: steady feeds in air. Line: the quadratic of Eq. 9. At the lowest feeds friction rises "
-                            "again (Stribeck), which no quadratic follows.",
-                            {air, curve("K_x1 w² + K_x2 w + K_x3", 0.1, 1.0, friction)}});
+    result.plots.push_back(
+        {"Feed drive's current in air over the feed (Fig. 5)",
+         "feed in m/min",
+         "current in A",
+         "Points: steady feeds in air. Line: the quadratic of Eq. 9. At the lowest feeds friction rises "
+         "again (Stribeck), which no quadratic follows.",
+         {air, curve("K_x1 w² + K_x2 w + K_x3", 0.1, 1.0, friction)}});
     const auto law = closed_law({1007.59, -0.2557, 0.2242, -0.1546});
     PlotSeries feed{"standard cuts and air", PlotSeries::Style::points, {}, {}};
     PlotSeries spindle{"standard cuts and air", PlotSeries::Style::points, {}, {}};
@@ -97,9 +102,10 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
     for (const RecordedStretch& s : campaign.standard_cuts) {
         const auto side = estimation::CutSide::down;
         const auto forces = estimation::average_forces<double>(
-            law, {s.feed_per_tooth_mm(), s.conditions.axial_depth_mm,
-                  estimation::engagement_angles(side, 2.0 * s.conditions.radial_width_mm / s.conditions.tool_diameter_mm),
-                  static_cast<double>(s.conditions.flutes)});
+            law,
+            {s.feed_per_tooth_mm(), s.conditions.axial_depth_mm,
+             estimation::engagement_angles(side, 2.0 * s.conditions.radial_width_mm / s.conditions.tool_diameter_mm),
+             static_cast<double>(s.conditions.flutes)});
         feed.x.push_back(s.axis_current_A - static_cast<double>(campaign.calibrated.axes[0].gravity_A) -
                          kappa * signed_friction_current_A(campaign.calibrated, 0, s.feed_m_per_min()));
         feed.y.push_back(s.conditions.in_cut() ? forces.feed_N : 0.0);
@@ -114,14 +120,14 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
                             {feed, curve("K_x4 (I − I_f)", -4.0, 0.0, [&](double I) { return x_gain.gain * I; })}});
     const double per_Nm = 1000.0 / (0.5 * KimStandardCut::diameter_mm);
     const auto& s = campaign.gains.spindle;
-    result.plots.push_back({"Tangential force over the spindle's current (Fig. 4, Eq. 8)",
-                            "current in A",
-                            "F_at in N",
-                            "Line: K_t1 I + K_t2 of the warm spindle. The bearing is still warming up: the first points lie "
-                            "to the right of it.",
-                            {spindle, curve("K_t1 I + K_t2", -s.offset / s.gain, 4.0, [&](double I) {
-                                 return (s.gain * I + s.offset) * per_Nm;
-                             })}});
+    result.plots.push_back(
+        {"Tangential force over the spindle's current (Fig. 4, Eq. 8)",
+         "current in A",
+         "F_at in N",
+         "Line: K_t1 I + K_t2 of the warm spindle. The bearing is still warming up: the first points lie "
+         "to the right of it.",
+         {spindle, curve("K_t1 I + K_t2", -s.offset / s.gain, 4.0,
+                         [&](double I) { return (s.gain * I + s.offset) * per_Nm; })}});
 }
 
 void add_comparison_plot(const KimDrawn& drawn, const KimPressureLaw& by_published_currents, const KimUnknownTool& tool,

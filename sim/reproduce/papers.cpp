@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/papers.hpp"
 
 #include <algorithm>
@@ -13,10 +14,8 @@ namespace millforce::sim {
 namespace {
 
 constexpr std::array all_papers{
-    Paper{"hwang", reproduce_hwang, 20.0},
-    Paper{"yang", reproduce_yang, 15.0},
-    Paper{"kim", reproduce_kim, 10.0},
-    Paper{"roughness", reproduce_roughness, 0.5},
+    Paper{"hwang", reproduce_hwang, 20.0}, Paper{"yang", reproduce_yang, 15.0},
+    Paper{"kim", reproduce_kim, 10.0},     Paper{"roughness", reproduce_roughness, 0.5},
     Paper{"guan", reproduce_guan, 3.0},
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/reproduction.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ std::string Figure::difference() const {
         return "";
     }
     const bool relative = judged == Judged::relative_difference || (judged == Judged::shown && published != 0.0);
-    return relative ? fmt::format("{:+.1f} %", 100.0 * (ours / published - 1.0)) : fmt::format("{:+.3g}", ours - published);
+    return relative ? fmt::format("{:+.1f} %", 100.0 * (ours / published - 1.0))
+                    : fmt::format("{:+.3g}", ours - published);
 }
 
 std::string Figure::bound_text() const {

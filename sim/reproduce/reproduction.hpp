@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -16,17 +17,17 @@ struct Figure {
     double published;
     double ours;
     enum class Judged {
-        difference,          ///< |ours − published| ≤ bound, in the figure's unit
-        relative_difference, ///< |ours / published − 1| ≤ bound
-        at_most,             ///< ours ≤ bound (an error)
-        at_least,            ///< ours ≥ bound (a share)
-        within,              ///< bound_low ≤ ours ≤ bound (a coverage)
-        shown,               ///< no bound: shown for comparison only
+        difference,           ///< |ours − published| ≤ bound, in the figure's unit
+        relative_difference,  ///< |ours / published − 1| ≤ bound
+        at_most,              ///< ours ≤ bound (an error)
+        at_least,             ///< ours ≥ bound (a share)
+        within,               ///< bound_low ≤ ours ≤ bound (a coverage)
+        shown,                ///< no bound: shown for comparison only
     } judged = Judged::difference;
     double bound = 0.0;
     double bound_low = 0.0;
 
-    [[nodiscard]] bool holds() const;          ///< false for NaN, unless it is only shown
+    [[nodiscard]] bool holds() const;              ///< false for NaN, unless it is only shown
     [[nodiscard]] std::string difference() const;  ///< as printed: "+1.3 %", "−0.02", "" without a published value
     [[nodiscard]] std::string bound_text() const;  ///< as printed: "± 3 %", "≤ 0.10", ""
 };
@@ -47,8 +48,8 @@ struct Plot {
 };
 
 struct Reproduction {
-    std::string name;   ///< as typed: "hwang"
-    std::string title;  ///< what the system is, with the paper's authors
+    std::string name;       ///< as typed: "hwang"
+    std::string title;      ///< what the system is, with the paper's authors
     std::string summary{};  ///< one paragraph: what the system does, readable without the paper
     std::vector<Figure> figures;
     std::vector<Plot> plots;

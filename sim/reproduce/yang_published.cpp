@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/yang_published.hpp"
 
 #include "reproduce/yang_tables.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce/yang_random_cuts.hpp"
 
 #include <algorithm>
@@ -165,8 +166,7 @@ RandomCutSummary summary_of(const std::vector<RandomCutOutcome>& outcomes) {
     all.answered_share = count / static_cast<double>(outcomes.size());
     all.percentile_95_percent = percentile_95(outcomes, [](const RandomCutOutcome&) { return true; });
     all.percentile_95_up_percent = percentile_95(outcomes, [](const RandomCutOutcome& o) { return o.up_milling; });
-    all.percentile_95_down_percent =
-        percentile_95(outcomes, [](const RandomCutOutcome& o) { return !o.up_milling; });
+    all.percentile_95_down_percent = percentile_95(outcomes, [](const RandomCutOutcome& o) { return !o.up_milling; });
     all.categories = static_cast<std::size_t>(std::count(occurs.begin(), occurs.end(), true));
     return all;
 }

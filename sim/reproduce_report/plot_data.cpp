@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "reproduce_report/plot_data.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 "use strict";
 
 /** Draws the plots of reproduce.html: lines, points and bands, each series with x values of its own. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "control/cut_trend.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -34,8 +35,9 @@ void follow(const Stretch& way, Section section, Noise noise, Seen seen) {
 template <typename Section>
 double way_until_fading(Section section, double length_mm, double noise_share = 0.0) {
     double first_mm = -1.0;
-    follow({0.0, length_mm, 0.05, 3}, section, [&](double) { return noise_share * section(0.0); },
-           [&](const Trend& trend, double s) { first_mm = first_mm < 0.0 && trend.fading() ? s : first_mm; });
+    follow(
+        {0.0, length_mm, 0.05, 3}, section, [&](double) { return noise_share * section(0.0); },
+        [&](const Trend& trend, double s) { first_mm = first_mm < 0.0 && trend.fading() ? s : first_mm; });
     return first_mm;
 }
 
@@ -84,8 +86,8 @@ TEST(CutTrend, ends_a_millimetre_after_a_step_down) {
 
 namespace {
 
-/// A wall: the section grows three times over 3 mm, after `steady_mm` of a steady cut. The ways at which the cut is first
-/// and last called growing, from the wall on; negative: never.
+/// A wall: the section grows three times over 3 mm, after `steady_mm` of a steady cut. The ways at which the cut is
+/// first and last called growing, from the wall on; negative: never.
 struct Growth {
     double first_mm = -1.0;
     double last_mm = -1.0;
@@ -93,13 +95,14 @@ struct Growth {
 Growth growth_at_a_wall(double steady_mm, double noise_share) {
     const auto section = [](double s) { return 10.0 + 20.0 * std::fmin(std::fmax(s / 3.0, 0.0), 1.0); };
     Growth growth;
-    follow({-steady_mm, 12.0, 0.02, 5}, section, [&](double s) { return noise_share * section(s); },
-           [&](const Trend& trend, double s) {
-               if (trend.growing()) {
-                   growth.first_mm = growth.first_mm < 0.0 ? s : growth.first_mm;
-                   growth.last_mm = s;
-               }
-           });
+    follow(
+        {-steady_mm, 12.0, 0.02, 5}, section, [&](double s) { return noise_share * section(s); },
+        [&](const Trend& trend, double s) {
+            if (trend.growing()) {
+                growth.first_mm = growth.first_mm < 0.0 ? s : growth.first_mm;
+                growth.last_mm = s;
+            }
+        });
     return growth;
 }
 
@@ -125,11 +128,12 @@ TEST(CutTrend, sees_no_growth_in_a_steady_cut_or_a_ramp_in_depth) {
         const auto section = [slope](double s) { return 5.0 + slope * s; };
         int steps = 0;
         int growing = 0;
-        follow({0.0, 80.0, 0.02, 7}, section, [&](double s) { return 0.03 * section(s); },
-               [&](const Trend& trend, double) {
-                   ++steps;
-                   growing += trend.growing() ? 1 : 0;
-               });
+        follow(
+            {0.0, 80.0, 0.02, 7}, section, [&](double s) { return 0.03 * section(s); },
+            [&](const Trend& trend, double) {
+                ++steps;
+                growing += trend.growing() ? 1 : 0;
+            });
         CHECK(steps >= 4000);
         LONGS_EQUAL(0, growing);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "control/feed_controller.hpp"
@@ -98,7 +99,7 @@ class Dice {
     float anything() {
         using limits = std::numeric_limits<float>;
         const float extremes[] = {
-            not_a_number, beyond_all,      -beyond_all,        0.0F,          -0.0F, -1.0F,
+            not_a_number, beyond_all,    -beyond_all,      0.0F,          -0.0F, -1.0F,
             1e-3F,        limits::max(), limits::lowest(), limits::min(), 1.0F,  limits::denorm_min()};
         if (one_in(3)) {
             return extremes[below(12)];

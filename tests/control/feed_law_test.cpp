@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "feed_bench.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -115,8 +116,8 @@ TEST(FeedLaw, lowers_the_feed_so_that_a_surge_stays_below_its_share_of_the_limit
 
 namespace {
 
-/// The override before, within and behind 3 mm over which the section goes from 10 mm² to another; the estimate takes the
-/// surge for over from the start of it.
+/// The override before, within and behind 3 mm over which the section goes from 10 mm² to another; the estimate takes
+/// the surge for over from the start of it.
 struct Overrides {
     float before, highest_within, behind;
 };

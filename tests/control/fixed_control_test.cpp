@@ -1,5 +1,6 @@
-#include "control/feed_controller.hpp"
+// SPDX-License-Identifier: Apache-2.0
 #include "control/feed_bench.hpp"
+#include "control/feed_controller.hpp"
 #include "estimation/fixed_point.hpp"
 
 #include <cmath>
@@ -69,7 +70,7 @@ Input drawn_cut(Dice& dice, const Parameters& parameters) {
 
 }  // namespace
 
-TEST_GROUP(FixedControl) {};
+TEST_GROUP(FixedControl){};
 
 TEST(FixedControl, agrees_with_float_to_0_005_of_the_override_over_the_operating_range) {
     Dice dice(20261121);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "control/path_turn.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -14,9 +15,12 @@ constexpr double feed_mm_s = 20.0;
 constexpr double dt_s = 0.001;
 
 Turn::Motion motion_at(double direction_rad, double speed_mm_s = feed_mm_s, double commanded_mm_s = feed_mm_s) {
-    return {static_cast<float>(dt_s), static_cast<float>(speed_mm_s * std::cos(direction_rad)),
-            static_cast<float>(speed_mm_s * std::sin(direction_rad)), static_cast<float>(speed_mm_s),
-            static_cast<float>(speed_mm_s * dt_s), static_cast<float>(commanded_mm_s / feed_mm_s),
+    return {static_cast<float>(dt_s),
+            static_cast<float>(speed_mm_s * std::cos(direction_rad)),
+            static_cast<float>(speed_mm_s * std::sin(direction_rad)),
+            static_cast<float>(speed_mm_s),
+            static_cast<float>(speed_mm_s * dt_s),
+            static_cast<float>(commanded_mm_s / feed_mm_s),
             static_cast<float>(feed_mm_s)};
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "feed_bench.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -160,7 +161,8 @@ TEST(Safety, an_estimate_is_good_for_a_rise_of_one_revolution) {
     light.cut.fresh = false;
     const float after_a_revolution = repeat(controller, light, 16).ratio;  // of 15.7 ms
     CHECK(after_a_revolution > before);
-    DOUBLES_EQUAL(static_cast<double>(after_a_revolution), static_cast<double>(repeat(controller, light, 500).ratio), 0.0);
+    DOUBLES_EQUAL(static_cast<double>(after_a_revolution), static_cast<double>(repeat(controller, light, 500).ratio),
+                  0.0);
     light.cut.fresh = true;
     CHECK(controller.step(light).ratio > after_a_revolution);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/feed_drive.hpp"
 #include "estimation/spindle_drive.hpp"
 
@@ -32,8 +33,8 @@ FeedDriveParameters<double> paper_axis() {
 }
 
 FeedDrive<double>::Average moving(double velocity_mm_s, double current_A) {
-    return {.current_A = current_A, .velocity_mm_s = velocity_mm_s, .duration_s = 0.05, .samples = 50.0,
-            .present = true};
+    return {
+        .current_A = current_A, .velocity_mm_s = velocity_mm_s, .duration_s = 0.05, .samples = 50.0, .present = true};
 }
 
 }  // namespace
@@ -52,8 +53,9 @@ TEST(SpindleDrive, takes_the_rotors_inertia_out) {
     const SpindleDrive<double> drive(p);
     auto braking = at_current(12.0);
     braking.acceleration_rad_s2 = -20.0;  // the rotor gives 0.2 N·m to the cut
-    DOUBLES_EQUAL(0.2 / 0.004, drive.tangential_force_N(braking, 4.0).value -
-                                   drive.tangential_force_N(at_current(12.0), 4.0).value, 1e-6);
+    DOUBLES_EQUAL(0.2 / 0.004,
+                  drive.tangential_force_N(braking, 4.0).value - drive.tangential_force_N(at_current(12.0), 4.0).value,
+                  1e-6);
 }
 
 TEST(SpindleDrive, gives_less_torque_per_ampere_in_field_weakening) {

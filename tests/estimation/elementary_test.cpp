@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/elementary.hpp"
 
 #include <cmath>
@@ -26,7 +27,7 @@ double largest_error(float low, float high, Function function, Oracle oracle) {
 
 }  // namespace
 
-TEST_GROUP(Elementary) {};
+TEST_GROUP(Elementary){};
 
 TEST(Elementary, sine_and_cosine_err_by_less_than_2_units_in_the_last_place) {
     const auto sine = [](float x) { return elementary::sin(x); };
@@ -70,4 +71,6 @@ TEST(Elementary, answers_for_what_is_out_of_range) {
     CHECK_EQUAL(endless, elementary::log(endless));
 }
 
-TEST(Elementary, leaves_other_types_to_the_library) { CHECK_EQUAL(std::sin(1.0), elementary::sin(1.0)); }
+TEST(Elementary, leaves_other_types_to_the_library) {
+    CHECK_EQUAL(std::sin(1.0), elementary::sin(1.0));
+}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/encoder_angle.hpp"
 
 #include <CppUTest/TestHarness.h>

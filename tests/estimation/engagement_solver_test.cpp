@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/engagement_solver.hpp"
 
 #include "laws.hpp"
@@ -49,8 +50,8 @@ EngagementSolver<double, Nodes> solver(double law_relative_sd = 0.0) {
 }
 
 double force_ratio(CutSide side, double immersion) {
-    const auto f = true_forces({.side = side, .immersion = immersion, .feed_per_tooth_mm = 0.0496},
-                               carbide_in_SM45C<double>());
+    const auto f =
+        true_forces({.side = side, .immersion = immersion, .feed_per_tooth_mm = 0.0496}, carbide_in_SM45C<double>());
     return f.feed_N / f.tangential_N;
 }
 
@@ -188,12 +189,13 @@ TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_it_say
     int in_depth_band = 0;
     constexpr int cuts = 4000;
     for (int k = 0; k < cuts; ++k) {
-        const Cut cut{.immersion = immersion(random), .depth_mm = depth(random), .direction_rad = 0.4 * (k % 3),
+        const Cut cut{.immersion = immersion(random),
+                      .depth_mm = depth(random),
+                      .direction_rad = 0.4 * (k % 3),
                       .y_moves = k % 3 != 0};
         const auto e = solver().solve(measured(cut, 12.0, &random), 0.05, CutSide::down);
         CHECK(e.immersion_valid);
-        in_immersion_band +=
-            std::abs(e.radial_immersion - cut.immersion) < 1.96 * e.radial_immersion_sd ? 1 : 0;
+        in_immersion_band += std::abs(e.radial_immersion - cut.immersion) < 1.96 * e.radial_immersion_sd ? 1 : 0;
         in_depth_band += std::abs(e.axial_depth_mm - cut.depth_mm) < 1.96 * e.axial_depth_sd_mm ? 1 : 0;
     }
     const double immersion_coverage = static_cast<double>(in_immersion_band) / cuts;

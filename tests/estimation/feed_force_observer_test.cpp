@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/feed_force_observer.hpp"
 
 #include <CppUTest/TestHarness.h>

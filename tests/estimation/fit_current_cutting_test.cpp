@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/current_cutting_fit.hpp"
 
 #include "estimation/fit_statistics.hpp"
@@ -69,8 +70,8 @@ TEST(CurrentCuttingFit, standard_errors_cover_gains_that_are_wrong_for_all_cuts)
     Coverage coverage;
     for (int k = 0; k < 300; ++k) {
         const double shared = noise.normal(0.03);
-        const auto found = fit(cuts(shared + noise.normal(0.01), shared + noise.normal(0.015), 1.0, noise),
-                               {0.01, 0.015, 0.03});
+        const auto found =
+            fit(cuts(shared + noise.normal(0.01), shared + noise.normal(0.015), 1.0, noise), {0.01, 0.015, 0.03});
         coverage.add(k_s, found.law.k_s_N_per_mm2, found.k_s_standard_error(), 1.96);
         coverage.add(k_1, found.law.k_1, found.k_1_standard_error(), 1.96);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/friction_fit.hpp"
 
 #include "estimation/fit_statistics.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/spindle_fit.hpp"
 
 #include "estimation/fit_statistics.hpp"

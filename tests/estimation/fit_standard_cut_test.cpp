@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/standard_cut_fit.hpp"
 
 #include "estimation/fit_statistics.hpp"
@@ -40,7 +41,8 @@ StandardCutStretch<double> stretch(const KnownCut& cut, double drift, Noise& noi
     return s;
 }
 
-const std::vector<KnownCut> cuts{{0.45, -78, 0.1}, {0.9, -161, 0.25}, {1.9, -359, 0.7}, {0.5, -100, 0.25}, {1.6, -226, 0.25}};
+const std::vector<KnownCut> cuts{
+    {0.45, -78, 0.1}, {0.9, -161, 0.25}, {1.9, -359, 0.7}, {0.5, -100, 0.25}, {1.6, -226, 0.25}};
 
 /// Each cut after running in air at its feed, while the bearing warms up.
 std::vector<StandardCutStretch<double>> campaign(const std::vector<KnownCut>& of, Noise& noise, double sd_A,
@@ -112,7 +114,8 @@ TEST(StandardCutFit, float_agrees_with_double) {
     }
     DOUBLES_EQUAL(fit_spindle_gain<double>(stretches).gain, static_cast<double>(fit_spindle_gain<float>(in_float).gain),
                   1e-4);
-    DOUBLES_EQUAL(fit_feed_gain<double>(stretches).gain, static_cast<double>(fit_feed_gain<float>(in_float).gain), 0.02);
+    DOUBLES_EQUAL(fit_feed_gain<double>(stretches).gain, static_cast<double>(fit_feed_gain<float>(in_float).gain),
+                  0.02);
 }
 
 TEST(StandardCutFit, names_what_is_missing) {

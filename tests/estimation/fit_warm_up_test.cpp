@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/warm_up_fit.hpp"
 
 #include "estimation/fit_statistics.hpp"

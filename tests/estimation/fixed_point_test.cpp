@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/fixed_point.hpp"
 
 #include <algorithm>
@@ -20,7 +21,9 @@ namespace {
 constexpr double resolution = 1.0 / 4294967296.0;
 constexpr Raw highest = INT64_MAX;
 
-double value_of(Fixed fixed) { return static_cast<double>(fixed.raw()) * resolution; }
+double value_of(Fixed fixed) {
+    return static_cast<double>(fixed.raw()) * resolution;
+}
 
 /// Raw values of every size, and those at the edges of sizes.
 class RawNumbers {
@@ -83,10 +86,18 @@ Raw rounded_product(Raw a, Raw b) {
     return negative ? -clipped : clipped;
 }
 
-Fixed sum(Fixed a, Fixed b) { return a + b; }
-Fixed difference(Fixed a, Fixed b) { return a - b; }
-Fixed product(Fixed a, Fixed b) { return a * b; }
-Fixed quotient(Fixed a, Fixed b) { return a / b; }
+Fixed sum(Fixed a, Fixed b) {
+    return a + b;
+}
+Fixed difference(Fixed a, Fixed b) {
+    return a - b;
+}
+Fixed product(Fixed a, Fixed b) {
+    return a * b;
+}
+Fixed quotient(Fixed a, Fixed b) {
+    return a / b;
+}
 
 /// The largest difference between a function and its oracle over a range.
 template <typename Function, typename Oracle>
@@ -102,7 +113,7 @@ double largest_error(double low, double high, Function function, Oracle oracle) 
 
 }  // namespace
 
-TEST_GROUP(FixedPoint) {};
+TEST_GROUP(FixedPoint){};
 
 TEST(FixedPoint, a_product_is_the_exact_one_rounded_to_nearest) {
     RawNumbers numbers;
@@ -117,7 +128,8 @@ TEST(FixedPoint, a_product_is_the_exact_one_rounded_to_nearest) {
 TEST(FixedPoint, a_product_is_exact_on_both_sides_of_where_a_shorter_way_ends) {
     constexpr Raw limit = Raw{32768} << 32U;
     for (const Raw a : {limit, limit - 1, limit + 1, -limit, -limit - 1, -limit + 1}) {
-        for (const Raw b : {limit, limit - 1, -limit, -limit - 1, Raw{1} << 31U, -(Raw{1} << 31U), Raw{1}, Raw{-1}, Raw{0}}) {
+        for (const Raw b :
+             {limit, limit - 1, -limit, -limit - 1, Raw{1} << 31U, -(Raw{1} << 31U), Raw{1}, Raw{-1}, Raw{0}}) {
             CHECK_TRUE(rounded_product(a, b) == (Fixed::from_raw(a) * Fixed::from_raw(b)).raw());
             CHECK_TRUE(rounded_product(a, b) == detail::multiply_by_words<detail::NeverSaturates>(a, b));
         }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/flute_profile_fit.hpp"
 
 #include "estimation/depth_monitor.hpp"

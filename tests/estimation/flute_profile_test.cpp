@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/flute_profile.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/force_drop_immersion.hpp"
 
 #include "face_mill_signal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/force_drop.hpp"
 
 #include "face_mill_signal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/low_pass_response.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/peak_factors.hpp"
 
 #include "laws.hpp"
@@ -42,7 +43,8 @@ PeakFactors<double> summed_factors(const PeakFactorSettings<double>& s, double i
                 const double lag = z * std::tan(s.helix_rad) / s.cutter_radius_mm;
                 const double phi =
                     std::remainder(0.5 * pi<double> * a / angles + tooth * pi<double> / 2.0 - lag - pi<double>,
-                                   2.0 * pi<double>) + pi<double>;
+                                   2.0 * pi<double>) +
+                    pi<double>;
                 if (phi < cut.entry_rad || phi > cut.exit_rad) {
                     continue;
                 }

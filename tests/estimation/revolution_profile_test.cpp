@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/revolution_profile.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/roughness_fit.hpp"
 
 #include "estimation/roughness_cuts.hpp"

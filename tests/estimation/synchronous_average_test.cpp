@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/synchronous_average.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -158,7 +159,8 @@ TEST(SynchronousAverage, slopes_are_worked_out_from_the_first_signal_that_asks_f
         const double rev = revs_per_s * time_s;
         WithSlopeOfSecond::Signals signals;
         signals << 42.0F, static_cast<float>(rate_per_s * time_s);
-        average.add(1e-3F, static_cast<float>(revs_per_s * 1e-3), static_cast<float>(rev - std::floor(rev)), signals, 3U);
+        average.add(1e-3F, static_cast<float>(revs_per_s * 1e-3), static_cast<float>(rev - std::floor(rev)), signals,
+                    3U);
     }
     const auto window = average.window();
     CHECK(window.revolutions > 0);

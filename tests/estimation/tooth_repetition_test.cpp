@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/tooth_repetition.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -13,7 +14,7 @@ using millforce::estimation::ToothRepetition;
 namespace {
 
 constexpr int teeth = 4;
-constexpr float tooth_sd_A = 0.05F;                     // of a tooth's mean
+constexpr float tooth_sd_A = 0.05F;                         // of a tooth's mean
 constexpr float noise_A2 = 2.0F * tooth_sd_A * tooth_sd_A;  // of a difference
 
 /// Teeth in a row, each compared with itself a revolution before. The tool runs out: no tooth is like the next one.
@@ -59,7 +60,9 @@ ToothRepetition<float> started_with(float noise, float least_change_A) {
     return repetition;
 }
 
-ToothRepetition<float> started() { return started_with(noise_A2, 0.0F); }
+ToothRepetition<float> started() {
+    return started_with(noise_A2, 0.0F);
+}
 
 }  // namespace
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/warm_up_tracker.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -12,11 +13,17 @@ namespace {
 using Tracker = WarmUpTracker<float>;
 
 /// The cold spindle of the tests: 0.30 N·m above the warm one, 200 s; the machine's own is 0.36 N·m.
-Tracker tracker(float time_constant_s = 200.0F) { return Tracker({0.4F, 1e-6F, 0.30F, 0.1F, time_constant_s}); }
+Tracker tracker(float time_constant_s = 200.0F) {
+    return Tracker({0.4F, 1e-6F, 0.30F, 0.1F, time_constant_s});
+}
 
-Measurement<float> seen_in_air(double torque_Nm) { return {true, static_cast<float>(torque_Nm), 1e-4F, 1e-4F}; }
+Measurement<float> seen_in_air(double torque_Nm) {
+    return {true, static_cast<float>(torque_Nm), 1e-4F, 1e-4F};
+}
 
-double cold_spindle_Nm(double time_s) { return 0.15 + 0.36 * std::exp(-time_s / 200.0); }
+double cold_spindle_Nm(double time_s) {
+    return 0.15 + 0.36 * std::exp(-time_s / 200.0);
+}
 
 void pass(Tracker& tracker, double duration_s) {
     for (double passed_s = 0.0; passed_s < duration_s; passed_s += 0.01) {
@@ -24,7 +31,9 @@ void pass(Tracker& tracker, double duration_s) {
     }
 }
 
-double off(const Tracker& tracker, double truth) { return std::abs(static_cast<double>(tracker.value()) - truth); }
+double off(const Tracker& tracker, double truth) {
+    return std::abs(static_cast<double>(tracker.value()) - truth);
+}
 
 }  // namespace
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 #include <CppUTest/TestHarness.h>
 
-// The tick in fixed point beside the tick in float, on the same samples, over the operating range: tools from 3 to 80 mm
-// and 1 to 8 teeth, soft and hard materials, 300 to 24 000 rpm, any immersion, side and direction of feed. Each new
+// The tick in fixed point beside the tick in float, on the same samples, over the operating range: tools from 3 to 80
+// mm and 1 to 8 teeth, soft and hard materials, 300 to 24 000 rpm, any immersion, side and direction of feed. Each new
 // estimate of the engagement is an operating point. MILLFORCE_FIXED_TOOLS names another number of tools than 10, of 150
 // points each, MILLFORCE_FIXED_SEED another seed.
 
@@ -127,9 +128,9 @@ Cut drawn_cut(const Shop& shop, bool in_air, Draw& draw) {
     cut.direction_rad = draw.between(-3.14F, 3.14F);
     const float share = draw.log_between(0.2F, 2.0F);
     const auto per_mm = estimation::average_forces(
-        tool.law, estimation::CutConditions<float>{
-                      2.0F * tool.control.entry_feed_per_tooth_mm, 1.0F,
-                      estimation::engagement_angles(side_of(tool), cut.immersion, 0.0F), tool.teeth});
+        tool.law, estimation::CutConditions<float>{2.0F * tool.control.entry_feed_per_tooth_mm, 1.0F,
+                                                   estimation::engagement_angles(side_of(tool), cut.immersion, 0.0F),
+                                                   tool.teeth});
     const float most_mm = tool.flute_length_mm;
     const float depth_mm = in_air ? 0.0F : share * tool.tooth_force_limit_N / per_mm.tangential_N;
     cut.depth_mm = depth_mm < most_mm ? depth_mm : most_mm;
@@ -147,8 +148,9 @@ hal::DriveSample sample_of(const Shop& shop, const Cut& cut, float feed_mm_s, Cl
     clock.turned_counts -= static_cast<float>(whole);
     const float feed_per_tooth_mm = feed_mm_s * 6.2831853F / (shop.spindle_speed_rad_s * p.tool.teeth);
     const auto forces = estimation::average_forces(
-        p.tool.law, estimation::CutConditions<float>{feed_per_tooth_mm, cut.depth_mm,
-                                                     estimation::engagement_angles(side_of(p.tool), cut.immersion, 0.0F), p.tool.teeth});
+        p.tool.law, estimation::CutConditions<float>{
+                        feed_per_tooth_mm, cut.depth_mm,
+                        estimation::engagement_angles(side_of(p.tool), cut.immersion, 0.0F), p.tool.teeth});
     const float c = std::cos(cut.direction_rad);
     const float s = std::sin(cut.direction_rad);
     const float force_N[] = {c * forces.feed_N - s * forces.normal_N, s * forces.feed_N + c * forces.normal_N, 0.0F};
@@ -174,15 +176,16 @@ hal::DriveSample sample_of(const Shop& shop, const Cut& cut, float feed_mm_s, Cl
 struct Agreement {
     int points = 0;
     int with_depth = 0;
-    int doubtful = 0;  ///< one of both says "no estimate"
-    int apart = 0;     ///< immersion by 0.01 or more, depth by 1 % or more
+    int doubtful = 0;          ///< one of both says "no estimate"
+    int apart = 0;             ///< immersion by 0.01 or more, depth by 1 % or more
     float worst_in_sd = 0.0F;  ///< of the immersion
-    int other_state = 0;  ///< samples at which one of both has not yet decided what the other has
+    int other_state = 0;       ///< samples at which one of both has not yet decided what the other has
     int samples = 0;
 };
 
 template <typename Scalar>
-void compare(const firmware::ForceControlTick<float>& a, const firmware::ForceControlTick<Scalar>& b, Agreement& agreement) {
+void compare(const firmware::ForceControlTick<float>& a, const firmware::ForceControlTick<Scalar>& b,
+             Agreement& agreement) {
     const auto& in_float = a.estimate().engagement;
     const auto& in_fixed = b.estimate().engagement;
     if (in_float.immersion_valid != in_fixed.immersion_valid || in_float.depth_valid != in_fixed.depth_valid) {
@@ -193,8 +196,7 @@ void compare(const firmware::ForceControlTick<float>& a, const firmware::ForceCo
         return;
     }
     ++agreement.points;
-    const float immersions_apart =
-        std::abs(in_float.radial_immersion - static_cast<float>(in_fixed.radial_immersion));
+    const float immersions_apart = std::abs(in_float.radial_immersion - static_cast<float>(in_fixed.radial_immersion));
     float depths_apart = 0.0F;
     if (in_float.depth_valid) {
         ++agreement.with_depth;
@@ -245,7 +247,7 @@ void mill(Draw& draw, int points, Agreement& agreement) {
 
 }  // namespace
 
-TEST_GROUP(FixedTick) {};
+TEST_GROUP(FixedTick){};
 
 TEST(FixedTick, agrees_with_float_over_the_operating_range) {
     Draw draw(number_from_environment("MILLFORCE_FIXED_SEED", 20261121));
@@ -257,7 +259,8 @@ TEST(FixedTick, agrees_with_float_over_the_operating_range) {
     }
     CHECK_COMPARE(agreement.points, >=, tools * points_per_tool / 2);
     CHECK_COMPARE(agreement.with_depth, >=, agreement.points / 2);
-    // None of 1 200. Of 10⁵ one or two lie in a misfit so flat that the last digits decide, within its standard deviation.
+    // None of 1 200. Of 10⁵ one or two lie in a misfit so flat that the last digits decide, within its standard
+    // deviation.
     CHECK_COMPARE(agreement.apart, <=, agreement.points / 10000);
     CHECK_COMPARE(agreement.worst_in_sd, <, 1.0F);
     // Where a force stands at a threshold the two may decide a sample apart, or one may see no estimate.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -34,10 +35,9 @@ template <typename Scalar>
 std::string row_of(int sample, const firmware::ForceControlTick<Scalar>& tick) {
     const auto& e = tick.estimate();
     std::string row = std::to_string(sample);
-    for (const Scalar value :
-         {tick.control().ratio, e.tangential_N.value, e.tangential_N.variance, e.feed_N.value, e.engagement.radial_immersion,
-          e.engagement.radial_immersion_sd, e.engagement.axial_depth_mm, e.engagement.axial_depth_sd_mm,
-          e.tooth_force_N.value}) {
+    for (const Scalar value : {tick.control().ratio, e.tangential_N.value, e.tangential_N.variance, e.feed_N.value,
+                               e.engagement.radial_immersion, e.engagement.radial_immersion_sd,
+                               e.engagement.axial_depth_mm, e.engagement.axial_depth_sd_mm, e.tooth_force_N.value}) {
         row += ',' + digits_of(value);
     }
     return row + '\n';
@@ -98,7 +98,7 @@ void check_against(const char* name, const std::string& table) {
 
 }  // namespace
 
-TEST_GROUP(GoldenTick) {};
+TEST_GROUP(GoldenTick){};
 
 TEST(GoldenTick, gives_the_same_bits_on_every_processor_in_float) {
     check_against("golden_tick_float.csv", table_of_the_cut<float>());

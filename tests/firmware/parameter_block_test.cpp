@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/parameter_block.hpp"
 
 #include <cstdint>
@@ -85,7 +86,7 @@ float limit_in(FakeFlash& flash) {
 
 }  // namespace
 
-TEST_GROUP(ParameterBlock) {};
+TEST_GROUP(ParameterBlock){};
 
 TEST(ParameterBlock, gives_back_every_parameter_to_the_last_bit) {
     Parameters<float> written = complete_parameters();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/wide_band_monitor.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -150,7 +151,8 @@ TEST(WideBandMonitor, takes_nothing_that_is_no_number) {
     mill(monitor, cut, 10.0);
     for (const int broken : {0, 1, 2}) {
         hal::DriveSample sample = cut.next();
-        float& value = broken == 0 ? sample.force_N[1] : sample.axis_velocity_mm_s[static_cast<std::size_t>(broken - 1)];
+        float& value =
+            broken == 0 ? sample.force_N[1] : sample.axis_velocity_mm_s[static_cast<std::size_t>(broken - 1)];
         value = std::nanf("");
         monitor.add(static_cast<float>(1.0 / rate_hz), sample, true);
         CHECK_FALSE(monitor.estimate().force_drop_immersion.valid);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "inputs.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -51,7 +52,8 @@ TEST_GROUP(BadInput) {
 
 TEST(BadInput, a_socket_that_cannot_be_is_refused) {
     const auto serve = [&](const std::string& socket) {
-        return run_millforce({"serve", socket, "--machine", inputs.name("machine.toml"), "--tool", inputs.name("tool.toml")});
+        return run_millforce(
+            {"serve", socket, "--machine", inputs.name("machine.toml"), "--tool", inputs.name("tool.toml")});
     };
     check_refused(serve(inputs.name("log.csv")), {"log.csv", "is there and no socket"});
     check_refused(serve(inputs.name("nowhere/a.sock")), {"nowhere/a.sock", "No such file or directory"});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "csv_rows.hpp"
 #include "force_recordings.hpp"
 #include "inputs.hpp"
@@ -38,9 +39,9 @@ TEST_GROUP(ForceCalibration) {
     Ended calibrate(const std::string& what, std::vector<std::string> files) {
         std::vector<std::string> words{"calibrate", what};
         words.insert(words.end(), files.begin(), files.end());
-        for (const std::string& word : {std::string("--cuts"), inputs.name("cuts.csv"), std::string("--machine"),
-                                        inputs.name("machine.toml"), std::string("--tool"), inputs.name("tool.toml"),
-                                        std::string("-o"), inputs.name("law.toml")}) {
+        for (const std::string& word :
+             {std::string("--cuts"), inputs.name("cuts.csv"), std::string("--machine"), inputs.name("machine.toml"),
+              std::string("--tool"), inputs.name("tool.toml"), std::string("-o"), inputs.name("law.toml")}) {
             words.push_back(word);
         }
         return run_millforce(words);
@@ -79,7 +80,8 @@ TEST(ForceCalibration, a_stretch_in_air_shows_no_drop) {
     }
     inputs.write("air.csv", force_recording(still, 2560.0, 2.25, 0.0));
     inputs.write("cuts.csv", std::string(cut_columns) + "air.csv,0,10,100,3,1.5,25\n");
-    STRCMP_EQUAL("", not_refused(calibrate("force-drop", {inputs.name("air.csv")}), {"cuts.csv:2", "no force drop"}).c_str());
+    STRCMP_EQUAL(
+        "", not_refused(calibrate("force-drop", {inputs.name("air.csv")}), {"cuts.csv:2", "no force drop"}).c_str());
 }
 
 TEST(ForceCalibration, another_tools_cut_is_refused) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "program.hpp"
 #include "sim/files/temporary_folder.hpp"
 #include "sim/report/json_check.hpp"

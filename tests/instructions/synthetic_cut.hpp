@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,9 @@
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
 
-/// The cuts whose ticks are counted on every processor: down milling in steel along +x after some revolutions of air, with
-/// the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same bits everywhere.
+/// The cuts whose ticks are counted on every processor: down milling in steel along +x after some revolutions of air,
+/// with the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same bits
+/// everywhere.
 
 namespace millforce::instructions {
 
@@ -29,20 +31,21 @@ struct Cut {
     const char* name;
     float spindle_speed_rad_s;
     float feed_mm_s;  // 0.075 mm per tooth
-    bool widens;  // from start to end, so that no revolution is like the one before
+    bool widens;      // from start to end, so that no revolution is like the one before
     int air_samples = instructions::air_samples;
     int settling_samples = instructions::settling_samples;
 
     [[nodiscard]] constexpr int samples() const { return air_samples + settling_samples + counted_samples; }
 };
 inline constexpr Cut slow_cut{"slow", 131.947F, 6.3F, false, 320, 320};  // 1260 rpm, as Kim & Chung's
-inline constexpr Cut fast_cut{"fast", 418.879F, 20.0F, false};  // 4000 rpm: 15 ticks a revolution
+inline constexpr Cut fast_cut{"fast", 418.879F, 20.0F, false};           // 4000 rpm: 15 ticks a revolution
 inline constexpr Cut slow_widening_cut{"slow_widening", 131.947F, 6.3F, true, 320, 320};
 inline constexpr Cut fast_widening_cut{"fast_widening", 418.879F, 20.0F, true};
 inline constexpr Cut cuts[] = {slow_cut, fast_cut, slow_widening_cut, fast_widening_cut};
 
 /// Sample `index` of a cut, which begins after its `air_samples`.
-inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters, const Cut& cut = fast_widening_cut) {
+inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters,
+                                  const Cut& cut = fast_widening_cut) {
     constexpr float tangential_N = 250.0F;
     constexpr float narrow_ratio = -0.75F;  // F_ax/F_at
     constexpr float wide_ratio = -0.2F;
@@ -50,7 +53,8 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
     const float time_s = static_cast<float>(index) * sample_interval_s;
     const float turned_rev = time_s * cut.spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
     const float tooth_phase_rad = 2.0F * std::numbers::pi_v<float> * teeth * turned_rev;
-    const float load = index < cut.air_samples ? 0.0F : 1.0F + ripple_share * estimation::elementary::sin(tooth_phase_rad);
+    const float load =
+        index < cut.air_samples ? 0.0F : 1.0F + ripple_share * estimation::elementary::sin(tooth_phase_rad);
     const float torque_Nm = load * tangential_N * parameters.tool.diameter_mm * 0.0005F;
 
     hal::DriveSample sample;

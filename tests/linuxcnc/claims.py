@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a case of the LinuxCNC tier says and finds."""
 failures = 0
 

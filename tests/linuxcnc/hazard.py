@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """LinuxCNC's DISPLAY program of a hazard: starts a straight cut, does in the middle of it what MILLFORCE_CASE says, and
 waits for what comes of it. What happened in the servo thread is judged afterwards, from motion.txt."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """LinuxCNC's own records of a session, one row per servo cycle: motion.txt, answers.txt (sim/linuxcnc/recording.hal)."""
 from typing import NamedTuple
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -10,8 +11,8 @@
 
 #include <CppUTest/TestHarness.h>
 
-// A whole scenario milled on an emulated zcu102: the controller's image on its Cortex-R5F, the plant on its Cortex-A53, and
-// nothing but CAN frames between them. MILLFORCE_LOOP_SCENARIO names another scenario.
+// A whole scenario milled on an emulated zcu102: the controller's image on its Cortex-R5F, the plant on its Cortex-A53,
+// and nothing but CAN frames between them. MILLFORCE_LOOP_SCENARIO names another scenario.
 
 using namespace millforce;
 
@@ -27,7 +28,8 @@ std::string milled_on_zcu102(const std::string& scenario_file) {
     const std::string source = MILLFORCE_SOURCE_DIR;
     const std::string command = "MILLFORCE_ICOUNT=1 '" + source + "/toolchains/run-on-zcu102' '" + source +
                                 "/build/aarch64/tests/target/zcu102_plant/zcu102_plant' '" + source +
-                                "/build/cortex-r5f/firmware/boards/zcu102/millforce_zcu102.elf' '" + scenario_file + "'";
+                                "/build/cortex-r5f/firmware/boards/zcu102/millforce_zcu102.elf' '" + scenario_file +
+                                "'";
     std::FILE* const pipe = popen(command.c_str(), "r");
     std::string text;
     std::array<char, 256> part{};
@@ -41,7 +43,7 @@ std::string milled_on_zcu102(const std::string& scenario_file) {
 
 }  // namespace
 
-TEST_GROUP(BusInTheLoop) {};
+TEST_GROUP(BusInTheLoop){};
 
 TEST(BusInTheLoop, a_Cortex_R5F_mills_a_part_with_nothing_but_frames_between) {
     const sim::Scenario scenario = sim::read_scenario(bus_scenario_file());
@@ -58,10 +60,10 @@ TEST(BusInTheLoop, a_Cortex_R5F_mills_a_part_with_nothing_but_frames_between) {
     CHECK_TRUE(figures.finished);
     CHECK_TRUE(sim::bounds_hold(figures));
     DOUBLES_EQUAL(0.0, count("lost"), 0.0);
-    DOUBLES_EQUAL(0.0, count("calls_of_host"), 0.0);  // from the R5F's start to the end of the cut
-    CHECK_COMPARE(count("longest_delay_us"), <, 1000.0);  // a period: the plant keeps up with the bus
+    DOUBLES_EQUAL(0.0, count("calls_of_host"), 0.0);         // from the R5F's start to the end of the cut
+    CHECK_COMPARE(count("longest_delay_us"), <, 1000.0);     // a period: the plant keeps up with the bus
     CHECK_COMPARE(count("syncs"), >, 1e3 * figures.time_s);  // none was missed: the spindle's start comes on top
-    CHECK_COMPARE(count("sent"), >, 4.0 * count("syncs"));  // a PDO of each drive
+    CHECK_COMPARE(count("sent"), >, 4.0 * count("syncs"));   // a PDO of each drive
     CHECK_COMPARE(count("received"), >, count("syncs"));
 
     sim::MillforceController direct(scenario.parameters);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
@@ -20,7 +21,9 @@ using namespace millforce;
 
 namespace {
 
-bool has_own_scenario() { return std::getenv("MILLFORCE_LOOP_SCENARIO") != nullptr; }
+bool has_own_scenario() {
+    return std::getenv("MILLFORCE_LOOP_SCENARIO") != nullptr;
+}
 
 std::string scenario_file() {
     return has_own_scenario() ? std::getenv("MILLFORCE_LOOP_SCENARIO")
@@ -32,9 +35,7 @@ template <typename Scalar>
 class ComparedController : public sim::OverrideSource {
   public:
     ComparedController(const std::string& processor, const firmware::Parameters<float>& parameters)
-        : image_(processor, parameters),
-          host_(firmware::parameters_in<Scalar>(parameters)),
-          monitor_(parameters) {}
+        : image_(processor, parameters), host_(firmware::parameters_in<Scalar>(parameters)), monitor_(parameters) {}
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
         lock_step::Request request{};
@@ -97,16 +98,15 @@ void mill_on(const std::string& processor, int solver_values_per_tick, const Bud
 
 }  // namespace
 
-TEST_GROUP(ProcessorInTheLoop) {
-    void setup() override {
-        std::signal(SIGPIPE, SIG_IGN);
-        setenv("MILLFORCE_ICOUNT", "1", 1);
-    }
-    void teardown() override {
-        unsetenv("MILLFORCE_ICOUNT");
-        std::signal(SIGPIPE, SIG_DFL);
-    }
-};
+TEST_GROUP(ProcessorInTheLoop){void setup() override{std::signal(SIGPIPE, SIG_IGN);
+setenv("MILLFORCE_ICOUNT", "1", 1);
+}
+void teardown() override {
+    unsetenv("MILLFORCE_ICOUNT");
+    std::signal(SIGPIPE, SIG_DFL);
+}
+}
+;
 
 TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit) {
     // The project's budget is a mean of 600 (firmware/README.md).

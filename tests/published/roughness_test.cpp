@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/roughness.hpp"
 #include "files/parameter_files.hpp"
 #include "reproduce/reproduction.hpp"

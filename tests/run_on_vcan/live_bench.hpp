@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -6,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "vcan/bus_peers.hpp"
 #include "host/program.hpp"
+#include "vcan/bus_peers.hpp"
 
 /// `millforce run` and `millforce simulate --bus` as two processes on vcan0.
 

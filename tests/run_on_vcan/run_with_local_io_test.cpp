@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "drivers/iio/fake_iio.hpp"
 #include "live_bench.hpp"
 
@@ -37,12 +38,14 @@ device = ")" + tree.name("adc") + R"("
 [iio.spindle]
 current_channel = "voltage0"
 A_per_V = 1
-count_file = ")" + tree.name("count_spindle") + R"("
+count_file = ")" + tree.name("count_spindle") +
+                                  R"("
 [iio.x]
 current_channel = "voltage1"
 A_per_V = 1
 mm_per_count = 0.001
-count_file = ")" + tree.name("count_x") + R"("
+count_file = ")" + tree.name("count_x") +
+                                  R"("
 [override_voltage]
 channel = "voltage0"
 device = ")" + tree.name("dac") + R"("
@@ -74,9 +77,9 @@ TEST(RunWithLocalIo, currents_by_a_converter_are_ticks_and_a_voltage_and_their_f
     controller.interrupt(SIGTERM);
     controller.wait();
     LONGS_EQUAL(0, controller.exit_code());
-    const test::Ended replay =
-        test::run_millforce({"replay", folder.file("run.log"), "--machine", folder.file("machine.toml"), "--tool",
-                             folder.file("tool.toml"), "--verify", folder.file("run.jsonl"), "-o", folder.file("r.csv")});
+    const test::Ended replay = test::run_millforce({"replay", folder.file("run.log"), "--machine",
+                                                    folder.file("machine.toml"), "--tool", folder.file("tool.toml"),
+                                                    "--verify", folder.file("run.jsonl"), "-o", folder.file("r.csv")});
     LONGS_EQUAL(0, replay.exit_code);
     STRCMP_EQUAL("", replay.error.c_str());
 }

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 
 namespace millforce::target {
 
-/// Instructions by the SysTick, on an emulator whose time they are (MILLFORCE_ICOUNT=1): one takes 128 ns, 3.2 counts of
-/// the board's 25 MHz. Otherwise the numbers are the host's time and mean nothing. 24 bits: up to 5 million.
+/// Instructions by the SysTick, on an emulator whose time they are (MILLFORCE_ICOUNT=1): one takes 128 ns, 3.2 counts
+/// of the board's 25 MHz. Otherwise the numbers are the host's time and mean nothing. 24 bits: up to 5 million.
 class InstructionCounter {
   public:
     InstructionCounter() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -64,16 +65,22 @@ Answer answer_of(const firmware::SmallTick<Scalar>& tick, const hal::FeedOverrid
     answer.valid = (e.tangential_N.valid ? 1U : 0U) | (e.feed_N.valid ? 2U : 0U) |
                    (e.engagement.immersion_valid ? 4U : 0U) | (e.engagement.depth_valid ? 8U : 0U) |
                    (e.tooth_force_N.valid ? 16U : 0U);
-    const Scalar shown[] = {e.tangential_N.value, e.tangential_N.variance, e.feed_N.value, e.engagement.radial_immersion,
-                            e.engagement.radial_immersion_sd, e.engagement.axial_depth_mm,
-                            e.engagement.axial_depth_sd_mm, e.tooth_force_N.value};
+    const Scalar shown[] = {e.tangential_N.value,
+                            e.tangential_N.variance,
+                            e.feed_N.value,
+                            e.engagement.radial_immersion,
+                            e.engagement.radial_immersion_sd,
+                            e.engagement.axial_depth_mm,
+                            e.engagement.axial_depth_sd_mm,
+                            e.tooth_force_N.value};
     for (std::size_t k = 0; k < answer.value.size(); ++k) {
         answer.value[k] = static_cast<float>(shown[k]);
     }
     return answer;
 }
 
-/// Whether two answers are the same to the last bit; the gaps of the structure do not count, nor who counted instructions.
+/// Whether two answers are the same to the last bit; the gaps of the structure do not count, nor who counted
+/// instructions.
 inline bool same_bits(const Answer& a, const Answer& b) {
     bool same = std::bit_cast<std::uint32_t>(a.feed.ratio) == std::bit_cast<std::uint32_t>(b.feed.ratio) &&
                 a.feed.hold == b.feed.hold && a.feed.state == b.feed.state && a.feed.fault == b.feed.fault &&

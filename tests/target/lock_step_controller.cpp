@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller in lock-step with a plant on the host: ELF REQUESTS ANSWERS, the names of two pipes. Takes the
 // parameters first, then a request and gives an answer, until the pipe ends. Exit code 3: a pipe could not be opened.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A test program with a C library and a heap of its own, under semihosting: what CppUTest needs.
 #include <cerrno>
 #include <cstddef>
@@ -36,7 +37,8 @@ void millforce::board::run_image() {
     initialise_monitor_handles();
     millforce::target::read_command_line(text, sizeof(text));
     int count = 0;
-    for (char* word = std::strtok(text, " "); word != nullptr && count < most_arguments; word = std::strtok(nullptr, " ")) {
+    for (char* word = std::strtok(text, " "); word != nullptr && count < most_arguments;
+         word = std::strtok(nullptr, " ")) {
         arguments[count++] = word;
     }
     std::exit(main(count, arguments));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "target/semihosting.hpp"
 
 #include <cstring>
@@ -21,7 +22,9 @@ struct Block {
     std::uint32_t third;
 };
 
-std::uint32_t address_of(const void* object) { return reinterpret_cast<std::uint32_t>(object); }
+std::uint32_t address_of(const void* object) {
+    return reinterpret_cast<std::uint32_t>(object);
+}
 
 }  // namespace
 
@@ -36,7 +39,9 @@ std::int32_t semihosting(std::uint32_t operation, const void* argument) {
     return static_cast<std::int32_t>(r0);
 }
 
-void write_text(const char* text) { semihosting(sys_write0, text); }
+void write_text(const char* text) {
+    semihosting(sys_write0, text);
+}
 
 void write_number(std::uint32_t value) {
     char digits[11]{};
@@ -57,7 +62,8 @@ void exit_emulator(int code) {
 }
 
 HostFile::HostFile(const char* path, OpenMode mode) : handle_(-1) {
-    const Block block{address_of(path), static_cast<std::uint32_t>(mode), static_cast<std::uint32_t>(std::strlen(path))};
+    const Block block{address_of(path), static_cast<std::uint32_t>(mode),
+                      static_cast<std::uint32_t>(std::strlen(path))};
     handle_ = semihosting(sys_open, &block);
 }
 

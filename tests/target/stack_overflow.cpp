@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs its stack over, on purpose: the MPU's guard below it must end the program with a memory fault (exit code 68)
 // before a byte outside of the stack is written. Exit code 0: it did not.
 

@@ -1,7 +1,8 @@
-// Counts the instructions of each tick of the synthetic cuts, and the stack that they need: with the engagement solved in
-// portions and without the wide-band methods, as a small processor runs it. To be run with
-// MILLFORCE_ICOUNT=1, see instruction_counter.hpp.
-// Prints one line per figure: SCALAR KIND FIGURE VALUE. Exit code 1: the estimator did not find the cut.
+// SPDX-License-Identifier: Apache-2.0
+// Counts the instructions of each tick of the synthetic cuts, and the stack that they need: with the engagement solved
+// in portions and without the wide-band methods, as a small processor runs it. To be run with MILLFORCE_ICOUNT=1, see
+// instruction_counter.hpp. Prints one line per figure: SCALAR KIND FIGURE VALUE. Exit code 1: the estimator did not
+// find the cut.
 
 #include <cstdint>
 #include <new>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Proves that the search of the core finds every forbidden word, at its line, in every folder of the core, and that
 # comments, literals and deleted functions do not trip it. Needs CORE_RULES (the script) and WORK_DIR (scratch).
 cmake_minimum_required(VERSION 3.25)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <fcntl.h>
@@ -128,7 +129,8 @@ inline bool wait_until(const std::function<bool()>& holds) {
     return step_until(holds, [] { sleep_ms(10); });
 }
 
-/// `candump -L` of an interface into a file, from when the constructor returns; with room for all that comes in a pause.
+/// `candump -L` of an interface into a file, from when the constructor returns; with room for all that comes in a
+/// pause.
 class Candump {
   public:
     Candump(const std::string& interface, std::string file)
@@ -152,7 +154,8 @@ class Candump {
     [[nodiscard]] bool has(const std::string& begin, int count = 1) const {
         return wait_until([&] {
             const std::vector<std::string> all = frames();
-            return std::count_if(all.begin(), all.end(), [&](const auto& it) { return it.starts_with(begin); }) >= count;
+            return std::count_if(all.begin(), all.end(), [&](const auto& it) { return it.starts_with(begin); }) >=
+                   count;
         });
     }
     /// Waits until the bus has been quiet for half a second.

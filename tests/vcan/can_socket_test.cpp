@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bus_peers.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -6,14 +7,13 @@ using namespace millforce;
 using namespace millforce::vcan;
 using socketcan::LinkState;
 
-TEST_GROUP(CanSocket) {
-    void teardown() override {
-        shell("tc qdisc del dev vcan0 root");
-        shell("ip link add dev vcan0 type vcan");
-        shell("ip link set vcan0 mtu 72");
-        shell("ip link set vcan0 up");
-    }
-};
+TEST_GROUP(CanSocket){void teardown() override{shell("tc qdisc del dev vcan0 root");
+shell("ip link add dev vcan0 type vcan");
+shell("ip link set vcan0 mtu 72");
+shell("ip link set vcan0 up");
+}
+}
+;
 
 TEST(CanSocket, receives_what_cansend_sends_with_the_time_of_the_kernel) {
     Listener listener(on("vcan0"));

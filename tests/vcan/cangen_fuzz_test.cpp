@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "drives_on_vcan.hpp"
 #include "override_frame/override_receiver.hpp"
 
@@ -26,8 +27,8 @@ int cangen_rounds() {
     return std::max(frames / frames_per_cangen, static_cast<int>(cangen_options.size()));
 }
 
-/// Half of it is longer than any two of cangen's frames are apart, on the slowest emulated controller too: a second SYNC
-/// is early.
+/// Half of it is longer than any two of cangen's frames are apart, on the slowest emulated controller too: a second
+/// SYNC is early.
 constexpr std::uint32_t sync_period_us = 50'000;
 
 cia402::BusSettings listener_settings() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "serial_line_can.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -44,9 +45,9 @@ TEST(ControllerErrors, warning_passive_and_bus_off_are_states_and_the_interface_
 TEST(ControllerErrors, a_bus_that_recovers_step_by_step_is_followed) {
     SerialLineCan line;
     Listener listener(on(line.name()));
-    for (const auto& [said, state] : {std::pair{"sp130127", LinkState::error_passive},
-                                      std::pair{"sw096000", LinkState::error_warning},
-                                      std::pair{"sa000000", LinkState::error_active}}) {
+    for (const auto& [said, state] :
+         {std::pair{"sp130127", LinkState::error_passive}, std::pair{"sw096000", LinkState::error_warning},
+          std::pair{"sa000000", LinkState::error_active}}) {
         line.say(said);
         CHECK(listener.run_until([&, expected = state] { return listener.socket.health().state == expected; }));
     }
@@ -79,6 +80,7 @@ TEST(ControllerErrors, what_an_adapter_says_that_is_no_frame_does_no_harm) {
         line.say(said);
     }
     line.say("t1231AA");
-    CHECK(listener.run_until([&] { return !listener.frames.empty() && listener.frames.back().id == 0x123 &&
-                                          !listener.frames.back().remote; }));
+    CHECK(listener.run_until([&] {
+        return !listener.frames.empty() && listener.frames.back().id == 0x123 && !listener.frames.back().remote;
+    }));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "drives_on_vcan.hpp"
 #include "sample_checks.hpp"
 
@@ -67,21 +68,19 @@ cia402::BusSettings listener_settings(std::uint32_t period_us) {
 
 }  // namespace
 
-TEST_GROUP(DriveBusOnVcan) {
-    void teardown() override {
-        shell("tc qdisc del dev vcan0 root");
-        shell("ip link set vcan0 up");
-    }
-};
+TEST_GROUP(DriveBusOnVcan){void teardown() override{shell("tc qdisc del dev vcan0 root");
+shell("ip link set vcan0 up");
+}
+}
+;
 
 TEST(DriveBusOnVcan, a_bus_too_slow_for_its_frames_is_told_and_recovers) {
     const Child drives([] { run_drives("vcan0", 2); });
     BusOnVcan machine(bus_settings(2, 2000));
     CHECK(machine.run_until([&] { return machine.all_operational(2); }));
     LONGS_EQUAL(0, shell("tc qdisc add dev vcan0 root tbf rate 8kbit burst 100 limit 300"));
-    CHECK(machine.run_until([&] {
-        return machine.socket.health().send_failures > 50 && machine.bus.health().samples_incomplete > 50;
-    }));
+    CHECK(machine.run_until(
+        [&] { return machine.socket.health().send_failures > 50 && machine.bus.health().samples_incomplete > 50; }));
     LONGS_EQUAL(0, shell("tc qdisc del dev vcan0 root"));
     CHECK(machine.run_until([&] { return machine.all_operational(2) && !machine.socket.health().send_queue_full; }));
     CHECK(machine.run_until([&] { return has_count(machine.samples.back()); }));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "drives_on_vcan.hpp"
 #include "override_peers.hpp"
 #include "sample_checks.hpp"

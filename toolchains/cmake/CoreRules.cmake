@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Fails the build where a file of the core contains a word that the core must not contain.
 # Comments, string and character literals are removed before the search, so that a header may explain what it does not
 # do; `= delete` and includes are no use of the word. `double` is forbidden, a literal like 0.5L is not.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The target `cpputest`: the distribution's library on the host; elsewhere built from its sources, which
 # toolchains/fetch-cpputest puts into build/cpputest.
 if(NOT CMAKE_CROSSCOMPILING)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The target `header_only_packages`: fmt and toml++ for another processor, whose headers hold all of them, out of this
 # machine's packages. Links to the two folders keep the machine's other headers out of sight.
 find_path(MILLFORCE_HOST_HEADERS NAMES fmt/format.h REQUIRED NO_CMAKE_FIND_ROOT_PATH)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # CMake toolchain file for Arm under Linux: MILLFORCE_CPU is aarch64 or armhf (32-bit, hard float). What is built runs here
 # under qemu's user mode.
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # CMake toolchain file for bare-metal Arm: MILLFORCE_CPU is cortex-m3, cortex-m4f, cortex-m7 or cortex-r5f.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)

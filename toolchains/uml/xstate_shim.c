@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Preloaded into the user-mode Linux kernel. It hands ptrace a register area of the size that it was built for; a host
  * whose processor has more state (AMX: 11 008 bytes) refuses a short PTRACE_SETREGSET. The area is padded with zeros,
  * which the host takes as initial state. Linux on x86-64 only. */

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Whether the cut fades or grows: its section, width times depth, changes along the path by more than its noise explains.
+/// Whether the cut fades or grows: its section, width times depth, changes along the path by more than its noise
+/// explains.
 ///
 /// A cut that fades asks for more feed, down to no cut at all; and what follows at its end, a wall or a step over, then
 /// meets a tool at the highest feed of all. So the feed is raised in a steady cut, and held in a fading one. In a cut
@@ -11,8 +13,8 @@
 ///
 /// s: way since the last estimate, L = 1 mm the length of the memory: a change of some 8 % per mm is the slowest that
 /// counts, and a ramp in depth is none. The cut is fading from a fall until a way of L has been without. A fall by
-/// more than a fifth at once is a step: the memory starts anew behind it. The cut is growing from a rise that follows on a
-/// calm way of L/4 until the next such way. S in any unit, s in mm. Not thread-safe.
+/// more than a fifth at once is a step: the memory starts anew behind it. The cut is growing from a rise that follows
+/// on a calm way of L/4 until the next such way. S in any unit, s in mm. Not thread-safe.
 
 namespace millforce::control {
 

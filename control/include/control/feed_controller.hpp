@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "control/cut_state.hpp"
@@ -82,17 +83,17 @@ class FeedController {
         const auto& p = parameters_;
         const auto positive = [](Scalar value) { return is_finite(value) && value > Scalar(0); };
         const auto not_negative = [](Scalar value) { return is_finite(value) && value >= Scalar(0); };
-        return positive(p.tooth_force_limit_N) && positive(p.setpoint_share) && not_negative(p.caution_sd) && not_negative(p.override_min) &&
-               is_finite(p.override_max) && p.override_max > p.override_min && p.override_max < Scalar(10) &&
-               positive(p.recovery_per_rev) && positive(p.slew_up_per_s) && positive(p.slew_down_per_s) &&
-               positive(p.entry_feed_per_tooth_mm) && positive(p.air_feed_per_tooth_mm) &&
-               positive(p.max_feed_per_tooth_mm) && not_negative(p.highest_programmed_feed_mm_s) &&
-               not_negative(p.entry_revolutions) && not_negative(p.entry_travel_mm) &&
-               not_negative(p.exit_travel_mm) && positive(p.contact_force_N) && not_negative(p.contact_significance) &&
-               not_negative(p.surge_radial_immersion) && positive(p.surge_share) &&
-               not_negative(p.turn_radial_immersion) && not_negative(p.turn_travel_mm) && positive(p.overload_share) &&
-               not_negative(p.overload_revolutions) && not_negative(p.no_estimate_hold_s) &&
-               not_negative(p.Ra_limit_um) && positive(p.stale_s) &&
+        return positive(p.tooth_force_limit_N) && positive(p.setpoint_share) && not_negative(p.caution_sd) &&
+               not_negative(p.override_min) && is_finite(p.override_max) && p.override_max > p.override_min &&
+               p.override_max < Scalar(10) && positive(p.recovery_per_rev) && positive(p.slew_up_per_s) &&
+               positive(p.slew_down_per_s) && positive(p.entry_feed_per_tooth_mm) &&
+               positive(p.air_feed_per_tooth_mm) && positive(p.max_feed_per_tooth_mm) &&
+               not_negative(p.highest_programmed_feed_mm_s) && not_negative(p.entry_revolutions) &&
+               not_negative(p.entry_travel_mm) && not_negative(p.exit_travel_mm) && positive(p.contact_force_N) &&
+               not_negative(p.contact_significance) && not_negative(p.surge_radial_immersion) &&
+               positive(p.surge_share) && not_negative(p.turn_radial_immersion) && not_negative(p.turn_travel_mm) &&
+               positive(p.overload_share) && not_negative(p.overload_revolutions) &&
+               not_negative(p.no_estimate_hold_s) && not_negative(p.Ra_limit_um) && positive(p.stale_s) &&
                is_finite(p.teeth) && p.teeth >= Scalar(1);
     }
 
@@ -235,8 +236,8 @@ class FeedController {
     void watch_turns(const ControlInput<Scalar>& input) {
         way_since_estimate_mm_ += way_mm_;
         follow_tooth_period(input.cut.spindle_speed_rad_s);
-        const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s, path_speed_mm_s_, way_mm_,
-                                          ratio_, input.programmed_feed_mm_s, tooth_period_s_});
+        const bool turned = turn_.update({dt_s_, input.velocity_x_mm_s, input.velocity_y_mm_s, path_speed_mm_s_,
+                                          way_mm_, ratio_, input.programmed_feed_mm_s, tooth_period_s_});
         const Scalar left_mm = turn_travel_left_mm_ - way_mm_;
         turn_travel_left_mm_ = turned ? parameters_.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
         turned_now_ = turned;
@@ -245,8 +246,8 @@ class FeedController {
         }
     }
 
-    /// All that the wanted override depends on between two estimates. It is not worked out anew while this stays: a ceiling
-    /// at the present override stays where the override was when it was set, since nothing rises beyond it.
+    /// All that the wanted override depends on between two estimates. It is not worked out anew while this stays: a
+    /// ceiling at the present override stays where the override was when it was set, since nothing rises beyond it.
     struct Basis {
         Scalar programmed_feed_mm_s{-1};
         Scalar operator_override{-1};
@@ -276,8 +277,8 @@ class FeedController {
     }
 
     [[nodiscard]] Scalar ratio_of_feed_per_tooth(Scalar feed_per_tooth_mm, const ControlInput<Scalar>& input) const {
-        const Scalar feed_mm_s = feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s *
-                                 estimation::turns_per_rad<Scalar>;
+        const Scalar feed_mm_s =
+            feed_per_tooth_mm * parameters_.teeth * input.cut.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
         return feed_mm_s / input.programmed_feed_mm_s;
     }
 
@@ -373,8 +374,8 @@ class FeedController {
         return state_ == CutState::entry || cut.tooth_force_is_bound || !cut.tooth_force_valid;
     }
 
-    /// Ignorance alone asks for no less than the entry feed: it is the feed that is safe whatever the tool meets. Only the
-    /// force that is there at least can.
+    /// Ignorance alone asks for no less than the entry feed: it is the feed that is safe whatever the tool meets. Only
+    /// the force that is there at least can.
     [[nodiscard]] Scalar not_below_entry_feed(Scalar demand, const ControlInput<Scalar>& input) const {
         const CutEstimateForControl<Scalar>& cut = input.cut;
         const Scalar entry = ratio_of_feed_per_tooth(parameters_.entry_feed_per_tooth_mm, input);
@@ -396,8 +397,8 @@ class FeedController {
             return;
         }
         const bool usable = cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
-                            cut.feed_exponent > Scalar(0) && is_finite(cut.tooth_force_N) &&
-                            is_finite(cut.feed_mm_s) && is_finite(cut.feed_exponent) && is_finite(cut.cutting_share) &&
+                            cut.feed_exponent > Scalar(0) && is_finite(cut.tooth_force_N) && is_finite(cut.feed_mm_s) &&
+                            is_finite(cut.feed_exponent) && is_finite(cut.cutting_share) &&
                             is_finite(cut.surge_ratio) && is_finite(cut.surge_cutting_share);
         if (cut.fresh && usable) {
             set_demand(input);
@@ -431,9 +432,9 @@ class FeedController {
         const CutEstimateForControl<Scalar>& cut = input.cut;
         const Scalar growth = growth_to(parameters_.setpoint_share, cut.tooth_force_N, cut.cutting_share);
         const bool may_surge = parameters_.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1);
-        const Scalar before_surge = may_surge ? growth_to(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio,
-                                                          cut.surge_cutting_share)
-                                              : growth;
+        const Scalar before_surge =
+            may_surge ? growth_to(parameters_.surge_share, cut.tooth_force_N * cut.surge_ratio, cut.surge_cutting_share)
+                      : growth;
         if (is_ignorant(cut)) {
             demand_limit_ = Limit::force;
             demand_ = not_below_entry_feed(feed_at(growth, input), input);
@@ -466,15 +467,16 @@ class FeedController {
         wish.cap(turn_demand_, Limit::surge);
     }
 
-    /// Remembers the last ceiling of the cut. Without a prediction, or outside the range of its tests, the feed may fall
-    /// but not rise.
+    /// Remembers the last ceiling of the cut. Without a prediction, or outside the range of its tests, the feed may
+    /// fall but not rise.
     void cap_by_surface(Wish& wish, const ControlInput<Scalar>& input) {
         if (state_ == CutState::air || state_ == CutState::exit) {
             surface_ceiling_ = parameters_.override_max;
             return;
         }
         const SurfaceForControl<Scalar>& surface = input.surface;
-        const bool usable = surface.valid && surface.feed_ceiling_mm_s > Scalar(0) && is_finite(surface.feed_ceiling_mm_s);
+        const bool usable =
+            surface.valid && surface.feed_ceiling_mm_s > Scalar(0) && is_finite(surface.feed_ceiling_mm_s);
         if (usable && input.cut.fresh) {
             const Scalar ceiling = surface.feed_ceiling_mm_s / input.programmed_feed_mm_s;
             surface_ceiling_ = surface.in_range || ceiling < surface_ceiling_ ? ceiling : surface_ceiling_;

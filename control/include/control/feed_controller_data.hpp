@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "control/cut_state.hpp"
@@ -8,57 +9,61 @@ namespace millforce::control {
 
 template <typename Scalar>
 struct FeedControllerParameters {
-    Scalar tooth_force_limit_N{1000};      ///< F_tooth,max
-    Scalar setpoint_share{static_cast<Scalar>(0.97L)};          ///< of the limit that steady cutting is held at; the rest is for noise
-    Scalar caution_sd{static_cast<Scalar>(0.75L)};  ///< standard deviations of the tooth's force that are counted on top of it
+    Scalar tooth_force_limit_N{1000};  ///< F_tooth,max
+    Scalar setpoint_share{
+        static_cast<Scalar>(0.97L)};  ///< of the limit that steady cutting is held at; the rest is for noise
+    Scalar caution_sd{
+        static_cast<Scalar>(0.75L)};  ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{static_cast<Scalar>(0.1L)};
     Scalar override_max{static_cast<Scalar>(1.5L)};
-    Scalar recovery_per_rev{static_cast<Scalar>(0.25L)};        ///< share of the way up that one revolution goes
-    Scalar slew_up_per_s{2};               ///< largest rise of the override per second
-    Scalar slew_down_per_s{40};            ///< largest fall
-    Scalar entry_feed_per_tooth_mm{static_cast<Scalar>(0.05L)}; ///< ceiling from contact until the estimate stands
-    Scalar air_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};   ///< ceiling in air: the feed at which the tool may meet the workpiece
-    Scalar highest_programmed_feed_mm_s{0};///< highest F of the program; 0: learnt as blocks come
-    Scalar max_feed_per_tooth_mm{static_cast<Scalar>(0.2L)};    ///< what the tool's edge and chip space allow
+    Scalar recovery_per_rev{static_cast<Scalar>(0.25L)};         ///< share of the way up that one revolution goes
+    Scalar slew_up_per_s{2};                                     ///< largest rise of the override per second
+    Scalar slew_down_per_s{40};                                  ///< largest fall
+    Scalar entry_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};  ///< ceiling from contact until the estimate stands
+    Scalar air_feed_per_tooth_mm{
+        static_cast<Scalar>(0.05L)};         ///< ceiling in air: the feed at which the tool may meet the workpiece
+    Scalar highest_programmed_feed_mm_s{0};  ///< highest F of the program; 0: learnt as blocks come
+    Scalar max_feed_per_tooth_mm{static_cast<Scalar>(0.2L)};  ///< what the tool's edge and chip space allow
     Scalar entry_revolutions{2};
-    Scalar entry_travel_mm{5};             ///< … and this travel: until then the engagement still grows (cutter radius)
-    Scalar exit_travel_mm{2};              ///< without contact before `exit` becomes `air`
-    Scalar contact_force_N{40};            ///< F_at that counts as contact, beside its noise
-    Scalar contact_significance{4};        ///< … and this many standard deviations
-    Scalar surge_radial_immersion{0};      ///< largest immersion that may come without warning; 0: none does
-    Scalar surge_share{static_cast<Scalar>(1.03L)};           ///< of the limit that such a surge may reach
-    Scalar turn_radial_immersion{2};       ///< … after a sharp turn of the path; 0: a turn changes nothing
-    Scalar turn_travel_mm{2};              ///< for so long after a turn
-    Scalar overload_share{static_cast<Scalar>(1.35L)};          ///< of the limit above which the feed is held and the fault latched
-    Scalar overload_revolutions{3};        ///< for so long, though the override already falls
-    Scalar Ra_limit_um{0};                 ///< that the predicted R_a's upper bound may reach; 0: none
-    Scalar no_estimate_hold_s{static_cast<Scalar>(0.5L)};       ///< in cut without estimate for longer: state hold
-    Scalar stale_s{static_cast<Scalar>(0.05L)};                 ///< without a sample for longer: fault
+    Scalar entry_travel_mm{5};         ///< … and this travel: until then the engagement still grows (cutter radius)
+    Scalar exit_travel_mm{2};          ///< without contact before `exit` becomes `air`
+    Scalar contact_force_N{40};        ///< F_at that counts as contact, beside its noise
+    Scalar contact_significance{4};    ///< … and this many standard deviations
+    Scalar surge_radial_immersion{0};  ///< largest immersion that may come without warning; 0: none does
+    Scalar surge_share{static_cast<Scalar>(1.03L)};  ///< of the limit that such a surge may reach
+    Scalar turn_radial_immersion{2};                 ///< … after a sharp turn of the path; 0: a turn changes nothing
+    Scalar turn_travel_mm{2};                        ///< for so long after a turn
+    Scalar overload_share{
+        static_cast<Scalar>(1.35L)};  ///< of the limit above which the feed is held and the fault latched
+    Scalar overload_revolutions{3};   ///< for so long, though the override already falls
+    Scalar Ra_limit_um{0};            ///< that the predicted R_a's upper bound may reach; 0: none
+    Scalar no_estimate_hold_s{static_cast<Scalar>(0.5L)};  ///< in cut without estimate for longer: state hold
+    Scalar stale_s{static_cast<Scalar>(0.05L)};            ///< without a sample for longer: fault
     Scalar teeth{4};
-    bool monitor_only{false};              ///< estimate and watch, leave the override to the operator
+    bool monitor_only{false};  ///< estimate and watch, leave the override to the operator
 };
 
 /// What the estimators say after a tooth period. `fresh` is false on ticks without a new one.
 template <typename Scalar>
 struct CutEstimateForControl {
     bool fresh = false;
-    Scalar tooth_periods{1};  ///< that have ended since the estimate before
-    bool force_valid = false;          ///< the spindle's F_at is there
-    Scalar tangential_N{0};            ///< F_at over the last tooth period or window, the larger counts
+    Scalar tooth_periods{1};   ///< that have ended since the estimate before
+    bool force_valid = false;  ///< the spindle's F_at is there
+    Scalar tangential_N{0};    ///< F_at over the last tooth period or window, the larger counts
     Scalar tangential_sd_N{0};
-    bool tooth_force_valid = false;    ///< the immersion behind it is an estimate, not a guess
-    bool tooth_force_is_bound = false; ///< it is the most that the force can be: no sign of an overload
-    Scalar tooth_force_N{0};           ///< peak force of one tooth; without an immersion, the worst it can be
-    Scalar least_tooth_force_N{0};     ///< the least that it can be, whatever the immersion
-    Scalar surge_ratio{1};             ///< tooth force after a surge to surge_radial_immersion, per tooth force now
-    Scalar cutting_share{1};           ///< c: share of the force that is not edge force
-    Scalar surge_cutting_share{1};     ///< the same after a surge
-    Scalar turn_ratio{1};              ///< as surge_ratio, to turn_radial_immersion
+    bool tooth_force_valid = false;     ///< the immersion behind it is an estimate, not a guess
+    bool tooth_force_is_bound = false;  ///< it is the most that the force can be: no sign of an overload
+    Scalar tooth_force_N{0};            ///< peak force of one tooth; without an immersion, the worst it can be
+    Scalar least_tooth_force_N{0};      ///< the least that it can be, whatever the immersion
+    Scalar surge_ratio{1};              ///< tooth force after a surge to surge_radial_immersion, per tooth force now
+    Scalar cutting_share{1};            ///< c: share of the force that is not edge force
+    Scalar surge_cutting_share{1};      ///< the same after a surge
+    Scalar turn_ratio{1};               ///< as surge_ratio, to turn_radial_immersion
     Scalar turn_cutting_share{1};
     Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s
-    Scalar section_mm2{0};             ///< of the cut, width × depth: its trend is watched, not its size; 0: not known
-    Scalar section_noise_mm2{0};       ///< the part of its deviation that differs from one window to the next
-    Scalar feed_mm_s{0};               ///< path speed over the same window
+    Scalar section_mm2{0};        ///< of the cut, width × depth: its trend is watched, not its size; 0: not known
+    Scalar section_noise_mm2{0};  ///< the part of its deviation that differs from one window to the next
+    Scalar feed_mm_s{0};          ///< path speed over the same window
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 /// Notices that the path turns sharply, so that what the tool has met says little about what it meets next: a step over
@@ -8,9 +9,9 @@
 ///    more turns by less;
 ///  - the axes slow down to less than 60 % of what override and program ask for: a CNC brakes before a corner, and so
 ///    tells of it before it comes. (A twentieth of F is left for its lag behind a rising override.)
-/// Teeth that pass more slowly than a drive's velocity loop settles (15 ms) shake the axes, each of them: the velocities are
-/// averaged over twice what their period has beyond that.
-/// Speeds in mm/s, of any sign; below 0.5 mm/s there is no direction. Some thirty operations. Not thread-safe.
+/// Teeth that pass more slowly than a drive's velocity loop settles (15 ms) shake the axes, each of them: the
+/// velocities are averaged over twice what their period has beyond that. Speeds in mm/s, of any sign; below 0.5 mm/s
+/// there is no direction. Some thirty operations. Not thread-safe.
 
 namespace millforce::control {
 
@@ -22,7 +23,7 @@ class PathTurn {
         Scalar velocity_x_mm_s{0};
         Scalar velocity_y_mm_s{0};
         Scalar path_speed_mm_s{0};
-        Scalar way_mm{0};                ///< gone in dt_s
+        Scalar way_mm{0};  ///< gone in dt_s
         Scalar override_ratio{0};
         Scalar programmed_feed_mm_s{0};  ///< F; 0: not known
         Scalar tooth_period_s{0};        ///< 0: not known
@@ -35,7 +36,8 @@ class PathTurn {
         const Scalar over_s = beyond_s + beyond_s;
         Motion motion = measured;
         if (over_s > measured.dt_s) {
-            follow({measured.velocity_x_mm_s, measured.velocity_y_mm_s, measured.path_speed_mm_s}, measured.dt_s / over_s);
+            follow({measured.velocity_x_mm_s, measured.velocity_y_mm_s, measured.path_speed_mm_s},
+                   measured.dt_s / over_s);
             motion.velocity_x_mm_s = smooth_.x_mm_s;
             motion.velocity_y_mm_s = smooth_.y_mm_s;
             motion.path_speed_mm_s = smooth_.path_mm_s;

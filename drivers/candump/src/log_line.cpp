@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "candump/log_line.hpp"
 
 #include <algorithm>
@@ -22,7 +23,9 @@ int hex_digit(char c) {
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
 
 /// A place in the line; past its end there is '\0'.
 class Cursor {
@@ -214,14 +217,22 @@ LogLine read_line(std::string_view text) {
 
 std::string_view expectation(LineError error) {
     switch (error) {
-        case LineError::none: return "";
-        case LineError::too_long: return "expected a line of at most 256 characters";
-        case LineError::time: return "expected the time in seconds, like (1436509052.249713)";
-        case LineError::interface: return "expected the interface, like can0";
-        case LineError::id: return "expected an id of three or eight hexadecimal digits and '#'";
-        case LineError::data: return "expected pairs of hexadecimal digits, at most 8 (CAN FD: 64)";
-        case LineError::length: return "expected a length of at most 8, or a length code of 9 to F";
-        case LineError::rest: return "expected the end of the line, R or T";
+        case LineError::none:
+            return "";
+        case LineError::too_long:
+            return "expected a line of at most 256 characters";
+        case LineError::time:
+            return "expected the time in seconds, like (1436509052.249713)";
+        case LineError::interface:
+            return "expected the interface, like can0";
+        case LineError::id:
+            return "expected an id of three or eight hexadecimal digits and '#'";
+        case LineError::data:
+            return "expected pairs of hexadecimal digits, at most 8 (CAN FD: 64)";
+        case LineError::length:
+            return "expected a length of at most 8, or a length code of 9 to F";
+        case LineError::rest:
+            return "expected the end of the line, R or T";
     }
     return "";
 }

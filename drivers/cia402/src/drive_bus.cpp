@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/drive_bus.hpp"
 
 #include "cia402/objects.hpp"
@@ -236,6 +237,8 @@ std::size_t DriveBus::filters(std::span<hal::CanFilter, filter_capacity> filters
     return count;
 }
 
-const NodeHealth& DriveBus::health(DriveRole role) const { return nodes_[static_cast<std::size_t>(role)].health(); }
+const NodeHealth& DriveBus::health(DriveRole role) const {
+    return nodes_[static_cast<std::size_t>(role)].health();
+}
 
 }  // namespace millforce::cia402

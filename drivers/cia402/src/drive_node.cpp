@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/drive_node.hpp"
 
 #include "cia402/objects.hpp"
@@ -156,14 +157,18 @@ void DriveNode::poll(std::uint64_t time_us, RejectCounters& rejects) {
 
 void DriveNode::prepare(std::uint64_t time_us, RejectCounters& rejects) {
     switch (sdo_.state()) {
-        case SdoState::pending: return;
-        case SdoState::idle: break;
+        case SdoState::pending:
+            return;
+        case SdoState::idle:
+            break;
         case SdoState::silent:
             sdo_.reset();
             step_ = 0;
             next_try_us_ = time_us + next_try_after_us;
             break;
-        case SdoState::aborted: refuse(time_us, sdo_.abort_code()); return;
+        case SdoState::aborted:
+            refuse(time_us, sdo_.abort_code());
+            return;
         case SdoState::done:
             if (!take_answer(rejects)) {
                 refuse(time_us, 0);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/drive_node.hpp"
 #include "cia402/magnitude.hpp"
 
@@ -27,7 +28,9 @@ std::uint64_t modulus_of(std::uint32_t configured, unsigned bits) {
 
 }  // namespace
 
-void DriveNode::begin_cycle() { pdo_in_cycle_ = {}; }
+void DriveNode::begin_cycle() {
+    pdo_in_cycle_ = {};
+}
 
 void DriveNode::end_cycle() {
     bool any = false;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/drive_settings.hpp"
 
 #include <span>
@@ -9,8 +10,12 @@ namespace millforce::cia402 {
 
 namespace {
 
-bool is_positive(float value) { return hal::is_finite(value) && value > 0.0F; }
-bool is_rated(float value, bool can_ask) { return hal::is_finite(value) && (can_ask ? value >= 0.0F : value > 0.0F); }
+bool is_positive(float value) {
+    return hal::is_finite(value) && value > 0.0F;
+}
+bool is_rated(float value, bool can_ask) {
+    return hal::is_finite(value) && (can_ask ? value >= 0.0F : value > 0.0F);
+}
 
 SettingsError check_pdos(const DriveSettings& drive) {
     for (const PdoMapping& pdo : drive.pdos) {
@@ -53,8 +58,8 @@ SettingsError check_spindle(const DriveSettings& drive, const SignalTable& signa
     const unsigned bits = signals.bits(Signal::count);
     const std::uint64_t width = std::uint64_t{1} << (bits < 32 ? bits : 32U);
     const std::uint64_t modulus = drive.count_modulus != 0 ? drive.count_modulus : width;
-    const bool ok = modulus > 1 && modulus <= width && drive.largest_count_step > 0 &&
-                    drive.largest_count_step <= modulus / 2;
+    const bool ok =
+        modulus > 1 && modulus <= width && drive.largest_count_step > 0 && drive.largest_count_step <= modulus / 2;
     return ok ? SettingsError::none : SettingsError::limit;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/pdo_mapping.hpp"
 
 #include "cia402/objects.hpp"

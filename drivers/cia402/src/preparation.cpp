@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "preparation.hpp"
 
 #include "cia402/objects.hpp"
@@ -27,9 +28,12 @@ SdoRequest mapping_step(const PdoMapping& pdo, std::uint16_t number, std::uint8_
                 (std::uint32_t{object.index} << 16U) | (std::uint32_t{object.subindex} << 8U) | object.bits};
     }
     switch (step - objects) {
-        case 2: return {mapping, 0, 1, objects};
-        case 3: return {communication, 2, 1, pdo.transmission_type};
-        default: return {communication, 1, 4, pdo.id};
+        case 2:
+            return {mapping, 0, 1, objects};
+        case 3:
+            return {communication, 2, 1, pdo.transmission_type};
+        default:
+            return {communication, 1, 4, pdo.id};
     }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/sdo_client.hpp"
 
 #include "cia402/objects.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/signal_table.hpp"
 
 namespace millforce::cia402 {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/status.hpp"
 
 #include <algorithm>
@@ -19,17 +20,28 @@ EmergencyClass emergency_class(std::uint16_t error_code) {
         return EmergencyClass::device_specific;
     }
     switch (high >> 4U) {
-        case 0x0: return high == 0 ? EmergencyClass::error_reset : EmergencyClass::unknown;
-        case 0x1: return EmergencyClass::generic;
-        case 0x2: return EmergencyClass::current;
-        case 0x3: return EmergencyClass::voltage;
-        case 0x4: return EmergencyClass::temperature;
-        case 0x5: return EmergencyClass::device_hardware;
-        case 0x6: return EmergencyClass::device_software;
-        case 0x7: return EmergencyClass::additional_modules;
-        case 0x8: return EmergencyClass::monitoring;
-        case 0x9: return EmergencyClass::external;
-        default: return EmergencyClass::unknown;
+        case 0x0:
+            return high == 0 ? EmergencyClass::error_reset : EmergencyClass::unknown;
+        case 0x1:
+            return EmergencyClass::generic;
+        case 0x2:
+            return EmergencyClass::current;
+        case 0x3:
+            return EmergencyClass::voltage;
+        case 0x4:
+            return EmergencyClass::temperature;
+        case 0x5:
+            return EmergencyClass::device_hardware;
+        case 0x6:
+            return EmergencyClass::device_software;
+        case 0x7:
+            return EmergencyClass::additional_modules;
+        case 0x8:
+            return EmergencyClass::monitoring;
+        case 0x9:
+            return EmergencyClass::external;
+        default:
+            return EmergencyClass::unknown;
     }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/sync_clock.hpp"
 
 #include "cia402/magnitude.hpp"

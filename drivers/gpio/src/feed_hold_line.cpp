@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gpio/feed_hold_line.hpp"
 
 namespace millforce::gpio {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "iio/analogue_override.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "iio/counter_input.hpp"
 
 #include <fcntl.h>

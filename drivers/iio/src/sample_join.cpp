@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "iio/sample_join.hpp"
 
 namespace millforce::iio {

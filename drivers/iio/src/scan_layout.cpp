@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "iio/scan_layout.hpp"
 
 #include <fcntl.h>

@@ -71,7 +71,9 @@ class Reader {
     std::size_t place_ = 0;
 };
 
-bool is_finite(float value) { return value - value == 0.0F; }
+bool is_finite(float value) {
+    return value - value == 0.0F;
+}
 
 }  // namespace
 
@@ -188,13 +190,20 @@ MessageError decode(std::span<const std::uint8_t> bytes, OverrideMessage& messag
 
 const char* name(MessageError error) {
     switch (error) {
-        case MessageError::none: return "none";
-        case MessageError::length: return "length";
-        case MessageError::not_this_link: return "not this link's";
-        case MessageError::version: return "another version of the layout";
-        case MessageError::kind: return "kind";
-        case MessageError::reserved_bits: return "reserved bits are set";
-        case MessageError::not_a_ratio: return "no ratio";
+        case MessageError::none:
+            return "none";
+        case MessageError::length:
+            return "length";
+        case MessageError::not_this_link:
+            return "not this link's";
+        case MessageError::version:
+            return "another version of the layout";
+        case MessageError::kind:
+            return "kind";
+        case MessageError::reserved_bits:
+            return "reserved bits are set";
+        case MessageError::not_a_ratio:
+            return "no ratio";
     }
     return "";
 }

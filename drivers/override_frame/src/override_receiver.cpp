@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "override_frame/override_receiver.hpp"
 
 #include "nmt_states.hpp"
@@ -16,11 +17,20 @@ void OverrideReceiver::on_frame(const hal::CanFrame& frame, std::uint64_t time_u
     }
     hal::FeedOverride received;
     switch (decode(frame, settings_.id, received)) {
-        case FrameError::none: on_override(received, time_us); break;
-        case FrameError::not_this_frame: break;
-        case FrameError::length: reject(ReceiveError::length); break;
-        case FrameError::checksum: reject(ReceiveError::checksum); break;
-        case FrameError::reserved_bits: reject(ReceiveError::reserved_bits); break;
+        case FrameError::none:
+            on_override(received, time_us);
+            break;
+        case FrameError::not_this_frame:
+            break;
+        case FrameError::length:
+            reject(ReceiveError::length);
+            break;
+        case FrameError::checksum:
+            reject(ReceiveError::checksum);
+            break;
+        case FrameError::reserved_bits:
+            reject(ReceiveError::reserved_bits);
+            break;
     }
 }
 
@@ -57,8 +67,8 @@ void OverrideReceiver::on_override(const hal::FeedOverride& received, std::uint6
     counter_ = counter;
     fresh_us_ = time_us;
     newest_ = received;
-    trusted_frames_ = static_cast<std::uint8_t>(
-        trusted_frames_ < settings_.frames_to_trust ? trusted_frames_ + 1 : trusted_frames_);
+    trusted_frames_ =
+        static_cast<std::uint8_t>(trusted_frames_ < settings_.frames_to_trust ? trusted_frames_ + 1 : trusted_frames_);
 }
 
 ReceivedOverride OverrideReceiver::current(std::uint64_t now_us) const {

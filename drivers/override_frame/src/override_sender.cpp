@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "override_frame/override_sender.hpp"
 
 #include "nmt_states.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "program_status/program_status_receiver.hpp"
 
 namespace millforce::program_status {

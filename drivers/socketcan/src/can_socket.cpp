@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "socketcan/can_socket.hpp"
 
 #include <linux/can.h>
@@ -28,10 +29,14 @@ bool set_option(int descriptor, int level, int name, const Value& value) {
 
 LinkState link_state(ControllerState state) {
     switch (state) {
-        case ControllerState::error_active: return LinkState::error_active;
-        case ControllerState::error_warning: return LinkState::error_warning;
-        case ControllerState::error_passive: return LinkState::error_passive;
-        case ControllerState::bus_off: return LinkState::bus_off;
+        case ControllerState::error_active:
+            return LinkState::error_active;
+        case ControllerState::error_warning:
+            return LinkState::error_warning;
+        case ControllerState::error_passive:
+            return LinkState::error_passive;
+        case ControllerState::bus_off:
+            return LinkState::bus_off;
     }
     return LinkState::error_active;
 }
@@ -55,9 +60,13 @@ bool CanSocketSettings::set_interface(std::string_view name) {
     return true;
 }
 
-CanSocket::CanSocket(const CanSocketSettings& settings) : settings_(settings) { settings_.interface.back() = '\0'; }
+CanSocket::CanSocket(const CanSocketSettings& settings) : settings_(settings) {
+    settings_.interface.back() = '\0';
+}
 
-CanSocket::~CanSocket() { close(); }
+CanSocket::~CanSocket() {
+    close();
+}
 
 void CanSocket::poll(std::uint64_t now_us) {
     polled_us_ = now_us;
@@ -237,8 +246,8 @@ void CanSocket::take_error_frame(std::uint32_t id, std::span<const std::uint8_t>
 
 bool CanSocket::send(const hal::CanFrame& frame) {
     can_frame raw{};
-    const bool is_valid = frame.length <= hal::largest_can_length &&
-                          frame.id <= (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
+    const bool is_valid =
+        frame.length <= hal::largest_can_length && frame.id <= (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
     if (!is_open() || !is_valid) {
         ++health_.send_failures;
         return false;

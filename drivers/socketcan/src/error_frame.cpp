@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "socketcan/error_frame.hpp"
 
 #include <linux/can/error.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "socketcan/interface_query.hpp"
 
 #include <linux/can/netlink.h>
@@ -42,10 +43,18 @@ void take_can_state(std::span<const std::uint8_t> bytes, InterfaceReport& report
     std::memcpy(&state, bytes.data(), sizeof state);
     report.has_state = state <= CAN_STATE_BUS_OFF;
     switch (state) {
-        case CAN_STATE_ERROR_WARNING: report.state = ControllerState::error_warning; break;
-        case CAN_STATE_ERROR_PASSIVE: report.state = ControllerState::error_passive; break;
-        case CAN_STATE_BUS_OFF: report.state = ControllerState::bus_off; break;
-        default: report.state = ControllerState::error_active; break;
+        case CAN_STATE_ERROR_WARNING:
+            report.state = ControllerState::error_warning;
+            break;
+        case CAN_STATE_ERROR_PASSIVE:
+            report.state = ControllerState::error_passive;
+            break;
+        case CAN_STATE_BUS_OFF:
+            report.state = ControllerState::bus_off;
+            break;
+        default:
+            report.state = ControllerState::error_active;
+            break;
     }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "receive_control.hpp"
 
 #include <cstdlib>
@@ -27,7 +28,9 @@ timespec now(clockid_t clock) {
 
 }  // namespace
 
-std::uint64_t monotonic_us() { return static_cast<std::uint64_t>(microseconds(now(CLOCK_MONOTONIC))); }
+std::uint64_t monotonic_us() {
+    return static_cast<std::uint64_t>(microseconds(now(CLOCK_MONOTONIC)));
+}
 
 ReceiveControl receive_control(msghdr& message) {
     ReceiveControl control;
@@ -68,8 +71,8 @@ std::int64_t StampClock::unix_offset_us() {
     return offset_us_;
 }
 
-/// A stamp that does not fit tells that the clock was set, or that this program did not run for long, before it read the
-/// time or after: only a measurement tells which, and a kept offset is better than one that is a few µs off.
+/// A stamp that does not fit tells that the clock was set, or that this program did not run for long, before it read
+/// the time or after: only a measurement tells which, and a kept offset is better than one that is a few µs off.
 std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t now_us) {
     auto near_us = static_cast<std::int64_t>(now_us);
     const auto is_plausible = [&](std::int64_t time_us) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/can_controller.hpp"
 
 namespace millforce::stm32 {
@@ -60,7 +61,9 @@ void take_word(hal::CanFrame& frame, std::size_t first, std::uint32_t word) {
     }
 }
 
-void count(std::uint32_t& counter) { counter += counter < UINT32_MAX ? 1U : 0U; }
+void count(std::uint32_t& counter) {
+    counter += counter < UINT32_MAX ? 1U : 0U;
+}
 
 }  // namespace
 
@@ -159,9 +162,9 @@ bool CanController::send(const hal::CanFrame& frame) {
             continue;
         }
         const std::uint32_t length = frame.length > hal::largest_can_length ? hal::largest_can_length : frame.length;
-        const std::uint32_t identifier = (frame.extended ? frame.id << 3U | extended_id
-                                                         : (frame.id & hal::largest_standard_can_id) << 21U) |
-                                         (frame.remote ? remote_frame : 0U);
+        const std::uint32_t identifier =
+            (frame.extended ? frame.id << 3U | extended_id : (frame.id & hal::largest_standard_can_id) << 21U) |
+            (frame.remote ? remote_frame : 0U);
         CanMailboxRegisters& box = registers_.transmit[mailbox];
         box.length = length;
         box.low = word_of(frame, 0);
@@ -175,7 +178,8 @@ bool CanController::send(const hal::CanFrame& frame) {
 
 bool CanController::receive(hal::CanFrame& frame) {
     // After a release the queue needs a moment to show the next frame.
-    if (state_ < CanState::running || (registers_.rf0r & frames_waiting) == 0 || has_bits(registers_.rf0r, release_frame)) {
+    if (state_ < CanState::running || (registers_.rf0r & frames_waiting) == 0 ||
+        has_bits(registers_.rf0r, release_frame)) {
         return false;
     }
     const CanMailboxRegisters& box = registers_.receive[0];
@@ -192,15 +196,21 @@ bool CanController::receive(hal::CanFrame& frame) {
     return true;
 }
 
-bool CanController::is_all_sent() const { return is_free(0) && is_free(1) && is_free(2); }
+bool CanController::is_all_sent() const {
+    return is_free(0) && is_free(1) && is_free(2);
+}
 
-bool CanController::has_room() const { return is_on_bus() && (is_free(0) || is_free(1) || is_free(2)); }
+bool CanController::has_room() const {
+    return is_on_bus() && (is_free(0) || is_free(1) || is_free(2));
+}
 
 void CanController::leave_bus() {
     registers_.mcr = setup_request;
     state_ = CanState::absent;
 }
 
-void CanController::abort_all() { registers_.tsr = abort_each; }
+void CanController::abort_all() {
+    registers_.tsr = abort_each;
+}
 
 }  // namespace millforce::stm32

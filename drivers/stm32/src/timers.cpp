@@ -1,17 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/timers.hpp"
 
 namespace millforce::stm32 {
 
 namespace {
-constexpr std::uint32_t counter_enable = 1U << 0U;    // CR1
-constexpr std::uint32_t update_generation = 1U << 0U; // EGR
-constexpr std::uint32_t trigger_on_update = 2U;       // CR2, MMS
-constexpr std::uint32_t encoder_both_edges = 3U;      // SMCR, SMS
-constexpr std::uint32_t input_is_direct = 1U;         // CCMRx, CCyS
-constexpr std::uint32_t input_1_inverted = 1U << 1U;  // CCER
-constexpr std::uint32_t capture_3_enable = 1U << 8U;  // CCER
-constexpr std::uint32_t captured_3 = 1U << 3U;        // SR
-constexpr std::uint32_t captured_3_again = 1U << 11U; // SR
+constexpr std::uint32_t counter_enable = 1U << 0U;     // CR1
+constexpr std::uint32_t update_generation = 1U << 0U;  // EGR
+constexpr std::uint32_t trigger_on_update = 2U;        // CR2, MMS
+constexpr std::uint32_t encoder_both_edges = 3U;       // SMCR, SMS
+constexpr std::uint32_t input_is_direct = 1U;          // CCMRx, CCyS
+constexpr std::uint32_t input_1_inverted = 1U << 1U;   // CCER
+constexpr std::uint32_t capture_3_enable = 1U << 8U;   // CCER
+constexpr std::uint32_t captured_3 = 1U << 3U;         // SR
+constexpr std::uint32_t captured_3_again = 1U << 11U;  // SR
 constexpr std::uint32_t whole_range = 0xFFFF'FFFFU;
 }  // namespace
 

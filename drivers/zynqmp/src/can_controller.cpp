@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zynqmp/can_controller.hpp"
 
 namespace millforce::zynqmp {
@@ -24,7 +25,9 @@ constexpr std::uint32_t extended_id = 1U << 19U;
 constexpr std::uint32_t extended_remote = 1U << 0U;
 constexpr unsigned extended_low_bits = 18;
 
-bool has_bits(std::uint32_t value, std::uint32_t bits) { return (value & bits) == bits; }
+bool has_bits(std::uint32_t value, std::uint32_t bits) {
+    return (value & bits) == bits;
+}
 
 /// The upper 11 bits of an extended id stand where a standard id does; SRR is recessive then.
 std::uint32_t identifier_word(const hal::CanFrame& frame) {
@@ -59,7 +62,9 @@ void take_word(hal::CanFrame& frame, std::size_t first, std::uint32_t word) {
     }
 }
 
-void count(std::uint32_t& counter) { counter += counter < UINT32_MAX ? 1U : 0U; }
+void count(std::uint32_t& counter) {
+    counter += counter < UINT32_MAX ? 1U : 0U;
+}
 
 std::uint32_t bit_timing(const CanBitTiming& timing) {
     return (timing.largest_jump - 1U) << 7U | (timing.second_segment - 1U) << 4U | (timing.first_segment - 1U);
@@ -122,7 +127,9 @@ void CanController::watch_errors() {
     state_ = error_state();
 }
 
-bool CanController::has_room() const { return is_on_bus() && !has_bits(registers_.sr, transmit_full); }
+bool CanController::has_room() const {
+    return is_on_bus() && !has_bits(registers_.sr, transmit_full);
+}
 
 bool CanController::send(const hal::CanFrame& frame) {
     if (!has_room()) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zynqmp/reset_cause.hpp"
 
 namespace millforce::zynqmp {

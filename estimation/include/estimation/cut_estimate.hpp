@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/cutting_law.hpp"
@@ -17,19 +18,19 @@ struct CutEstimatorSettings {
     Scalar teeth{4};
     Scalar cutter_radius_mm{5};
     Scalar helix_rad{0};
-    Scalar runout_mm{0};             ///< largest difference of two teeth's radii
+    Scalar runout_mm{0};  ///< largest difference of two teeth's radii
     CutSide side = CutSide::unknown;
     Scalar centre_offset_in_radii{0};
-    Scalar largest_depth_mm{10};     ///< longest depth of cut of the tool's flutes
+    Scalar largest_depth_mm{10};  ///< longest depth of cut of the tool's flutes
     Scalar nominal_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};
-    Scalar assumed_immersion{1};     ///< used for peaks (never to speed up) until an immersion is known
-    Scalar surge_immersion{0};       ///< see FeedControllerParameters::surge_radial_immersion
-    Scalar turn_immersion{0};        ///< … and turn_radial_immersion
+    Scalar assumed_immersion{1};  ///< used for peaks (never to speed up) until an immersion is known
+    Scalar surge_immersion{0};    ///< see FeedControllerParameters::surge_radial_immersion
+    Scalar turn_immersion{0};     ///< … and turn_radial_immersion
     Scalar tooth_force_limit_N{1000};
-    Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
+    Scalar declared_depth_mm{0};  ///< axial depth that the program tells; 0: not told
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
     Scalar min_samples{12};
-    int solver_values_per_step{0};   ///< of J in one add(); 0: all at once (see add())
+    int solver_values_per_step{0};  ///< of J in one add(); 0: all at once (see add())
     std::uint32_t encoder_counts_per_rev = 4096;
 };
 
@@ -65,18 +66,18 @@ struct FeedForces {
 
 template <typename Scalar>
 struct CutEstimate : FeedForces<Scalar> {
-    int tooth_periods = 0;  ///< that have ended since the estimate before
+    int tooth_periods = 0;                     ///< that have ended since the estimate before
     Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
     Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
     EngagementEstimate<Scalar> engagement{};
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
-    bool tooth_force_is_bound = false;         ///< tooth_force_N is the most that it can be, and may be far above it
-    Scalar least_tooth_force_N{0};  ///< the least that it can be: F_at shared by the widest cut
+    bool tooth_force_is_bound = false;    ///< tooth_force_N is the most that it can be, and may be far above it
+    Scalar least_tooth_force_N{0};        ///< the least that it can be: F_at shared by the widest cut
     Scalar worst_tooth_force_N{0};        ///< the same with an assumed immersion where none is known
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
-    Scalar cutting_share{1};            ///< of F_at: what is not edge force
+    Scalar cutting_share{1};              ///< of F_at: what is not edge force
     Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     /// The force of a tooth at another immersion, at the same depth and feed.
     struct Change {
@@ -85,9 +86,9 @@ struct CutEstimate : FeedForces<Scalar> {
     };
     Scalar section_mm2{0};        ///< width × depth that F_at stands for at the known K_s; 0: no F_at
     Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
-    Change surge{};  ///< to settings.surge_immersion, where that is larger than now
-    Change turn{};   ///< to settings.turn_immersion
-    Scalar feed_mm_s{0};  ///< path speed over the window
+    Change surge{};               ///< to settings.surge_immersion, where that is larger than now
+    Change turn{};                ///< to settings.turn_immersion
+    Scalar feed_mm_s{0};          ///< path speed over the window
     Scalar feed_per_tooth_mm{0};
     Scalar spindle_speed_rad_s{0};
     Scalar window_s{0};

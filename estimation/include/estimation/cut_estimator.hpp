@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/cut_estimate.hpp"
@@ -22,8 +23,9 @@ namespace millforce::estimation {
 
 /// What the caller of add() says of the present moment. It matters with solver_values_per_step alone.
 struct Moment {
-    bool is_busy = false;    ///< with the law for instance: what has just ended and the solver wait for the next call
-    bool is_steady = false;  ///< nothing rises and nothing fades: teeth that repeat themselves may wait for longest_wait_s
+    bool is_busy = false;  ///< with the law for instance: what has just ended and the solver wait for the next call
+    bool is_steady =
+        false;  ///< nothing rises and nothing fades: teeth that repeat themselves may wait for longest_wait_s
 };
 
 template <typename Scalar>
@@ -51,13 +53,14 @@ class CutEstimator {
 
     /// Adds one sample. Returns true when estimate() is new: with each tooth period, or as below.
     ///
-    /// With solver_values_per_step each call does one piece of work at most, so that none is long: at the end of a tooth
-    /// period the tangential force; the axes' forces where they are due (FeedForces); the peaks with the engagement that is
-    /// known; then the estimate is new. Teeth that load the spindle as they did a revolution before (ToothRepetition) wait
-    /// for the revolution's end, and in a steady moment for longest_wait_s. One call in between, and what calls are left
-    /// over, work at the solver. It is taken up where the forces ask something new, once a revolution or as soon as they
-    /// have left those of the revolutions before; when it is done its tables are read, and the peaks worked out anew. Tooth
-    /// periods that end while another one is in work are in the averages of the next.
+    /// With solver_values_per_step each call does one piece of work at most, so that none is long: at the end of a
+    /// tooth period the tangential force; the axes' forces where they are due (FeedForces); the peaks with the
+    /// engagement that is known; then the estimate is new. Teeth that load the spindle as they did a revolution before
+    /// (ToothRepetition) wait for the revolution's end, and in a steady moment for longest_wait_s. One call in between,
+    /// and what calls are left over, work at the solver. It is taken up where the forces ask something new, once a
+    /// revolution or as soon as they have left those of the revolutions before; when it is done its tables are read,
+    /// and the peaks worked out anew. Tooth periods that end while another one is in work are in the averages of the
+    /// next.
     [[gnu::always_inline]] bool add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count,
                                     std::uint8_t index_number, const DriveSignals<Scalar>& signals,
                                     Moment moment = {}) {
@@ -187,7 +190,8 @@ class CutEstimator {
         since_prediction_s_ = Scalar(0);
     }
 
-    [[nodiscard]] static EngagementSolverSettings<Scalar> solver_settings(const CutEstimatorSettings<Scalar>& settings) {
+    [[nodiscard]] static EngagementSolverSettings<Scalar> solver_settings(
+        const CutEstimatorSettings<Scalar>& settings) {
         EngagementSolverSettings<Scalar> solver;
         solver.teeth = settings.teeth;
         solver.centre_offset_in_radii = settings.centre_offset_in_radii;
@@ -227,7 +231,7 @@ class CutEstimator {
     }
 
     [[nodiscard]] typename FeedDrive<Scalar>::Average axis_average(const typename Averager::Window& window,
-                                                                      std::size_t axis) const {
+                                                                   std::size_t axis) const {
         const auto k = static_cast<Eigen::Index>(axis);
         typename FeedDrive<Scalar>::Average average;
         average.current_A = window.mean[first_current + k];
@@ -343,8 +347,8 @@ class CutEstimator {
         }
     }
 
-    /// The solution that has been read cannot wait for the next tooth period: it tells of a higher force, or of less that is
-    /// known.
+    /// The solution that has been read cannot wait for the next tooth period: it tells of a higher force, or of less
+    /// that is known.
     [[nodiscard]] bool must_be_shown() const {
         const EngagementEstimate<Scalar>& shown = estimate().engagement;
         return peaks_.factors().now > shown_factor_ + least_change * shown_factor_ ||
@@ -390,8 +394,7 @@ class CutEstimator {
         periods_since_memory_ = periods_since_memory_ + e.tooth_periods;
         is_new_revolution_ = periods_since_memory_ >= window_.tooth_periods;
         const bool has_axes = estimate().window_s > Scalar(0);
-        const bool axes_are_due =
-            !in_portions() || !has_axes || is_new_revolution_ || !memory_.holds(e.tangential_N);
+        const bool axes_are_due = !in_portions() || !has_axes || is_new_revolution_ || !memory_.holds(e.tangential_N);
         if (!axes_are_due) {
             static_cast<FeedForces<Scalar>&>(e) = estimate();
         }
@@ -499,9 +502,11 @@ class CutEstimator {
         }
     }
 
-    /// A solution's answer is known while its question stays: the forces, carried to the present feed, within a third of a
-    /// deviation of one window's noise or within least_change, the feed within three tenths, and nothing known much better.
-    [[nodiscard]] bool asks_anything_new(const AverageForceMeasurement<Scalar>& forces, const CutEstimate<Scalar>& e) const {
+    /// A solution's answer is known while its question stays: the forces, carried to the present feed, within a third
+    /// of a deviation of one window's noise or within least_change, the feed within three tenths, and nothing known
+    /// much better.
+    [[nodiscard]] bool asks_anything_new(const AverageForceMeasurement<Scalar>& forces,
+                                         const CutEstimate<Scalar>& e) const {
         const Scalar more_feed_mm = e.feed_per_tooth_mm - asked_feed_per_tooth_mm_;
         const Scalar most_mm = static_cast<Scalar>(0.3L) * asked_feed_per_tooth_mm_;
         if (told_immersion_.valid || asked_.radial_immersion.valid || !feed_in_one_direction(forces, asked_) ||
@@ -512,10 +517,11 @@ class CutEstimator {
         const Scalar carried = Scalar(1) + tooth_force_.force_exponent() * more_feed_mm / asked_feed_per_tooth_mm_;
         const Scalar least_N = least_change * forces.tangential_N.value;
         return has_moved(forces.tangential_N, asked_.tangential_N, carried, least_N) ||
-               has_moved(forces.x_N, asked_.x_N, carried, least_N) || has_moved(forces.y_N, asked_.y_N, carried, least_N);
+               has_moved(forces.x_N, asked_.x_N, carried, least_N) ||
+               has_moved(forces.y_N, asked_.y_N, carried, least_N);
     }
-    [[nodiscard]] static bool has_moved(const Measurement<Scalar>& now, const Measurement<Scalar>& asked, Scalar carried,
-                                        Scalar least_N) {
+    [[nodiscard]] static bool has_moved(const Measurement<Scalar>& now, const Measurement<Scalar>& asked,
+                                        Scalar carried, Scalar least_N) {
         if (!now.valid || !asked.valid) {
             return now.valid != asked.valid;
         }
@@ -527,24 +533,24 @@ class CutEstimator {
 
     [[nodiscard]] CutEstimate<Scalar>& work() { return estimates_[1U - shown_]; }
 
-    // What each sample touches comes first, then what each tooth period does; the large tables are last. Near the object's
-    // start an access is one instruction.
+    // What each sample touches comes first, then what each tooth period does; the large tables are last. Near the
+    // object's start an access is one instruction.
     Scalar since_period_s_{0};
     Scalar since_prediction_s_{0};  // of the drifts, to the end of the last tooth period
-    Scalar period_timeout_s_{0};  // 0: no window
-    int periods_ended_ = 0;       // that no estimate has taken up
-    bool has_closed_ = false;     // the last call closed a tooth period
+    Scalar period_timeout_s_{0};    // 0: no window
+    int periods_ended_ = 0;         // that no estimate has taken up
+    bool has_closed_ = false;       // the last call closed a tooth period
     Stage stage_ = Stage::idle;
-    std::uint8_t shown_ = 0;      // of estimates_; the other one is in work
-    bool is_resting_ = false;     // nothing is in work before the next tooth period
+    std::uint8_t shown_ = 0;   // of estimates_; the other one is in work
+    bool is_resting_ = false;  // nothing is in work before the next tooth period
     bool search_due_ = false;
     bool has_engagements_turn_ = false;  // before the next tooth period: where teeth pass fast there is no other time
     bool has_waited_ = false;            // the engagement has, for a caller that was busy
-    bool is_new_revolution_ = false;  // no period of the window is one that memory_ has taken
-    int unread_parts_ = 0;  // of engagement_, that peaks_ has not seen yet
+    bool is_new_revolution_ = false;     // no period of the window is one that memory_ has taken
+    int unread_parts_ = 0;               // of engagement_, that peaks_ has not seen yet
     int periods_since_memory_ = 0;
     Scalar tooth_period_s_{0};
-    Scalar per_Nm_{0};     // F_at of a torque, 1000/R
+    Scalar per_Nm_{0};  // F_at of a torque, 1000/R
     Scalar count_rad_{0};
     EncoderAngle<Scalar> encoder_{};
     ToothRepetition<Scalar> repetition_{};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/elementary.hpp"
@@ -17,10 +18,10 @@ inline constexpr Scalar turns_per_rad = static_cast<Scalar>(0.159154943091895336
 
 /// Which edge of the cut is fixed while its width varies.
 enum class CutSide : unsigned char {
-    down,      ///< φ_ex = π: the tooth leaves at the machined wall (climb milling).
-    up,        ///< φ_st = 0: the tooth enters at the machined wall (conventional milling).
-    centred,   ///< the workpiece's centre line has a fixed offset from the cutter's axis (face milling).
-    unknown,   ///< not told: inferred from the forces where they allow it.
+    down,     ///< φ_ex = π: the tooth leaves at the machined wall (climb milling).
+    up,       ///< φ_st = 0: the tooth enters at the machined wall (conventional milling).
+    centred,  ///< the workpiece's centre line has a fixed offset from the cutter's axis (face milling).
+    unknown,  ///< not told: inferred from the forces where they allow it.
 };
 
 /// Entry and exit angle of a tooth, 0 ≤ φ_st ≤ φ_ex ≤ π.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <bit>
@@ -7,9 +8,9 @@
 
 /// Elementary functions in float that give the same bits on every processor.
 ///
-/// C libraries differ in the last bit of sin or exp, and a controller that is proven on a host by its traces must do the
-/// same on the chip. These are made of +, −, ×, ÷ and √ alone, each rounded once (the build forbids contraction). They
-/// also have no double-precision steps, which a Cortex-M4F would emulate.
+/// C libraries differ in the last bit of sin or exp, and a controller that is proven on a host by its traces must do
+/// the same on the chip. These are made of +, −, ×, ÷ and √ alone, each rounded once (the build forbids contraction).
+/// They also have no double-precision steps, which a Cortex-M4F would emulate.
 ///
 /// Use in a template as `using elementary::sin; sin(x)`: float comes here, fixed point to its own functions by ADL, and
 /// any other floating-point type to the C library.
@@ -66,14 +67,16 @@ inline float sine(QuarterTurns angle) {
 /// asin x for |x| ≤ ½.
 inline float arc_sine_of_small(float x) {
     const float w = x * x;
-    const float series = 0.16666672415F + w * (0.074988550727F + w * (0.045001380064F +
-                         w * (0.026554542234F + w * 0.038085023517F)));
+    const float series =
+        0.16666672415F + w * (0.074988550727F + w * (0.045001380064F + w * (0.026554542234F + w * 0.038085023517F)));
     return x + x * w * series;
 }
 
 }  // namespace detail
 
-[[gnu::noinline]] inline float sin(float x) { return detail::sine(detail::quarter_turns(x)); }
+[[gnu::noinline]] inline float sin(float x) {
+    return detail::sine(detail::quarter_turns(x));
+}
 
 [[gnu::noinline]] inline float cos(float x) {
     detail::QuarterTurns angle = detail::quarter_turns(x);
@@ -110,13 +113,16 @@ inline float arc_sine_of_small(float x) {
     }
     const float power = detail::rounded(x * 1.44269504089F);
     const float r = (x - power * ln_2_high) - power * ln_2_low;
-    const float series = 0.5F + r * (0.16666666667F + r * (0.041666554662F + r * (0.0083333208921F +
-                         r * (0.0013926176120F + r * 0.00019882690044F))));
+    const float series =
+        0.5F + r * (0.16666666667F +
+                    r * (0.041666554662F + r * (0.0083333208921F + r * (0.0013926176120F + r * 0.00019882690044F))));
     const float mantissa = 1.0F + (r + r * r * series);
     // The exponent is raised as a number of bits; 2^128 would not fit, so half of it goes by a product.
     const auto half_power = static_cast<std::int32_t>(power) / 2;
     const auto rest = static_cast<std::int32_t>(power) - half_power;
-    const auto power_of_two = [](std::int32_t e) { return std::bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23U); };
+    const auto power_of_two = [](std::int32_t e) {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23U);
+    };
     return mantissa * power_of_two(half_power) * power_of_two(rest);
 }
 
@@ -150,11 +156,29 @@ inline float arc_sine_of_small(float x) {
 }
 
 // Clang-format keeps these one to a line.
-template <std::floating_point Other> Other sin(Other x) { return std::sin(x); }
-template <std::floating_point Other> Other cos(Other x) { return std::cos(x); }
-template <std::floating_point Other> Other tan(Other x) { return std::tan(x); }
-template <std::floating_point Other> Other acos(Other x) { return std::acos(x); }
-template <std::floating_point Other> Other exp(Other x) { return std::exp(x); }
-template <std::floating_point Other> Other log(Other x) { return std::log(x); }
+template <std::floating_point Other>
+Other sin(Other x) {
+    return std::sin(x);
+}
+template <std::floating_point Other>
+Other cos(Other x) {
+    return std::cos(x);
+}
+template <std::floating_point Other>
+Other tan(Other x) {
+    return std::tan(x);
+}
+template <std::floating_point Other>
+Other acos(Other x) {
+    return std::acos(x);
+}
+template <std::floating_point Other>
+Other exp(Other x) {
+    return std::exp(x);
+}
+template <std::floating_point Other>
+Other log(Other x) {
+    return std::log(x);
+}
 
 }  // namespace millforce::estimation::elementary

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -7,12 +8,12 @@ namespace millforce::estimation {
 /// What one encoder reading showed. Those behind `standstill` end what has been averaged.
 enum class EncoderEvent : unsigned char {
     none,
-    forward,       ///< turned in the cutting direction
-    standstill,    ///< no count, or a jitter of one count backwards
-    reversed,      ///< turned against the cutting direction
-    too_fast,      ///< turned by 0.45 revolutions or more between two readings: the direction is not known
-    index_slipped, ///< counts between two index pulses are not a whole number of revolutions: counts were lost
-    index_found    ///< the first index pulse: the angle up to it had begun anywhere, and has jumped
+    forward,        ///< turned in the cutting direction
+    standstill,     ///< no count, or a jitter of one count backwards
+    reversed,       ///< turned against the cutting direction
+    too_fast,       ///< turned by 0.45 revolutions or more between two readings: the direction is not known
+    index_slipped,  ///< counts between two index pulses are not a whole number of revolutions: counts were lost
+    index_found     ///< the first index pulse: the angle up to it had begun anywhere, and has jumped
 };
 
 template <typename Scalar>

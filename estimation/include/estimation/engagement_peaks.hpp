@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/engagement_solver.hpp"
@@ -10,10 +11,9 @@ namespace millforce::estimation {
 /// Tooth peaks per F_at at the engagement that is known, and at those that may come.
 ///
 /// They depend on the engagement alone, which comes once per solution; the forces come with every tooth period. So
-/// take() and its two other parts read all tables once, and what is left for a tooth period are products. Cost of the three: up to seven readings of
-/// the peak table (peak_factors.hpp), three of the forces' table; what the present engagement does not ask for is not
-/// read. Memory: both sides' peak tables, 2.9 KiB in float.
-/// Not thread-safe.
+/// take() and its two other parts read all tables once, and what is left for a tooth period are products. Cost of the
+/// three: up to seven readings of the peak table (peak_factors.hpp), three of the forces' table; what the present
+/// engagement does not ask for is not read. Memory: both sides' peak tables, 2.9 KiB in float. Not thread-safe.
 template <typename Scalar>
 class EngagementPeaks {
   public:
@@ -36,13 +36,13 @@ class EngagementPeaks {
     /// Peak of one tooth per F_at.
     struct Factors {
         Scalar now{1};
-        Scalar slot{1};           ///< the widest cut at the same depth
-        Scalar at_low{1};         ///< at the ends of the immersion's interval
+        Scalar slot{1};    ///< the widest cut at the same depth
+        Scalar at_low{1};  ///< at the ends of the immersion's interval
         Scalar at_high{1};
-        Scalar by_K_s{0};         ///< change of `now` by one deviation of K_s
-        Scalar bound{1};          ///< what the narrowest cut and the smallest depth that the forces allow load one tooth
-        Scalar narrowest{1};      ///< the same where no force tells anything
-        Scalar surge{1};          ///< where it is wider than now
+        Scalar by_K_s{0};     ///< change of `now` by one deviation of K_s
+        Scalar bound{1};      ///< what the narrowest cut and the smallest depth that the forces allow load one tooth
+        Scalar narrowest{1};  ///< the same where no force tells anything
+        Scalar surge{1};      ///< where it is wider than now
         Scalar turn{1};
     };
 
@@ -57,8 +57,8 @@ class EngagementPeaks {
         up_.build(law, with_side(settings.peak, CutSide::up));
     }
 
-    /// A solution of the engagement. Where it has no immersion the last one stays. take_changes() and take_bounds() belong
-    /// to it.
+    /// A solution of the engagement. Where it has no immersion the last one stays. take_changes() and take_bounds()
+    /// belong to it.
     void take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver) {
         if (found.immersion_valid) {
             now_ = {found.engagement_rad, found.radial_immersion};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/engagement_table.hpp"
@@ -17,28 +18,28 @@
 ///
 /// Every force is proportional to the depth: m_i = a_p g_i(R_r). So for each R_r the best depth is known,
 ///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²,
-/// and J is the profile likelihood of the immersion alone. It is scanned over the whole range, so that no local minimum can
-/// catch the solver: at every second of Nodes values, evenly spaced in θ with R_r = 1 − cos θ, and on both sides of every
-/// valley that shows. The best node is refined by a cubic through it, its neighbours and one point between them.
+/// and J is the profile likelihood of the immersion alone. It is scanned over the whole range, so that no local minimum
+/// can catch the solver: at every second of Nodes values, evenly spaced in θ with R_r = 1 − cos θ, and on both sides of
+/// every valley that shows. The best node is refined by a cubic through it, its neighbours and one point between them.
 /// An immersion that another method tells enters J as one more measurement, (R_r − R_told)²/σ².
 /// The immersion's deviation is the larger of the curvature's and of the interval in which J exceeds its minimum by
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
-/// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions at a node and
-/// twice as many between nodes: two nodes count as one value. A solution takes 20 values for a side that is told, one more
-/// for every valley but the first, and twice as many for a side that is not; solve() works them off at once, begin() and
-/// advance() in portions, for a tick that must be short.
+/// The forces come from tables (engagement_table.hpp), so that a value of J costs some hundred instructions at a node
+/// and twice as many between nodes: two nodes count as one value. A solution takes 20 values for a side that is told,
+/// one more for every valley but the first, and twice as many for a side that is not; solve() works them off at once,
+/// begin() and advance() in portions, for a tick that must be short.
 
 namespace millforce::estimation {
 
 /// Average forces as the drives show them, along the machine's axes, acting on the workpiece.
 template <typename Scalar>
 struct AverageForceMeasurement {
-    Measurement<Scalar> tangential_N{};  ///< F_at, from the spindle
-    Measurement<Scalar> x_N{};           ///< along machine x; not valid where the x drive stands
-    Measurement<Scalar> y_N{};           ///< along machine y
+    Measurement<Scalar> tangential_N{};      ///< F_at, from the spindle
+    Measurement<Scalar> x_N{};               ///< along machine x; not valid where the x drive stands
+    Measurement<Scalar> y_N{};               ///< along machine y
     Measurement<Scalar> radial_immersion{};  ///< from elsewhere (force drops), where there is one
-    Scalar feed_direction_x{1};          ///< unit vector of the tool's travel relative to the workpiece
+    Scalar feed_direction_x{1};              ///< unit vector of the tool's travel relative to the workpiece
     Scalar feed_direction_y{0};
 };
 
@@ -68,12 +69,13 @@ template <typename Scalar>
 struct EngagementSolverSettings {
     Scalar teeth{4};
     Scalar centre_offset_in_radii{0};  ///< for CutSide::centred
-    Scalar law_relative_sd{static_cast<Scalar>(0.02L)};     ///< misfit of the closed law itself, relative to F_at, on each axis force
+    Scalar law_relative_sd{
+        static_cast<Scalar>(0.02L)};  ///< misfit of the closed law itself, relative to F_at, on each axis force
     Scalar largest_immersion{2};
-    Scalar widest_interval{static_cast<Scalar>(1.2L)};    ///< a 95 % interval wider than this is no estimate
-    Scalar declared_depth_mm{0};     ///< axial depth that the program tells; 0: not told
+    Scalar widest_interval{static_cast<Scalar>(1.2L)};  ///< a 95 % interval wider than this is no estimate
+    Scalar declared_depth_mm{0};                        ///< axial depth that the program tells; 0: not told
     Scalar declared_depth_relative_sd{static_cast<Scalar>(0.05L)};
-    Scalar least_significance{4};    ///< F_at must exceed this many of its standard deviations
+    Scalar least_significance{4};  ///< F_at must exceed this many of its standard deviations
 };
 
 template <typename Scalar, int Nodes = 41>
@@ -170,7 +172,7 @@ class EngagementSolver {
         std::array<Scalar, nodes> J_{};  // not_known where the scan has had no reason to look
         std::size_t node_ = 0;
         std::size_t best_node_ = 0;
-        std::size_t low_node_ = 0;   // the interval's last nodes inside
+        std::size_t low_node_ = 0;  // the interval's last nodes inside
         std::size_t high_node_ = 0;
         Profile best_{};
         Scalar centre_rad_{0};
@@ -180,7 +182,8 @@ class EngagementSolver {
     };
 
     /// Takes up a solution for the given side. With CutSide::unknown both down and up are tried and the one that fits
-    /// better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the same immersion.
+    /// better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the same
+    /// immersion.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                CutSide side) const {
         search.asked_ = side;
@@ -580,7 +583,8 @@ class EngagementSolver {
         const Scalar threshold = s.best_.misfit + threshold_of_95_percent;
         const auto crossing = [&](std::size_t inside, std::size_t outside) {
             const Scalar rise = J[outside] - J[inside];
-            const Scalar share = rise > Scalar(0) ? clamp((threshold - J[inside]) / rise, Scalar(0), Scalar(1)) : Scalar(0);
+            const Scalar share =
+                rise > Scalar(0) ? clamp((threshold - J[inside]) / rise, Scalar(0), Scalar(1)) : Scalar(0);
             const Scalar inside_rad = node_rad(forces, inside);
             return inside_rad + (node_rad(forces, outside) - inside_rad) * share;
         };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/cutting_law.hpp"
@@ -50,7 +51,7 @@ class EngagementTable {
     EngagementTable() = default;
 
     [[gnu::cold]] void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
-               Scalar largest_rad) {
+                             Scalar largest_rad) {
         using elementary::log;
         law_ = law;
         teeth_ = teeth;
@@ -82,7 +83,8 @@ class EngagementTable {
                 law_.k_1 * exp(law_.p_1 * ln_f), has_reference_ ? ln_f - ln_reference_ : Scalar(0)};
     }
 
-    /// Of a coefficient: its relative variance at t_ref and the deviation of its exponent, which counts with ln(t_a/t_ref).
+    /// Of a coefficient: its relative variance at t_ref and the deviation of its exponent, which counts with
+    /// ln(t_a/t_ref).
     struct Doubt {
         Scalar relative_variance{0};
         Scalar exponent_sd{0};

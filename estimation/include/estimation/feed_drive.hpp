@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/measurement.hpp"
@@ -73,20 +74,21 @@ class FrictionScale {
 
 template <typename Scalar>
 struct FeedDriveParameters {
-    FrictionCurrent<Scalar> positive{};    ///< growth of the friction current with speed, travelling in + direction
-    FrictionCurrent<Scalar> negative{};    ///< of its magnitude, travelling in − direction
-    Scalar K_x3_A{0};                      ///< constant friction current, of both directions: see gravity_A
-    Scalar gravity_A{0};                   ///< current that holds the axis against its weight; half the difference of
-                                           ///< the directions' constant friction is in it: air data cannot tell them apart
-    Scalar K_x4_N_per_A{0};                ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
-    Scalar K_x5_N_m_per_min{0};            ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
-    Scalar mass_kg{0};                     ///< moved mass, with the motor's inertia reflected
-    Scalar velocity_floor_mm_s{1};         ///< below it there is no estimate: friction is undefined at rest
-    Scalar gain_relative_sd{static_cast<Scalar>(0.03L)};        ///< of K_x4, from its calibration
-    Scalar friction_relative_sd{static_cast<Scalar>(0.2L)};     ///< of I_f before the first re-zeroing in air
+    FrictionCurrent<Scalar> positive{};  ///< growth of the friction current with speed, travelling in + direction
+    FrictionCurrent<Scalar> negative{};  ///< of its magnitude, travelling in − direction
+    Scalar K_x3_A{0};                    ///< constant friction current, of both directions: see gravity_A
+    Scalar gravity_A{0};                 ///< current that holds the axis against its weight; half the difference of
+                          ///< the directions' constant friction is in it: air data cannot tell them apart
+    Scalar K_x4_N_per_A{0};         ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
+    Scalar K_x5_N_m_per_min{0};     ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
+    Scalar mass_kg{0};              ///< moved mass, with the motor's inertia reflected
+    Scalar velocity_floor_mm_s{1};  ///< below it there is no estimate: friction is undefined at rest
+    Scalar gain_relative_sd{static_cast<Scalar>(0.03L)};           ///< of K_x4, from its calibration
+    Scalar friction_relative_sd{static_cast<Scalar>(0.2L)};        ///< of I_f before the first re-zeroing in air
     Scalar friction_walk_per_sqrt_s{static_cast<Scalar>(0.002L)};  ///< drift of I_f, relative
-    Scalar friction_ripple_A{static_cast<Scalar>(0.05L)};       ///< position-dependent part of friction that no average removes
-    Scalar current_sd_A{static_cast<Scalar>(0.1L)};             ///< noise of one current sample
+    Scalar friction_ripple_A{
+        static_cast<Scalar>(0.05L)};                 ///< position-dependent part of friction that no average removes
+    Scalar current_sd_A{static_cast<Scalar>(0.1L)};  ///< noise of one current sample
 };
 
 /// Mean force of the cut along one feed axis from its motor current.
@@ -118,16 +120,18 @@ class FeedDrive {
             return {};
         }
         const Scalar friction_A = signed_friction_A(average);
-        const Scalar cut_A = average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
+        const Scalar cut_A =
+            average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
         const Scalar inertial_N = inertial_force_N(average);
         const Scalar force = parameters_.K_x4_N_per_A * cut_A + force_by_speed_N(average) - inertial_N;
         const Scalar friction_variance =
             square(friction_A) * friction_scale_.variance(direction(average)) + square(parameters_.friction_ripple_A);
         const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
                              square(inertia_share_in_doubt * inertial_N);
-        return {true, force,
-                noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
-                noise};
+        return {
+            true, force,
+            noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
+            noise};
     }
 
     /// Time passes: the friction may have moved.
@@ -139,10 +143,8 @@ class FeedDrive {
         if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
             return;
         }
-        const Scalar other_A = parameters_.gravity_A +
-                               (inertial_force_N(average) -
-                                force_by_speed_N(average)) /
-                                   parameters_.K_x4_N_per_A;
+        const Scalar other_A =
+            parameters_.gravity_A + (inertial_force_N(average) - force_by_speed_N(average)) / parameters_.K_x4_N_per_A;
         friction_scale_.correct(direction(average), {true, (average.current_A - other_A) / friction_A,
                                                      current_variance_A2(average) / square(friction_A)});
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/detail/fixed_functions.hpp"
@@ -16,19 +17,20 @@
 ///   range ±2 147 483 647.99, resolution 2⁻³² = 2.3e-10, the same for every quantity: nothing is rescaled
 ///
 /// One format serves because of its width: the largest number of the tick is a squared force (30 kN: 9e8 N²), the
-/// smallest ones that matter are drift variances per sample (1e-8). The table of quantities stands in firmware/README.md.
+/// smallest ones that matter are drift variances per sample (1e-8). The table of quantities stands in
+/// firmware/README.md.
 ///
 /// Every operation rounds to nearest. What does not fit becomes the nearest end of the range and is counted
-/// (`saturations()`); nothing wraps, there is no infinity and no NaN. x/0 is the end of the range, 0/0 is 0, both counted.
-/// From float: NaN and infinity become 0, counted; "no number" is no measurement, and who must know asks before.
+/// (`saturations()`); nothing wraps, there is no infinity and no NaN. x/0 is the end of the range, 0/0 is 0, both
+/// counted. From float: NaN and infinity become 0, counted; "no number" is no measurement, and who must know asks
+/// before.
 ///
-/// Functions, found by ADL: sqrt (0 for x < 0), sin, cos, tan, atan, atan2, acos, asin (argument clipped to ±1), exp, log,
-/// pow, floor, ceil, abs.
-/// Errors: sqrt 2⁻³² relative; sin, cos, atan2 2e-9; acos 3e-9, within 1e-4 of ±1 1e-6; exp 3e-9 relative or half a
-/// resolution; log 2e-9.
+/// Functions, found by ADL: sqrt (0 for x < 0), sin, cos, tan, atan, atan2, acos, asin (argument clipped to ±1), exp,
+/// log, pow, floor, ceil, abs. Errors: sqrt 2⁻³² relative; sin, cos, atan2 2e-9; acos 3e-9, within 1e-4 of ±1 1e-6; exp
+/// 3e-9 relative or half a resolution; log 2e-9.
 ///
-/// Cost on a Cortex-M3 in instructions: + 3, × 20 (60 beyond 2¹⁵), ÷ 125, √ 125; in soft float 60, 45, 140. Not thread-safe
-/// in its counter.
+/// Cost on a Cortex-M3 in instructions: + 3, × 20 (60 beyond 2¹⁵), ÷ 125, √ 125; in soft float 60, 45, 140. Not
+/// thread-safe in its counter.
 
 namespace millforce::estimation {
 
@@ -72,10 +74,18 @@ class FixedPoint {
 
     constexpr FixedPoint operator-() const { return from_raw(detail::negate<Policy>(raw_)); }
     constexpr FixedPoint operator+() const { return *this; }
-    friend constexpr FixedPoint operator+(FixedPoint a, FixedPoint b) { return seen(detail::add<Policy>(a.raw_, b.raw_)); }
-    friend constexpr FixedPoint operator-(FixedPoint a, FixedPoint b) { return seen(detail::subtract<Policy>(a.raw_, b.raw_)); }
-    friend constexpr FixedPoint operator*(FixedPoint a, FixedPoint b) { return seen(detail::multiply<Policy>(a.raw_, b.raw_)); }
-    friend constexpr FixedPoint operator/(FixedPoint a, FixedPoint b) { return seen(detail::divide<Policy>(a.raw_, b.raw_)); }
+    friend constexpr FixedPoint operator+(FixedPoint a, FixedPoint b) {
+        return seen(detail::add<Policy>(a.raw_, b.raw_));
+    }
+    friend constexpr FixedPoint operator-(FixedPoint a, FixedPoint b) {
+        return seen(detail::subtract<Policy>(a.raw_, b.raw_));
+    }
+    friend constexpr FixedPoint operator*(FixedPoint a, FixedPoint b) {
+        return seen(detail::multiply<Policy>(a.raw_, b.raw_));
+    }
+    friend constexpr FixedPoint operator/(FixedPoint a, FixedPoint b) {
+        return seen(detail::divide<Policy>(a.raw_, b.raw_));
+    }
     constexpr FixedPoint& operator+=(FixedPoint other) { return *this = *this + other; }
     constexpr FixedPoint& operator-=(FixedPoint other) { return *this = *this - other; }
     constexpr FixedPoint& operator*=(FixedPoint other) { return *this = *this * other; }
@@ -94,7 +104,8 @@ class FixedPoint {
     friend constexpr FixedPoint tan(FixedPoint x) { return sin(x) / cos(x); }
     friend constexpr FixedPoint atan2(FixedPoint y, FixedPoint x) { return seen(detail::raw_atan2(y.raw_, x.raw_)); }
     friend constexpr FixedPoint acos(FixedPoint x) {
-        const Raw inside = x.raw_ > detail::raw_one ? detail::raw_one : (x.raw_ < -detail::raw_one ? -detail::raw_one : x.raw_);
+        const Raw inside =
+            x.raw_ > detail::raw_one ? detail::raw_one : (x.raw_ < -detail::raw_one ? -detail::raw_one : x.raw_);
         return seen(detail::raw_acos(inside));
     }
     friend constexpr FixedPoint atan(FixedPoint x) { return atan2(x, FixedPoint(1)); }
@@ -130,7 +141,8 @@ class FixedPoint {
 
     template <typename Float>
     static consteval Raw from_constant(Float value) {
-        const Float scaled = value * Float{4294967296} + (value < Float{0} ? static_cast<Float>(-0.5L) : static_cast<Float>(0.5L));
+        const Float scaled =
+            value * Float{4294967296} + (value < Float{0} ? static_cast<Float>(-0.5L) : static_cast<Float>(0.5L));
         constexpr auto most = static_cast<Float>(detail::raw_highest);
         return scaled >= most ? detail::raw_highest : (scaled <= -most ? detail::raw_lowest : static_cast<Raw>(scaled));
     }
@@ -188,7 +200,9 @@ struct StoredAs<FixedPoint<Policy>> {
     using Type = float;
 };
 
-[[nodiscard]] inline std::uint32_t saturations() { return CountSaturations::saturations; }
+[[nodiscard]] inline std::uint32_t saturations() {
+    return CountSaturations::saturations;
+}
 
 }  // namespace millforce::estimation
 
@@ -224,6 +238,14 @@ struct Eigen::NumTraits<millforce::estimation::FixedPoint<Policy>>
     using NonInteger = Fixed;
     using Literal = Fixed;
     using Nested = Fixed;
-    enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 4, MulCost = 40 };
+    enum {
+        IsComplex = 0,
+        IsInteger = 0,
+        IsSigned = 1,
+        RequireInitialization = 1,
+        ReadCost = 2,
+        AddCost = 4,
+        MulCost = 40
+    };
     static constexpr Fixed dummy_precision() { return Fixed::from_raw(16); }
 };

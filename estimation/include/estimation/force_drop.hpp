@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/elementary.hpp"
 #include "estimation/air_gap.hpp"
+#include "estimation/elementary.hpp"
 #include "estimation/force_drop_detector.hpp"
 #include "estimation/force_drop_immersion.hpp"
 
@@ -81,11 +82,10 @@ class ForceDrop {
         return true;
     }
 
-    /// add() in two steps: collect() for the sampling loop, evaluate() for whatever runs beside it. Where collect() says
-    /// that the revolutions are whole, samples are dropped until evaluate() has taken them.
+    /// add() in two steps: collect() for the sampling loop, evaluate() for whatever runs beside it. Where collect()
+    /// says that the revolutions are whole, samples are dropped until evaluate() has taken them.
     bool collect(const ForceDropSample<Scalar>& sample) {
-        complete_ =
-            complete_ || profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N);
+        complete_ = complete_ || profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N);
         return complete_;
     }
     [[nodiscard]] bool complete() const { return complete_; }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/elementary.hpp"
@@ -167,9 +168,9 @@ class ForceDropImmersion {
 
     [[nodiscard]] Value residual(Equation equation, const ForceDropInputs<Scalar>& in,
                                  const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
-        using std::atan;
         using elementary::cos;
         using elementary::log;
+        using std::atan;
         const ForceDropRatios<Scalar> ratios = ratios_at(in, m, theta_rad);
         if (!ratios.possible) {
             return {};

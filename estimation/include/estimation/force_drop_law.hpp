@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/elementary.hpp"
 #include "estimation/cut_geometry.hpp"
 #include "estimation/cutting_law.hpp"
+#include "estimation/elementary.hpp"
 #include "estimation/measurement.hpp"
 
 #include <Eigen/Core>

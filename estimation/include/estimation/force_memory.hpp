@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/engagement_solver.hpp"
@@ -17,11 +18,11 @@ template <typename Scalar>
 
 /// Averages over as many revolutions as the cut stays the same.
 ///
-/// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones. The memory
-/// fades with disagreement: a force within two standard deviations of its noise leaves it whole, one at four deviations
-/// or a feed in another direction leaves nothing, and it starts anew: no lag behind a change, little noise without one.
-/// In between it fades by the square, so that no last digit decides. Only noise shrinks by averaging; what is common to
-/// all windows (gain, friction, drift) stays whole.
+/// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones. The
+/// memory fades with disagreement: a force within two standard deviations of its noise leaves it whole, one at four
+/// deviations or a feed in another direction leaves nothing, and it starts anew: no lag behind a change, little noise
+/// without one. In between it fades by the square, so that no last digit decides. Only noise shrinks by averaging; what
+/// is common to all windows (gain, friction, drift) stays whole.
 template <typename Scalar>
 class ForceMemory {
   public:
@@ -54,7 +55,8 @@ class ForceMemory {
             return false;
         }
         const Scalar off_N = tangential_N.value - held_.tangential_N.value;
-        return !tangential_N.valid || square(off_N) <= square(holding_deviations) * variance_per_noise() * tangential_N.noise;
+        return !tangential_N.valid ||
+               square(off_N) <= square(holding_deviations) * variance_per_noise() * tangential_N.noise;
     }
 
     [[nodiscard]] Scalar revolutions() const { return revolutions_; }

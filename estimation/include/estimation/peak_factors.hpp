@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/cutting_law.hpp"
@@ -43,8 +44,8 @@ struct PeakFactors {
 /// In-plane force of one tooth whose tip stands at θ (the tip leads; the edge above it lags by the helix).
 template <typename Scalar>
 [[gnu::cold]] AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm,
-                                         Scalar axial_depth_mm, Scalar sweep_rad, EngagementAngles<Scalar> engagement,
-                                         Scalar tip_angle_rad) {
+                                                       Scalar axial_depth_mm, Scalar sweep_rad,
+                                                       EngagementAngles<Scalar> engagement, Scalar tip_angle_rad) {
     constexpr Scalar least_sweep = static_cast<Scalar>(1e-3L);  // a straight edge: the limit of a small helix
     const Scalar sweep = sweep_rad > least_sweep ? sweep_rad : least_sweep;
     const Scalar low = tip_angle_rad - sweep > engagement.entry_rad ? tip_angle_rad - sweep : engagement.entry_rad;
@@ -69,18 +70,17 @@ template <typename Scalar, int Steps = 72>
 [[gnu::cold]] PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law,
                                                const PeakFactorSettings<Scalar>& settings, Scalar radial_immersion,
                                                Scalar axial_depth_mm) {
-    using std::sqrt;
     using elementary::tan;
+    using std::sqrt;
     const EngagementAngles<Scalar> engagement =
         engagement_angles(settings.side, radial_immersion, settings.centre_offset_in_radii);
     const Scalar sweep = axial_depth_mm * tan(settings.helix_rad) / settings.cutter_radius_mm;
     const Scalar feed = settings.nominal_feed_per_tooth_mm;
     // Forces per mm of depth, which is common to both: their squares stay within the range of fixed point.
     constexpr Scalar depth_mm{1};
-    const Scalar F_at = average_forces(law, CutConditions<Scalar>{feed, depth_mm, engagement, settings.teeth}).tangential_N;
-    const auto tooth_at = [&](Scalar tip) {
-        return single_tooth_force(law, feed, depth_mm, sweep, engagement, tip);
-    };
+    const Scalar F_at =
+        average_forces(law, CutConditions<Scalar>{feed, depth_mm, engagement, settings.teeth}).tangential_N;
+    const auto tooth_at = [&](Scalar tip) { return single_tooth_force(law, feed, depth_mm, sweep, engagement, tip); };
     const Scalar first = engagement.entry_rad;
     const Scalar passage = engagement.exit_rad + sweep - first;
     const Scalar pitch = Scalar(2) * pi<Scalar> / settings.teeth;
@@ -156,7 +156,8 @@ class ToothPeakTable {
     /// Immersion is clipped to 0.02…2. Any depth ≥ 0.
     [[nodiscard]] Scalar at(Scalar radial_immersion, Scalar axial_depth_mm) const {
         using elementary::acos;
-        return at_angle(acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion, axial_depth_mm);
+        return at_angle(acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion,
+                        axial_depth_mm);
     }
 
     /// The same where θ is known as well, R_r = 1 − cos θ. Some 40 operations but for CutSide::centred, which takes two
@@ -225,7 +226,8 @@ class ToothPeakTable {
     }
     [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-    std::array<std::array<Stored<Scalar>, static_cast<std::size_t>(SweepNodes)>, static_cast<std::size_t>(ImmersionNodes)>
+    std::array<std::array<Stored<Scalar>, static_cast<std::size_t>(SweepNodes)>,
+               static_cast<std::size_t>(ImmersionNodes)>
         nodes_{};
     Scalar sweep_rad_per_mm_{0};
     Scalar centre_offset_in_radii_{0};

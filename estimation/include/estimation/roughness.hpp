@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/elementary.hpp"
@@ -167,15 +168,15 @@ class RoughnessPredictor {
     /// a slower feed would not help). Cost: 18 times 15 products and a root, and
     /// two predictions.
     [[nodiscard, gnu::cold]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
-                                           const Measurement<Scalar>& f_z, Scalar limit_um) const;
+                                                      const Measurement<Scalar>& f_z, Scalar limit_um) const;
 
   private:
     static constexpr std::size_t count = static_cast<std::size_t>(roughness_variable_count);
 
     [[nodiscard, gnu::cold]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
-                                                            Scalar ratio_ln_variance) const;
+                                                                       Scalar ratio_ln_variance) const;
     [[nodiscard, gnu::cold]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
-                                             Scalar ratio_ln_variance) const;
+                                                        Scalar ratio_ln_variance) const;
     [[nodiscard]] static bool are_usable(const RoughnessConditions<Scalar>& cut);
     [[nodiscard]] RoughnessValues<Scalar> logarithms(const RoughnessConditions<Scalar>& cut) const;
     [[nodiscard]] Scalar ln_roughness(const RoughnessValues<Scalar>& z) const;

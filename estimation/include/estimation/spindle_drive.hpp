@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/warm_up_tracker.hpp"
@@ -6,18 +7,18 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct SpindleDriveParameters {
-    Scalar K_t1_Nm_per_A{0};              ///< torque per ampere below base speed (the paper's K_t1 times R)
-    Scalar K_t2_Nm{0};                    ///< torque at zero current, −K_t1 × idle current (the paper's K_t2 times R)
-    Scalar idle_torque_slope_Nm_s{0};     ///< growth of the idle torque with speed, N·m per rad/s
-    Scalar inertia_kg_m2{0};              ///< J of spindle, rotor and tool
-    Scalar base_speed_rad_s{0};           ///< above it K_t1 falls as base/ω (constant power); 0: never
-    Scalar gain_relative_sd{static_cast<Scalar>(0.02L)};       ///< of K_t1, from its calibration
-    Scalar idle_torque_sd_Nm{static_cast<Scalar>(0.2L)};       ///< of the idle torque before the first re-zeroing in air
+    Scalar K_t1_Nm_per_A{0};           ///< torque per ampere below base speed (the paper's K_t1 times R)
+    Scalar K_t2_Nm{0};                 ///< torque at zero current, −K_t1 × idle current (the paper's K_t2 times R)
+    Scalar idle_torque_slope_Nm_s{0};  ///< growth of the idle torque with speed, N·m per rad/s
+    Scalar inertia_kg_m2{0};           ///< J of spindle, rotor and tool
+    Scalar base_speed_rad_s{0};        ///< above it K_t1 falls as base/ω (constant power); 0: never
+    Scalar gain_relative_sd{static_cast<Scalar>(0.02L)};  ///< of K_t1, from its calibration
+    Scalar idle_torque_sd_Nm{static_cast<Scalar>(0.2L)};  ///< of the idle torque before the first re-zeroing in air
     Scalar idle_walk_Nm_per_sqrt_s{static_cast<Scalar>(0.01L)};  ///< drift of the idle torque
-    Scalar warm_up_torque_Nm{0};          ///< idle torque of the cold spindle above that of the warm one
+    Scalar warm_up_torque_Nm{0};  ///< idle torque of the cold spindle above that of the warm one
     Scalar warm_up_torque_sd_Nm{0};
-    Scalar warm_up_time_s{0};             ///< time constant of the warming; 0: not known
-    Scalar current_sd_A{static_cast<Scalar>(0.1L)};            ///< noise of one current sample
+    Scalar warm_up_time_s{0};                        ///< time constant of the warming; 0: not known
+    Scalar current_sd_A{static_cast<Scalar>(0.1L)};  ///< noise of one current sample
 };
 
 /// Mean tangential force from the spindle's motor current.
@@ -25,8 +26,9 @@ struct SpindleDriveParameters {
 ///   F_at = (K_t1(ω) I + K_t2 − k ω − δ − J dω/dt) / R            Kim & Chung Eq. 8, with inertia, speed and drift
 ///   K_t1(ω) = K_t1 for ω ≤ ω_base, K_t1 ω_base/ω above           field weakening: constant power
 ///
-/// δ is the idle torque's drift, re-zeroed in air by rezero(); between two such moments it falls as the bearing warms up. Averages over whole tooth periods are meant: between
-/// teeth the rotor stores what the current does not show. R > 0 in mm, ω in rad/s, I in A. Not thread-safe.
+/// δ is the idle torque's drift, re-zeroed in air by rezero(); between two such moments it falls as the bearing warms
+/// up. Averages over whole tooth periods are meant: between teeth the rotor stores what the current does not show. R >
+/// 0 in mm, ω in rad/s, I in A. Not thread-safe.
 template <typename Scalar>
 class SpindleDrive {
   public:
@@ -61,8 +63,8 @@ class SpindleDrive {
     /// Time passes: the drift may have moved.
     void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
 
-    /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of its
-    /// inertia's torque a share is in doubt.
+    /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of
+    /// its inertia's torque a share is in doubt.
     [[gnu::cold]] void rezero(const Average& average) {
         if (!is_usable(average)) {
             return;
@@ -99,12 +101,11 @@ class SpindleDrive {
                parameters_.inertia_kg_m2 * average.acceleration_rad_s2;
     }
 
-    /// Of the torque times `unit`. The unit goes in before the square: that of a small spindle's torque in N·m, 1e-10, is
-    /// at the end of fixed point's digits.
+    /// Of the torque times `unit`. The unit goes in before the square: that of a small spindle's torque in N·m, 1e-10,
+    /// is at the end of fixed point's digits.
     [[nodiscard]] Scalar noise_variance(const Average& average, Scalar unit) const {
         const Scalar sd = torque_constant_Nm_per_A(average.speed_rad_s) * parameters_.current_sd_A * unit;
-        return square(sd) / average.samples +
-               square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;
+        return square(sd) / average.samples + square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;
     }
 
     SpindleDriveParameters<Scalar> parameters_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/least_squares.hpp"
@@ -29,13 +30,13 @@ namespace millforce::estimation {
 template <typename Scalar>
 struct StandardCutStretch {
     Scalar spindle_current_A{0};
-    Scalar torque_Nm{0};              ///< T + k ω: of the cut by the database, 0 in air, plus the idle slope's share
-    Scalar drift{0};                  ///< e^(−t/τ), or the share of the recording that is still to come
-    Scalar feed_current_A{0};         ///< of the axis that feeds, without I_g
-    Scalar friction_current_A{0};     ///< I_f(w) by the air cuts, with the sign of w
-    Scalar feed_m_per_min{0};         ///< w, with its sign
-    Scalar feed_force_N{0};           ///< F_ax by the database along the axis' + direction, 0 in air
-    Scalar weight{1};                 ///< 1/sd of the mean currents, up to a common factor: √duration
+    Scalar torque_Nm{0};           ///< T + k ω: of the cut by the database, 0 in air, plus the idle slope's share
+    Scalar drift{0};               ///< e^(−t/τ), or the share of the recording that is still to come
+    Scalar feed_current_A{0};      ///< of the axis that feeds, without I_g
+    Scalar friction_current_A{0};  ///< I_f(w) by the air cuts, with the sign of w
+    Scalar feed_m_per_min{0};      ///< w, with its sign
+    Scalar feed_force_N{0};        ///< F_ax by the database along the axis' + direction, 0 in air
+    Scalar weight{1};              ///< 1/sd of the mean currents, up to a common factor: √duration
     bool in_cut = false;
 };
 
@@ -53,13 +54,13 @@ enum class StandardCutLack : unsigned char {
 template <typename Scalar>
 struct DriveGainFit {
     StandardCutLack lack = StandardCutLack::nothing;  ///< beside `nothing` the values are not to be used
-    Scalar gain{0};          ///< K_t1 in N·m/A, or K_x4 in N/A
+    Scalar gain{0};                                   ///< K_t1 in N·m/A, or K_x4 in N/A
     Scalar gain_se{0};
-    Scalar offset{0};        ///< K_t2 in N·m with the bearing warm, or K_x5 in N·m/min
+    Scalar offset{0};  ///< K_t2 in N·m with the bearing warm, or K_x5 in N·m/min
     Scalar offset_se{0};
-    Scalar nuisance{0};      ///< excess of the cold idle current in A, or κ
+    Scalar nuisance{0};  ///< excess of the cold idle current in A, or κ
     Scalar nuisance_se{0};
-    Scalar residual_A{0};    ///< standard deviation of the mean currents about the fit
+    Scalar residual_A{0};  ///< standard deviation of the mean currents about the fit
     int rows{0};
 };
 
@@ -144,10 +145,11 @@ DriveGainFit<Scalar> fit_spindle_gain(std::span<const StandardCutStretch<Scalar>
     DriveGainFit<Scalar> result;
     const auto solution = fit.solve();
     const int in_air = fit.rows() - loads.count();
-    result.lack = loads.count() == 0                       ? StandardCutLack::cut
-                  : in_air == 0                            ? StandardCutLack::air
-                  : !loads.spans(rules.least_load_ratio)   ? StandardCutLack::second_load
-                                                           : detail::lack_of_fit(solution, by_torque, constant, drifts ? 3 : 2);
+    result.lack = loads.count() == 0 ? StandardCutLack::cut
+                  : in_air == 0      ? StandardCutLack::air
+                  : !loads.spans(rules.least_load_ratio)
+                      ? StandardCutLack::second_load
+                      : detail::lack_of_fit(solution, by_torque, constant, drifts ? 3 : 2);
     if (result.lack == StandardCutLack::nothing) {
         detail::fill_drive_gain(solution, by_torque, constant, cold, Scalar(-1), result);
     }

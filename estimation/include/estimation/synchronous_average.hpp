@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/measurement.hpp"
@@ -25,9 +26,10 @@ class SynchronousAverage {
     using Slopes = Eigen::Matrix<Scalar, Channels - FirstSlope, 1>;
 
     struct Settings {
-        int teeth = 4;            ///< tooth periods per revolution, 1…12
-        Scalar min_samples{12};   ///< a window has at least this many samples, rounded up to whole revolutions
-        Scalar max_gap_s{static_cast<Scalar>(0.05L)};  ///< a longer gap between samples starts anew, however slowly the spindle turns
+        int teeth = 4;           ///< tooth periods per revolution, 1…12
+        Scalar min_samples{12};  ///< a window has at least this many samples, rounded up to whole revolutions
+        Scalar max_gap_s{static_cast<Scalar>(
+            0.05L)};  ///< a longer gap between samples starts anew, however slowly the spindle turns
     };
 
     /// The means over one tooth period or one window.
@@ -43,8 +45,8 @@ class SynchronousAverage {
         Scalar spindle_speed_rad_s{0};
         Scalar spindle_acceleration_rad_s2{0};
         Slopes slope_per_s = Slopes::Zero();  ///< of each signal from FirstSlope on: newer half against older half
-        int revolutions = 0;                    ///< 0: not enough has been seen since the last start
-        int tooth_periods = 0;                  ///< of them
+        int revolutions = 0;                  ///< 0: not enough has been seen since the last start
+        int tooth_periods = 0;                ///< of them
     };
 
     explicit SynchronousAverage(const Settings& settings = {})
@@ -60,7 +62,8 @@ class SynchronousAverage {
     /// Adds one sample. `turned_rev` since the last sample (0 ≤ turned < 0.45), `angle_rev` after it (0…1).
     /// Returns how many tooth periods were completed (0 or more).
     int add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals, std::uint32_t present) {
-        return add(dt_s, turned_rev, [angle_rev] { return angle_rev; }, signals, present);
+        return add(
+            dt_s, turned_rev, [angle_rev] { return angle_rev; }, signals, present);
     }
     /// The same with an angle that is asked for where it is needed. Inlined: it is most of a tick.
     template <std::invocable Angle>
@@ -134,13 +137,14 @@ class SynchronousAverage {
         Scalar share = step_rev / turned_rev;
         Scalar remaining_rev = turned_rev - step_rev;
         int completed = close_period({Scalar(0), share, turned_rev, step_rev}, dt_s, signals, both_present);
-        while (!(remaining_rev < pitch_rev_)) [[unlikely]] {
-            const Scalar next = share + pitch_rev_ / turned_rev;
-            begin_period();
-            completed += close_period({share, next, turned_rev, pitch_rev_}, dt_s, signals, both_present);
-            share = next;
-            remaining_rev -= pitch_rev_;
-        }
+        while (!(remaining_rev < pitch_rev_))
+            [[unlikely]] {
+                const Scalar next = share + pitch_rev_ / turned_rev;
+                begin_period();
+                completed += close_period({share, next, turned_rev, pitch_rev_}, dt_s, signals, both_present);
+                share = next;
+                remaining_rev -= pitch_rev_;
+            }
         to_boundary_rev_ = distance_to_boundary(angle_rev, pitch_rev_ - remaining_rev);
         const Weights weights = weights_of({share, Scalar(1), turned_rev, remaining_rev});
         sum_ = previous_signals_ * weights.previous_rev;
@@ -220,8 +224,8 @@ class SynchronousAverage {
         }
     }
 
-    /// Adds a whole interval between the previous sample and the present one, as is usual. A line's integral is the mean
-    /// of its ends times the way: the previous sample gets half of the way before it and half of this one, and the
+    /// Adds a whole interval between the previous sample and the present one, as is usual. A line's integral is the
+    /// mean of its ends times the way: the previous sample gets half of the way before it and half of this one, and the
     /// present one waits for its next.
     void accumulate_whole(Scalar dt_s, Scalar turned_rev, std::uint32_t present) {
         const Scalar half_rev = halved(turned_rev);
@@ -307,8 +311,7 @@ class SynchronousAverage {
         window.spindle_speed_rad_s = Scalar(count) * pitch_rad / duration_s;
         const Scalar apart_s = duration_s - halved(newer_duration_s + older_duration_s);
         if (apart_s > Scalar(0)) {
-            window.spindle_acceleration_rad_s2 =
-                (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
+            window.spindle_acceleration_rad_s2 = (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
             window.slope_per_s = (newer - older) * (Scalar(1) / (Scalar(half) * apart_s));
         } else {
             window.spindle_acceleration_rad_s2 = Scalar(0);

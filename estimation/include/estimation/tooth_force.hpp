@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/cut_estimate.hpp"
@@ -26,8 +27,8 @@ class ToothForce {
           runout_mm_(settings.runout_mm),
           feed_exponent_(Scalar(1) + law.p_s) {}
 
-    /// Fills in what F_at, feed and engagement of `e` tell of one tooth. The peaks are those at the immersion that is known,
-    /// else at the last one, else at the assumed one.
+    /// Fills in what F_at, feed and engagement of `e` tell of one tooth. The peaks are those at the immersion that is
+    /// known, else at the last one, else at the assumed one.
     void fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table) {
         using std::sqrt;
         const auto feed = table.feed(e.feed_per_tooth_mm);
@@ -92,7 +93,8 @@ class ToothForce {
             e.tooth_force_is_bound = true;
         };
         if (cut.immersion_valid) {
-            // At the narrow end of a wide interval it is nearly the most that the force can be: a quarter above the middle.
+            // At the narrow end of a wide interval it is nearly the most that the force can be: a quarter above the
+            // middle.
             const Scalar both_ends = factors.at_low + factors.at_high;
             e.tooth_force_is_bound = factors.now + factors.now > Scalar(1.25F) * both_ends;
             const Scalar factor_sd = (factors.at_low - factors.at_high) * static_cast<Scalar>(1.0L / 3.92L);

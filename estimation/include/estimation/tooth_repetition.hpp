@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/measurement.hpp"
@@ -6,9 +7,9 @@
 ///
 ///   d_k = I_k − I_(k−z),   changed: |d_k| > max(3 σ, ΔI) for one, or |Σ d| > max(3 σ √n, n ΔI), n = min(k, z), for all
 ///
-/// I_k: mean current of the k-th tooth period since start(), σ: the noise of a difference, ΔI: the least change that counts,
-/// z: teeth. A jump shows in one tooth. A change that creeps shows in the sum: beyond a revolution all but its first and
-/// last terms cancel, and it is z times what the mean over a revolution has changed by.
+/// I_k: mean current of the k-th tooth period since start(), σ: the noise of a difference, ΔI: the least change that
+/// counts, z: teeth. A jump shows in one tooth. A change that creeps shows in the sum: beyond a revolution all but its
+/// first and last terms cancel, and it is z times what the mean over a revolution has changed by.
 ///
 /// Currents in A. What is no number is a change. Not thread-safe.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/least_squares.hpp"
@@ -50,8 +51,7 @@ enum WarmUpIndex : int { warm_up_warm, warm_up_cold, warm_up_slope };
 
 /// `cold_for_slope` 0: τ is held, and its step has no column.
 template <typename Scalar>
-LeastSquares<Scalar, 3> warm_up_rows(std::span<const IdleTorque<Scalar>> samples, Scalar tau_s,
-                                     Scalar cold_for_slope) {
+LeastSquares<Scalar, 3> warm_up_rows(std::span<const IdleTorque<Scalar>> samples, Scalar tau_s, Scalar cold_for_slope) {
     using std::exp;
     LeastSquares<Scalar, 3> fit;
     for (const auto& sample : samples) {
@@ -113,8 +113,8 @@ WarmUpFit<Scalar> fit_warm_up(std::span<const IdleTorque<Scalar>> samples) {
         return result;
     }
     result.duration_s = samples.back().time_s - samples.front().time_s;
-    const Scalar tau = detail::search_warm_up_time(samples, log(result.duration_s / Scalar(20)),
-                                                   log(result.duration_s * Scalar(5)));
+    const Scalar tau =
+        detail::search_warm_up_time(samples, log(result.duration_s / Scalar(20)), log(result.duration_s * Scalar(5)));
     const Scalar cold = detail::warm_up_rows(samples, tau, Scalar(0)).solve().parameters(detail::warm_up_cold);
     const auto solution = detail::warm_up_rows(samples, tau, cold).solve(Scalar(1e6F));
     result.excess_Nm = cold;
@@ -125,9 +125,8 @@ WarmUpFit<Scalar> fit_warm_up(std::span<const IdleTorque<Scalar>> samples) {
     result.warm_se_Nm = solution.standard_error(detail::warm_up_warm);
     result.residual_Nm = solution.residual_sd;
     const bool long_enough = result.duration_s >= Scalar(1.5F) * tau && result.time_constant_se_s < tau / Scalar(5);
-    const bool falls = cold > Scalar(3) * detail::warm_up_rows(samples, tau, Scalar(0))
-                                              .solve()
-                                              .standard_error(detail::warm_up_cold);
+    const bool falls =
+        cold > Scalar(3) * detail::warm_up_rows(samples, tau, Scalar(0)).solve().standard_error(detail::warm_up_cold);
     result.lack = !falls ? WarmUpLack::excess : (!long_enough ? WarmUpLack::duration : WarmUpLack::nothing);
     return result;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 
 #include "common/processor.hpp"
@@ -56,7 +57,9 @@ void paint_stack() {
     }
 }
 
-std::uint32_t stack_size_bytes() { return bytes_between(&_stack_limit, &_stack_top); }
+std::uint32_t stack_size_bytes() {
+    return bytes_between(&_stack_limit, &_stack_top);
+}
 
 std::uint32_t untouched_stack_bytes() {
     const std::uint32_t* word = &_stack_limit;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/processor.hpp"
 
 #include <cstddef>
@@ -21,7 +22,9 @@ constexpr std::size_t fault_stack_words = 96;
 alignas(8) std::uint32_t fault_stack[fault_stack_words];
 
 // Addresses and bits: Armv7-M Architecture Reference Manual, B3.2 and B3.5.
-volatile std::uint32_t& at(std::uintptr_t address) { return *reinterpret_cast<volatile std::uint32_t*>(address); }
+volatile std::uint32_t& at(std::uintptr_t address) {
+    return *reinterpret_cast<volatile std::uint32_t*>(address);
+}
 constexpr std::uintptr_t icsr = 0xE000'ED04U;
 constexpr std::uintptr_t shcsr = 0xE000'ED24U;
 constexpr std::uintptr_t cfsr = 0xE000'ED28U;
@@ -55,7 +58,9 @@ void guard_stack() {
     asm volatile("dsb\n isb" ::: "memory");
 }
 
-bool is_in_stack(const std::uint32_t* frame) { return frame >= &_stack_limit && frame + 8 <= &_stack_top; }
+bool is_in_stack(const std::uint32_t* frame) {
+    return frame >= &_stack_limit && frame + 8 <= &_stack_top;
+}
 
 }  // namespace
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/processor.hpp"
 
 #include <cstddef>
@@ -35,14 +36,15 @@ std::uint32_t regions_of_mpu() {
     return type >> 8U & 0xFFU;
 }
 void set_region(std::uint32_t region, std::uint32_t base, std::uint32_t access, std::uint32_t size_and_enable) {
-    asm volatile("mcr p15, 0, %0, c6, c2, 0\n"
-                 "isb\n"
-                 "mcr p15, 0, %1, c6, c1, 0\n"
-                 "mcr p15, 0, %2, c6, c1, 4\n"
-                 "mcr p15, 0, %3, c6, c1, 2\n"
-                 :
-                 : "r"(region), "r"(base), "r"(access), "r"(size_and_enable)
-                 : "memory");
+    asm volatile(
+        "mcr p15, 0, %0, c6, c2, 0\n"
+        "isb\n"
+        "mcr p15, 0, %1, c6, c1, 0\n"
+        "mcr p15, 0, %2, c6, c1, 4\n"
+        "mcr p15, 0, %3, c6, c1, 2\n"
+        :
+        : "r"(region), "r"(base), "r"(access), "r"(size_and_enable)
+        : "memory");
 }
 
 /// Exceptions go to address 0, and come in the instruction set of this image.
@@ -109,9 +111,11 @@ void record_fault(std::uint32_t exception, std::uint32_t return_address, std::ui
     record.link_register = link_register;
     record.stack_pointer = stack_pointer;
     if (exception == prefetch_abort) {
-        asm volatile("mrc p15, 0, %0, c5, c0, 1\n mrc p15, 0, %1, c6, c0, 2" : "=r"(record.status), "=r"(record.address));
+        asm volatile("mrc p15, 0, %0, c5, c0, 1\n mrc p15, 0, %1, c6, c0, 2"
+                     : "=r"(record.status), "=r"(record.address));
     } else if (exception == data_abort) {
-        asm volatile("mrc p15, 0, %0, c5, c0, 0\n mrc p15, 0, %1, c6, c0, 0" : "=r"(record.status), "=r"(record.address));
+        asm volatile("mrc p15, 0, %0, c5, c0, 0\n mrc p15, 0, %1, c6, c0, 0"
+                     : "=r"(record.status), "=r"(record.address));
     }
     millforce::board::on_processor_fault(record);
 }

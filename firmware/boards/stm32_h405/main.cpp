@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller of an STM32F405: composition root, and what happens when the processor itself fails.
 
 #include "common/processor.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller on the first Cortex-R5F of a ZCU102, drives and CNC on its CAN 0: composition root.
 
 #include "common/processor.hpp"
@@ -72,4 +73,6 @@ void millforce::board::run_image() {
     }
 }
 
-void millforce::board::on_processor_fault(const FaultRecord&) { stay_silent(); }
+void millforce::board::on_processor_fault(const FaultRecord&) {
+    stay_silent();
+}

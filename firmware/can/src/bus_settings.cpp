@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware_can/bus_settings.hpp"
 
 #include <cmath>
@@ -7,9 +8,15 @@ namespace millforce::firmware {
 namespace {
 
 /// To the nearest; the table's ranges keep the values positive.
-std::uint32_t whole(float value) { return static_cast<std::uint32_t>(std::llround(value)); }
-std::uint32_t microseconds_of(float milliseconds) { return whole(milliseconds * 1e3F); }
-bool is_set(float value) { return value > 0.5F; }
+std::uint32_t whole(float value) {
+    return static_cast<std::uint32_t>(std::llround(value));
+}
+std::uint32_t microseconds_of(float milliseconds) {
+    return whole(milliseconds * 1e3F);
+}
+bool is_set(float value) {
+    return value > 0.5F;
+}
 
 cia402::DriveSettings drive_settings(const BusDriveParameters<float>& p, float rated_current_A,
                                      const DriveObjects& objects) {

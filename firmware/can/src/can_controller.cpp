@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware_can/can_controller.hpp"
 
 #include <algorithm>
@@ -294,8 +295,7 @@ bool CanController::take_frame(hal::CanFrame& frame) {
 }
 
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
-    std::uint64_t next_us =
-        now_us + std::min(settings_.feed_override.period_us, settings_.drives.sync_period_us);
+    std::uint64_t next_us = now_us + std::min(settings_.feed_override.period_us, settings_.drives.sync_period_us);
     if (settings_.drives.produces_sync && is_running_ && !stopped_) {
         next_us = std::min(next_us, sync_.next_us());
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -13,10 +14,10 @@
 
 namespace millforce::firmware {
 
-/// Forces within a revolution in the feed's frame, sample by sample: of the force sensor where the tool's parameters tell
-/// its low-pass, else of the feed drives (FeedForceObserver), which follow the teeth where tooth passing is slow and
-/// both axes travel. Not valid where something is missing or not finite, the feed stands, or the spindle does not turn
-/// on. Some 60 operations a sample. Not thread-safe.
+/// Forces within a revolution in the feed's frame, sample by sample: of the force sensor where the tool's parameters
+/// tell its low-pass, else of the feed drives (FeedForceObserver), which follow the teeth where tooth passing is slow
+/// and both axes travel. Not valid where something is missing or not finite, the feed stands, or the spindle does not
+/// turn on. Some 60 operations a sample. Not thread-safe.
 template <typename Scalar>
 class FeedFrameForces {
   public:
@@ -42,19 +43,21 @@ class FeedFrameForces {
         Forces forces;
         const unsigned needed =
             has_sensor_ ? hal::mask(hal::Present::force_sensor) : hal::axis_mask(0) | hal::axis_mask(1);
-        const bool finite = hal::is_finite(sample.axis_velocity_mm_s[0]) && hal::is_finite(sample.axis_velocity_mm_s[1]);
+        const bool finite =
+            hal::is_finite(sample.axis_velocity_mm_s[0]) && hal::is_finite(sample.axis_velocity_mm_s[1]);
         if (!has(sample, needed) || !has(sample, hal::mask(hal::Present::spindle_count)) || !finite) {
             encoder_.reset();
             return forces;
         }
         const auto reading =
             encoder_.update(sample.spindle_count, sample.spindle_index_count, sample.spindle_index_number);
-        const auto pose = frame_.update(dt_s, Scalar(sample.axis_velocity_mm_s[0]), Scalar(sample.axis_velocity_mm_s[1]));
-        const PlaneForce force = has_sensor_ ? from_sensor(sample, reading.angle_rev)
-                                             : from_drives(dt_s, sample, reading.angle_rev, pose);
-        const bool turns_on =
-            reading.event == estimation::EncoderEvent::none || reading.event == estimation::EncoderEvent::forward ||
-            reading.event == estimation::EncoderEvent::standstill;
+        const auto pose =
+            frame_.update(dt_s, Scalar(sample.axis_velocity_mm_s[0]), Scalar(sample.axis_velocity_mm_s[1]));
+        const PlaneForce force =
+            has_sensor_ ? from_sensor(sample, reading.angle_rev) : from_drives(dt_s, sample, reading.angle_rev, pose);
+        const bool turns_on = reading.event == estimation::EncoderEvent::none ||
+                              reading.event == estimation::EncoderEvent::forward ||
+                              reading.event == estimation::EncoderEvent::standstill;
         if (!pose.valid || !force.valid || !turns_on) {
             return forces;
         }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "firmware/crc32.hpp"
@@ -10,8 +11,8 @@
 #include <initializer_list>
 #include <span>
 
-/// The parameters as a block of bytes, for a target's flash: made from the parameter table, in its order, so that there is
-/// no second list of names to keep in step.
+/// The parameters as a block of bytes, for a target's flash: made from the parameter table, in its order, so that there
+/// is no second list of names to keep in step.
 ///
 ///   offset  bytes  content, little-endian
 ///   0       4      magic "MFPB"
@@ -33,16 +34,16 @@ inline constexpr std::size_t block_header_bytes = 24;
 
 enum class BlockError : std::uint8_t {
     none = 0,
-    empty = 1,          ///< no magic: nothing was ever written, or its writing was cut off
-    bad_header = 2,     ///< header CRC
-    other_table = 3,    ///< made by another version of the parameter table
-    bad_values = 4,     ///< length or CRC of the values
-    out_of_range = 5,   ///< a value outside of the range that the table states
+    empty = 1,         ///< no magic: nothing was ever written, or its writing was cut off
+    bad_header = 2,    ///< header CRC
+    other_table = 3,   ///< made by another version of the parameter table
+    bad_values = 4,    ///< length or CRC of the values
+    out_of_range = 5,  ///< a value outside of the range that the table states
 };
 
 constexpr const char* name(BlockError error) {
-    constexpr const char* names[] = {"none", "no block", "header CRC", "another version's parameter table", "value CRC",
-                                     "value out of range"};
+    constexpr const char* names[] = {
+        "none", "no block", "header CRC", "another version's parameter table", "value CRC", "value out of range"};
     return names[static_cast<unsigned>(error) % 6U];
 }
 
@@ -150,7 +151,9 @@ inline BlockError check_block(std::span<const std::uint8_t> bytes) {
     return is_whole ? BlockError::none : BlockError::bad_values;
 }
 
-inline std::uint32_t sequence_of(std::span<const std::uint8_t> block) { return detail::get(block, 8); }
+inline std::uint32_t sequence_of(std::span<const std::uint8_t> block) {
+    return detail::get(block, 8);
+}
 
 /// What reading a block needs of the table's rows: without their texts, 16 KiB that no chip needs.
 template <typename Scalar>
@@ -196,8 +199,9 @@ BlockError decode(std::span<const std::uint8_t> bytes, Parameters<Scalar>& param
 /// Two slots of a flash. A new block goes to the slot that is not in force, its header last: a power cut at any byte
 /// leaves the other one whole.
 ///
-/// Flash: `bool erase(unsigned slot)`; `bool program(unsigned slot, std::size_t offset, std::span<const std::uint8_t>)`;
-/// `std::span<const std::uint8_t> contents(unsigned slot)`. Not thread-safe; never while the tick runs.
+/// Flash: `bool erase(unsigned slot)`; `bool program(unsigned slot, std::size_t offset, std::span<const
+/// std::uint8_t>)`; `std::span<const std::uint8_t> contents(unsigned slot)`. Not thread-safe; never while the tick
+/// runs.
 template <typename Flash>
 class ParameterStore {
   public:

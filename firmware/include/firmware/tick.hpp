@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <bit>
@@ -108,9 +109,9 @@ class ForceControlTick {
     [[nodiscard]] const estimation::CutEstimator<Scalar>& estimator() const { return estimator_; }
 
     /// The engagement for display and record. "No estimate" outside a cut, in `entry`, and
-    /// in a cut that fades: while the cutter's radius enters the workpiece or leaves it the arc begins and ends anywhere,
-    /// and the law of a straight cut does not describe it. (The
-    /// controller goes on with the forces themselves, and may not raise the feed in that state.)
+    /// in a cut that fades: while the cutter's radius enters the workpiece or leaves it the arc begins and ends
+    /// anywhere, and the law of a straight cut does not describe it. (The controller goes on with the forces
+    /// themselves, and may not raise the feed in that state.)
     [[nodiscard]] estimation::EngagementEstimate<Scalar> engagement() const {
         estimation::EngagementEstimate<Scalar> shown = estimator_.estimate().engagement;
         const bool arc_is_known = is_in_cut();
@@ -126,7 +127,8 @@ class ForceControlTick {
     using Velocity = typename estimation::DriveSignals<Scalar>::Velocity;
 
     [[nodiscard]] bool is_in_cut() const {
-        const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
+        const bool is_cutting =
+            control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
         return is_cutting && !control_.fading;
     }
 
@@ -141,7 +143,8 @@ class ForceControlTick {
         if (last.valid && now.valid && section_of_drops_mm2_ > Scalar(0) && last.value > Scalar(0)) {
             const Scalar growth = section_mm2 / section_of_drops_mm2_ - Scalar(1);
             if (estimation::square(growth) > least_growth2) {
-                const Scalar seen = estimation::clamp((now.value / last.value - Scalar(1)) / growth, Scalar(0), Scalar(1));
+                const Scalar seen =
+                    estimation::clamp((now.value / last.value - Scalar(1)) / growth, Scalar(0), Scalar(1));
                 width_share_ += Scalar(0.5F) * (seen - width_share_);
             }
         } else {
@@ -162,8 +165,8 @@ class ForceControlTick {
         ++sections_;
     }
 
-    /// The immersion of the drops' revolutions. Where the section has grown since, the width may have grown as much or the
-    /// depth instead: as before the drops, and as doubtful as if all between the two were evenly likely.
+    /// The immersion of the drops' revolutions. Where the section has grown since, the width may have grown as much or
+    /// the depth instead: as before the drops, and as doubtful as if all between the two were evenly likely.
     [[nodiscard]] estimation::Measurement<Scalar> immersion_by_force_drops() const {
         estimation::Measurement<Scalar> told = wide_band_.estimate().force_drop_immersion;
         const Scalar now_mm2 = estimator_.estimate().section_mm2;
@@ -194,9 +197,8 @@ class ForceControlTick {
     static estimation::DriveSignals<Scalar> taken_from(const hal::DriveSample& sample) {
         const auto& [x_A, y_A, z_A] = sample.axis_current_A;
         const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
-        const bool is_whole =
-            (sample.present & all_drives) == all_drives &&
-            hal::all_finite(sample.spindle_current_A, x_A, y_A, z_A, x_mm_s, y_mm_s, z_mm_s);
+        const bool is_whole = (sample.present & all_drives) == all_drives &&
+                              hal::all_finite(sample.spindle_current_A, x_A, y_A, z_A, x_mm_s, y_mm_s, z_mm_s);
         return is_whole ? signals_of(sample) : signals_of(usable_part_of(sample));
     }
 
@@ -204,15 +206,16 @@ class ForceControlTick {
         const auto& [x_A, y_A, z_A] = sample.axis_current_A;
         const auto& [x_mm_s, y_mm_s, z_mm_s] = sample.axis_velocity_mm_s;
         decltype(estimation::DriveSignals<Scalar>::values) values;
-        values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s), Scalar(y_mm_s),
-            Scalar(z_mm_s);
+        values << Scalar(sample.spindle_current_A), Scalar(x_A), Scalar(y_A), Scalar(z_A), Scalar(x_mm_s),
+            Scalar(y_mm_s), Scalar(z_mm_s);
         return {values, (sample.present & all_drives) >> 1U};
     }
 
     /// What is there and finite; an axis as a whole.
     [[gnu::noinline]] static hal::DriveSample usable_part_of(const hal::DriveSample& sample) {
         hal::DriveSample part;
-        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && hal::is_finite(sample.spindle_current_A)) {
+        if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 &&
+            hal::is_finite(sample.spindle_current_A)) {
             part.present = hal::mask(hal::Present::spindle_current);
             part.spindle_current_A = sample.spindle_current_A;
         }
@@ -247,14 +250,14 @@ class ForceControlTick {
     }
 
     /// From F_x/F_z, F_z by the z drive's current: where z stands its force hides in static friction, and there is no
-    /// prediction. F_x is the force along the feed. Not inlined: once per tooth period, and every tick is shorter for it.
+    /// prediction. F_x is the force along the feed. Not inlined: once per tooth period, and every tick is shorter for
+    /// it.
     [[gnu::noinline]] void predict_roughness(Velocity velocity) {
         using std::sqrt;
         const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
         constexpr Scalar turn = Scalar(2) * estimation::pi<Scalar>;
         const Scalar turns_per_s = e.spindle_speed_rad_s / turn;
-        const Scalar path_mm_s =
-            sqrt(estimation::square(e.feed_mm_s) + estimation::square(velocity.z_mm_s));
+        const Scalar path_mm_s = sqrt(estimation::square(e.feed_mm_s) + estimation::square(velocity.z_mm_s));
         const Scalar estimated_depth_mm = e.engagement.depth_valid ? e.engagement.axial_depth_mm : Scalar(0);
         const estimation::RoughnessConditions<Scalar> cut{
             Scalar(60) * turns_per_s, turns_per_s > Scalar(0) ? path_mm_s / turns_per_s : Scalar(0), tool_diameter_mm_,
@@ -324,7 +327,9 @@ class ForceControlTick {
 
     /// The controller knows the program's words, to the bit: so comparing them takes no floating-point unit.
     [[nodiscard]] bool is_told(const hal::ProgramStatus& program) const {
-        const auto same = [](float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); };
+        const auto same = [](float a, float b) {
+            return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+        };
         return same(program.programmed_feed_mm_s, program_.programmed_feed_mm_s) &&
                same(program.operator_override, program_.operator_override) && program.rapid == program_.rapid &&
                program.feed_hold == program_.feed_hold;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 #include "firmware/wide_band_settings.hpp"
 #include "hal/drive_sample.hpp"
 
-/// The methods that look at the force within a revolution, beside the tick's averages: radial immersion from force drops
-/// (Hwang et al.) and both depths from the force's shape (Yang, DeVor & Kapoor).
+/// The methods that look at the force within a revolution, beside the tick's averages: radial immersion from force
+/// drops (Hwang et al.) and both depths from the force's shape (Yang, DeVor & Kapoor).
 ///
 /// The forces are a force sensor's, or the feed drives' (FeedFrameForces). Depths from the shape take a force sensor.
 ///
@@ -57,23 +58,25 @@ class WideBandMonitor {
           force_drop_revolutions_(p.tool.force_drop.revolutions),
           depth_revolutions_(p.tool.depth_shape.revolutions) {
         const bool has_sensor = has_force_sensor(p.tool);
-        const bool has_drives = p.machine.axes[0].K_x4_N_per_A > Scalar(0) && p.machine.axes[1].K_x4_N_per_A > Scalar(0);
+        const bool has_drives =
+            p.machine.axes[0].K_x4_N_per_A > Scalar(0) && p.machine.axes[1].K_x4_N_per_A > Scalar(0);
         uses_force_drop_ = has_force_drop_law(p.tool) && (has_sensor || has_drives);
         uses_depths_ = has_nominal_depths(p.tool) && force_has_shape(p.tool) && has_sensor;
         if (uses_force_drop_) {
             force_drop_ = estimation::ForceDrop<Scalar>(force_drop_law(p.tool), force_drop_settings(p));
         }
         if (uses_depths_) {
-            depths_ = estimation::DepthMonitor<Scalar>(depth_shape_settings(p.tool), static_cast<int>(depth_revolutions_));
+            depths_ =
+                estimation::DepthMonitor<Scalar>(depth_shape_settings(p.tool), static_cast<int>(depth_revolutions_));
         }
     }
 
     [[nodiscard]] bool uses_force_drop() const { return uses_force_drop_; }
     [[nodiscard]] bool uses_depths() const { return uses_depths_; }
 
-    /// One drive sample, dt_s after the last one. `in_cut`: the cutter is neither in air nor entering or leaving, as far
-    /// as anybody knows; else there is nothing to be averaged. True where the force drops' average goes on from the last
-    /// sample; false where there is none or it has begun anew.
+    /// One drive sample, dt_s after the last one. `in_cut`: the cutter is neither in air nor entering or leaving, as
+    /// far as anybody knows; else there is nothing to be averaged. True where the force drops' average goes on from the
+    /// last sample; false where there is none or it has begun anew.
     bool add(Scalar dt_s, const hal::DriveSample& sample, bool in_cut) {
         if (!uses_force_drop_ && !uses_depths_) {
             return false;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware_link/link_controller.hpp"
 
 #include <algorithm>
@@ -76,7 +77,9 @@ void LinkController::bridge_gap(std::uint32_t time_us, const hal::ProgramStatus&
 }
 
 void LinkController::reset_where_asked(const local_link::SampleMessage& message) {
-    const auto rests = [](float velocity_mm_s) { return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s; };
+    const auto rests = [](float velocity_mm_s) {
+        return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
+    };
     const bool is_asked = message.reset && !was_reset_;
     was_reset_ = message.reset;
     if (is_asked && std::all_of(message.axis_velocity_mm_s.begin(), message.axis_velocity_mm_s.end(), rests)) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -20,7 +21,9 @@ enum class Present : std::uint8_t {
     force_sensor = 1U << 5U,  ///< force_N, and the velocities of x and y whether their currents are there or not
 };
 
-constexpr std::uint8_t mask(Present quantity) { return static_cast<std::uint8_t>(quantity); }
+constexpr std::uint8_t mask(Present quantity) {
+    return static_cast<std::uint8_t>(quantity);
+}
 constexpr std::uint8_t axis_mask(std::size_t axis) {
     return static_cast<std::uint8_t>(mask(Present::x_axis) << axis);
 }
@@ -38,7 +41,7 @@ struct DriveSample {
     float spindle_current_A = 0.0F;
     std::array<float, axis_count> axis_current_A{};
     std::array<float, axis_count> axis_velocity_mm_s{};  ///< of the tool relative to the workpiece
-    std::array<float, 2> force_N{};  ///< of a force sensor: on the workpiece, along machine x and y
+    std::array<float, 2> force_N{};                      ///< of a force sensor: on the workpiece, along machine x and y
 };
 
 /// What the CNC and the operator tell, whenever it changes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ enum class ResetCause : std::uint8_t {
     low_power = 6,
 };
 constexpr const char* name(ResetCause cause) {
-    constexpr const char* names[] = {"unknown", "power on", "brown-out", "reset pin", "software", "watchdog", "low power"};
+    constexpr const char* names[] = {"unknown",  "power on", "brown-out", "reset pin",
+                                     "software", "watchdog", "low power"};
     return names[static_cast<unsigned>(cause) % 7U];
 }
 

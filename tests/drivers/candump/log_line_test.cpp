@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "candump/log_line.hpp"
 
 #include <random>
@@ -82,9 +83,15 @@ TEST(LogLine, any_bytes_are_read_within_their_bounds) {
             const std::size_t place = random() % (line_text.size() + 1);
             const char c = alphabet[random() % alphabet.size()];
             switch (random() % 3) {
-                case 0: line_text.insert(place, 1, c); break;
-                case 1: line_text.erase(place, 1); break;
-                default: line_text.resize(place, c); break;
+                case 0:
+                    line_text.insert(place, 1, c);
+                    break;
+                case 1:
+                    line_text.erase(place, 1);
+                    break;
+                default:
+                    line_text.resize(place, c);
+                    break;
             }
         }
         const LogLine line = read_line(line_text);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cia402/drive_bus.hpp>
@@ -13,7 +14,9 @@
 
 namespace millforce::cia402::bench {
 
-inline MappedObject mapped(std::uint16_t index, std::uint8_t bits) { return {index, 0, bits}; }
+inline MappedObject mapped(std::uint16_t index, std::uint8_t bits) {
+    return {index, 0, bits};
+}
 
 /// As a drive is delivered: position, current, statusword in TPDO 1.
 inline PdoMapping first_pdo(std::uint8_t node_id) {

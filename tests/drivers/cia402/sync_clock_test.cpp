@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cia402/sync_clock.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -80,7 +81,9 @@ constexpr double uniform_to_60_rms_us = 17.3;
 TEST_GROUP(SyncClock) {
     std::mt19937 random{7};
     SyncClock clock{1000};
-    double up_to(double largest) { return std::uniform_real_distribution<double>(0.0, largest)(random); }
+    double up_to(double largest) {
+        return std::uniform_real_distribution<double>(0.0, largest)(random);
+    }
 };
 
 TEST(SyncClock, stamps_on_time_are_taken_as_they_are) {
@@ -112,8 +115,9 @@ TEST(SyncClock, a_producer_that_wanders_is_believed_at_any_pace) {
 }
 
 TEST(SyncClock, of_both_at_once_the_counts_tell_one_from_the_other) {
-    const Errors rare =
-        errors(1000.0, [this](int k) { return Lateness{k % 50 == 0 ? 20.0 : 0.0, k % 20 == 0 ? 60.0 : up_to(20.0)}; });
+    const Errors rare = errors(1000.0, [this](int k) {
+        return Lateness{k % 50 == 0 ? 20.0 : 0.0, k % 20 == 0 ? 60.0 : up_to(20.0)};
+    });
     CHECK(rare.rms_us < 4.0);
     const Errors always = errors(1000.0, [this](int) { return Lateness{up_to(60.0), up_to(60.0)}; });
     CHECK(always.rms_us < uniform_to_60_rms_us / 2.5);
@@ -121,11 +125,22 @@ TEST(SyncClock, of_both_at_once_the_counts_tell_one_from_the_other) {
 }
 
 TEST(SyncClock, a_spindle_under_shocks_is_not_taken_for_a_clock) {
-    const Errors exact = errors(1000.0, [](int) { return Lateness{}; }, under_shocks);
+    const Errors exact = errors(
+        1000.0, [](int) { return Lateness{}; }, under_shocks);
     CHECK(exact.rms_us < 0.5);
-    const Errors late = errors(1000.0, [this](int) { return Lateness{up_to(60.0), 0.0}; }, under_shocks);
+    const Errors late = errors(
+        1000.0,
+        [this](int) {
+            return Lateness{up_to(60.0), 0.0};
+        },
+        under_shocks);
     CHECK(late.rms_us < 2.0);
-    const Errors stamped_late = errors(1000.0, [this](int) { return Lateness{0.0, up_to(60.0)}; }, under_shocks);
+    const Errors stamped_late = errors(
+        1000.0,
+        [this](int) {
+            return Lateness{0.0, up_to(60.0)};
+        },
+        under_shocks);
     CHECK(stamped_late.rms_us < uniform_to_60_rms_us / 3.0);
     CHECK(stamped_late.increases);
 }

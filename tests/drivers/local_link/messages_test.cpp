@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -69,7 +70,7 @@ TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
     MEMCMP_EQUAL("MFLK\x01\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
     BYTES_EQUAL(9, bytes[24]);
     BYTES_EQUAL(0x1F, bytes[25]);
-    BYTES_EQUAL(5, bytes[26]);  // rapid and reset
+    BYTES_EQUAL(5, bytes[26]);                               // rapid and reset
     MEMCMP_EQUAL("\x00\x00\x50\x40", bytes.data() + 28, 4);  // 3.25
     MEMCMP_EQUAL("\x00\x00\xC8\xC1", bytes.data() + 44, 4);  // -25
     const OverrideBytes answer = encode(an_override());

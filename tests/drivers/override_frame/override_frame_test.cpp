@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "override_frame/override_frame.hpp"
 
 #include <array>
@@ -16,7 +17,9 @@ using namespace millforce::override_frame;
 
 namespace {
 
-hal::FeedOverride override_of(float ratio, std::uint32_t heartbeat) { return {ratio, false, 3, 0, heartbeat}; }
+hal::FeedOverride override_of(float ratio, std::uint32_t heartbeat) {
+    return {ratio, false, 3, 0, heartbeat};
+}
 
 /// A controller that ticks every millisecond and a CNC that listens.
 struct Link {

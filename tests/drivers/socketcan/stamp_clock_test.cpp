@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "socketcan/stamp_clock.hpp"
 
 #include "socketcan/can_socket.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/can_controller.hpp"
 
 #include "drivers/stm32/fake_can.hpp"

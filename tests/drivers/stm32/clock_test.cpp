@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/clock.hpp"
 
 #include "stm32/gpio.hpp"
@@ -18,9 +19,9 @@ TEST_GROUP(Stm32Clock) {
 
 TEST(Stm32Clock, asks_for_the_crystal_first) {
     const Clock clock(rcc, flash, pwr, crystal_hz, patience);
-    UNSIGNED_LONGS_EQUAL(1U << 16U, rcc.cr);      // HSEON
-    UNSIGNED_LONGS_EQUAL(1U << 28U, rcc.apb1enr); // PWREN
-    UNSIGNED_LONGS_EQUAL(1U << 14U, pwr.cr);      // VOS
+    UNSIGNED_LONGS_EQUAL(1U << 16U, rcc.cr);       // HSEON
+    UNSIGNED_LONGS_EQUAL(1U << 28U, rcc.apb1enr);  // PWREN
+    UNSIGNED_LONGS_EQUAL(1U << 14U, pwr.cr);       // VOS
     CHECK_FALSE(clock.is_settled());
 }
 
@@ -29,14 +30,14 @@ TEST(Stm32Clock, makes_168_MHz_of_8) {
     LONGS_EQUAL(ClockState::crystal_starting, clock.poll());
     rcc.cr = rcc.cr | 1U << 17U;  // HSERDY
     LONGS_EQUAL(ClockState::pll_locking, clock.poll());
-    UNSIGNED_LONGS_EQUAL(8, rcc.pllcfgr & 0x3FU);                // M: 1 MHz
-    UNSIGNED_LONGS_EQUAL(336, rcc.pllcfgr >> 6U & 0x1FFU);       // N: 336 MHz
-    UNSIGNED_LONGS_EQUAL(0, rcc.pllcfgr >> 16U & 3U);            // P: half
-    UNSIGNED_LONGS_EQUAL(1, rcc.pllcfgr >> 22U & 1U);            // from HSE
-    UNSIGNED_LONGS_EQUAL(7, rcc.pllcfgr >> 24U & 0xFU);          // Q: 48 MHz
-    UNSIGNED_LONGS_EQUAL(5, rcc.cfgr >> 10U & 7U);               // APB1 a quarter
-    UNSIGNED_LONGS_EQUAL(4, rcc.cfgr >> 13U & 7U);               // APB2 half
-    CHECK_TRUE((rcc.cr & 1U << 24U) != 0);                       // PLLON
+    UNSIGNED_LONGS_EQUAL(8, rcc.pllcfgr & 0x3FU);           // M: 1 MHz
+    UNSIGNED_LONGS_EQUAL(336, rcc.pllcfgr >> 6U & 0x1FFU);  // N: 336 MHz
+    UNSIGNED_LONGS_EQUAL(0, rcc.pllcfgr >> 16U & 3U);       // P: half
+    UNSIGNED_LONGS_EQUAL(1, rcc.pllcfgr >> 22U & 1U);       // from HSE
+    UNSIGNED_LONGS_EQUAL(7, rcc.pllcfgr >> 24U & 0xFU);     // Q: 48 MHz
+    UNSIGNED_LONGS_EQUAL(5, rcc.cfgr >> 10U & 7U);          // APB1 a quarter
+    UNSIGNED_LONGS_EQUAL(4, rcc.cfgr >> 13U & 7U);          // APB2 half
+    CHECK_TRUE((rcc.cr & 1U << 24U) != 0);                  // PLLON
     UNSIGNED_LONGS_EQUAL(0, flash.acr);
     rcc.cr = rcc.cr | 1U << 25U;  // PLLRDY
     LONGS_EQUAL(ClockState::switching, clock.poll());
@@ -97,7 +98,9 @@ TEST(Stm32Clock, the_supply_is_watched_at_the_highest_level) {
     CHECK_TRUE(supply_is_low(pwr));
 }
 
-TEST_GROUP(Stm32Gpio) { GpioRegisters port{}; };
+TEST_GROUP(Stm32Gpio) {
+    GpioRegisters port{};
+};
 
 TEST(Stm32Gpio, a_pin_gets_its_function_and_leaves_its_neighbours) {
     port.moder = 0xFFFF'FFFFU;
@@ -117,7 +120,9 @@ TEST(Stm32Gpio, an_analogue_pin_has_no_pull) {
     UNSIGNED_LONGS_EQUAL(0xFFFF'FF3FU, port.pupdr);
 }
 
-TEST_GROUP(Stm32Watchdog) { WatchdogRegisters registers{}; };
+TEST_GROUP(Stm32Watchdog) {
+    WatchdogRegisters registers{};
+};
 
 TEST(Stm32Watchdog, twenty_milliseconds_are_160_counts) {
     Watchdog watchdog(registers);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/current_scan.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -22,7 +23,9 @@ TEST_GROUP(Stm32CurrentScan) {
     DmaRegisters dma{};
     CurrentScan scan{adc, common, dma, four_currents()};
 
-    void setup() override { scan.start(); }
+    void setup() override {
+        scan.start();
+    }
     /// What converter and DMA do.
     void convert(std::uint16_t a, std::uint16_t b, std::uint16_t c, std::uint16_t d) {
         for (const std::uint16_t raw : {a, b, c, d}) {
@@ -34,11 +37,11 @@ TEST_GROUP(Stm32CurrentScan) {
 };
 
 TEST(Stm32CurrentScan, four_inputs_in_order_by_the_trigger_into_a_ring) {
-    UNSIGNED_LONGS_EQUAL(1U << 16U, common.ccr);                                           // ADCPRE: a quarter
-    UNSIGNED_LONGS_EQUAL(1U << 8U, adc.cr1);                                               // SCAN
-    UNSIGNED_LONGS_EQUAL(3U << 20U, adc.sqr1);                                             // L
-    UNSIGNED_LONGS_EQUAL(10U | 11U << 5U | 12U << 10U | 13U << 15U, adc.sqr3);             // SQ1…4
-    UNSIGNED_LONGS_EQUAL(4U | 4U << 3U | 4U << 6U | 4U << 9U, adc.smpr1);                  // SMP10…13
+    UNSIGNED_LONGS_EQUAL(1U << 16U, common.ccr);                                // ADCPRE: a quarter
+    UNSIGNED_LONGS_EQUAL(1U << 8U, adc.cr1);                                    // SCAN
+    UNSIGNED_LONGS_EQUAL(3U << 20U, adc.sqr1);                                  // L
+    UNSIGNED_LONGS_EQUAL(10U | 11U << 5U | 12U << 10U | 13U << 15U, adc.sqr3);  // SQ1…4
+    UNSIGNED_LONGS_EQUAL(4U | 4U << 3U | 4U << 6U | 4U << 9U, adc.smpr1);       // SMP10…13
     UNSIGNED_LONGS_EQUAL(0x1E00'0301U, adc.cr2);  // EXTEN rising, EXTSEL TIM8 TRGO, DDS, DMA, ADON
     const DmaStreamRegisters& stream = dma.stream[0];
     UNSIGNED_LONGS_EQUAL(128, stream.ndtr);

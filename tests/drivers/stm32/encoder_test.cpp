@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/timers.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -18,10 +19,10 @@ TEST_GROUP(Stm32Encoder) {
 TEST(Stm32Encoder, counts_both_edges_over_the_whole_range) {
     Encoder encoder(timer, {.is_32_bit = true, .reversed = false, .has_index = true, .filter = 3});
     encoder.start();
-    UNSIGNED_LONGS_EQUAL(3, timer.smcr);           // SMS
-    UNSIGNED_LONGS_EQUAL(0x3131, timer.ccmr1);     // CC1S, CC2S direct; IC1F, IC2F
-    UNSIGNED_LONGS_EQUAL(0x31, timer.ccmr2);       // CC3S, IC3F
-    UNSIGNED_LONGS_EQUAL(1U << 8U, timer.ccer);    // CC3E
+    UNSIGNED_LONGS_EQUAL(3, timer.smcr);         // SMS
+    UNSIGNED_LONGS_EQUAL(0x3131, timer.ccmr1);   // CC1S, CC2S direct; IC1F, IC2F
+    UNSIGNED_LONGS_EQUAL(0x31, timer.ccmr2);     // CC3S, IC3F
+    UNSIGNED_LONGS_EQUAL(1U << 8U, timer.ccer);  // CC3E
     UNSIGNED_LONGS_EQUAL(0xFFFF'FFFFU, timer.arr);
     UNSIGNED_LONGS_EQUAL(1, timer.cr1);
 }
@@ -86,7 +87,9 @@ TEST(Stm32Encoder, sixteen_bits_with_an_index_across_the_wrap) {
     UNSIGNED_LONGS_EQUAL(65'000, reading.index_count);
 }
 
-TEST_GROUP(Stm32Timers) { TimerRegisters timer{}; };
+TEST_GROUP(Stm32Timers) {
+    TimerRegisters timer{};
+};
 
 TEST(Stm32Timers, a_clock_of_microseconds) {
     start_microsecond_clock(timer, 84'000'000);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32/parameter_flash.hpp"
 
 #include "firmware/parameter_block.hpp"
@@ -111,7 +112,9 @@ bool save(FakeFlashChip& chip, float limit_N) {
 
 }  // namespace
 
-TEST_GROUP(Stm32ParameterFlash) { FakeFlashChip chip; };
+TEST_GROUP(Stm32ParameterFlash) {
+    FakeFlashChip chip;
+};
 
 TEST(Stm32ParameterFlash, erases_the_slots_sector_with_the_keys_and_locks_again) {
     std::uint32_t seen = 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "estimation/fixed_point.hpp"
 
 #include <libfixmath/fix16.h>
@@ -19,9 +20,15 @@ namespace {
 constexpr Raw its_resolution = Raw{1} << 16U;
 constexpr Raw half_of_its_resolution = its_resolution / 2;
 
-Fixed ours(fix16_t x) { return Fixed::from_raw(Raw{x} * its_resolution); }
-Raw apart(Fixed x, fix16_t its) { return std::abs(x.raw() - Raw{its} * its_resolution); }
-double in_units(Raw raw) { return static_cast<double>(raw) / 4294967296.0; }
+Fixed ours(fix16_t x) {
+    return Fixed::from_raw(Raw{x} * its_resolution);
+}
+Raw apart(Fixed x, fix16_t its) {
+    return std::abs(x.raw() - Raw{its} * its_resolution);
+}
+double in_units(Raw raw) {
+    return static_cast<double>(raw) / 4294967296.0;
+}
 
 /// Of every size.
 class Numbers {
@@ -54,7 +61,7 @@ double farthest(double low, double high, Function function, Its its) {
 
 }  // namespace
 
-TEST_GROUP(FixedBesideLibfixmath) {};
+TEST_GROUP(FixedBesideLibfixmath){};
 
 TEST(FixedBesideLibfixmath, sums_are_the_same_to_the_bit_and_go_on_where_it_ends) {
     Numbers numbers;
@@ -126,9 +133,15 @@ TEST(FixedBesideLibfixmath, exponential_and_logarithm_agree_within_a_few_of_its_
 
 // Its circular functions are short polynomials, 0.01 off at worst: enough to tell a wrong sign, quadrant or scale.
 TEST(FixedBesideLibfixmath, circular_functions_agree_within_the_errors_of_its_own) {
-    CHECK_COMPARE(farthest(-3.1, 3.1, [](Fixed x) { return sin(x); }, fix16_sin), <, 0.012);
-    CHECK_COMPARE(farthest(-3.1, 3.1, [](Fixed x) { return cos(x); }, fix16_cos), <, 0.012);
-    CHECK_COMPARE(farthest(-0.99, 0.99, [](Fixed x) { return acos(x); }, fix16_acos), <, 0.012);
+    CHECK_COMPARE(farthest(
+                      -3.1, 3.1, [](Fixed x) { return sin(x); }, fix16_sin),
+                  <, 0.012);
+    CHECK_COMPARE(farthest(
+                      -3.1, 3.1, [](Fixed x) { return cos(x); }, fix16_cos),
+                  <, 0.012);
+    CHECK_COMPARE(farthest(
+                      -0.99, 0.99, [](Fixed x) { return acos(x); }, fix16_acos),
+                  <, 0.012);
     Numbers numbers;
     Raw most = 0;
     for (int k = 0; k < count; ++k) {

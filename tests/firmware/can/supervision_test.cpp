@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "controller_on_loopback.hpp"
 
 #include <CppUTest/TestHarness.h>

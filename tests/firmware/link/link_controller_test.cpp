@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
 #include <limits>
@@ -45,7 +46,7 @@ local_link::OverrideMessage answer(firmware::LinkController& controller, const l
 
 }  // namespace
 
-TEST_GROUP(LinkController){
+TEST_GROUP(LinkController) {
     Cnc cnc;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "firmware/stm32_h405/board_bench.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -6,7 +7,7 @@ using namespace millforce;
 using emergency::Reason;
 using stm32_h405::StartReport;
 
-TEST_GROUP(AnalogueController) {};
+TEST_GROUP(AnalogueController){};
 
 TEST(AnalogueController, says_boot_up_and_its_reset_first) {
     BoardBench board({hal::ResetCause::pin, firmware::BlockError::none, false, 0});
@@ -32,7 +33,9 @@ TEST(AnalogueController, a_reset_by_watchdog_brown_out_or_fault_is_an_error) {
         {{hal::ResetCause::watchdog}, Reason::started, 0x6010, 5},
         {{hal::ResetCause::brown_out}, Reason::started, 0x3200, 2},
         {{hal::ResetCause::unknown}, Reason::started, 0x1000, 0},
-        {{hal::ResetCause::software, firmware::BlockError::none, true, 0x0800'1234}, Reason::processor_fault, 0x6100,
+        {{hal::ResetCause::software, firmware::BlockError::none, true, 0x0800'1234},
+         Reason::processor_fault,
+         0x6100,
          0x0800'1234},
     };
     for (const Case& c : cases) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "drivers/stm32/fake_can.hpp"
@@ -19,7 +20,8 @@ class BoardBench {
     static constexpr unsigned scans_per_period = 8;
 
     explicit BoardBench(const millforce::stm32_h405::StartReport& report = {millforce::hal::ResetCause::power_on,
-                                                                           millforce::firmware::BlockError::none, false, 0})
+                                                                            millforce::firmware::BlockError::none,
+                                                                            false, 0})
         : parameters(millforce::instructions::machine_and_tool()) {
         controller.emplace(peripherals(), wiring);
         controller->start(report, parameters, now_us);
@@ -123,7 +125,8 @@ class BoardBench {
         spindle.cnt = static_cast<std::uint32_t>(counts_);
         spindle.sr = 0;
         if (std::floor(turns_) > std::floor(before)) {
-            const double since = (turns_ - std::floor(turns_)) * counts_per_rev * (1.0 - static_cast<double>(lines_lost));
+            const double since =
+                (turns_ - std::floor(turns_)) * counts_per_rev * (1.0 - static_cast<double>(lines_lost));
             spindle.ccr[2] = static_cast<std::uint32_t>(counts_ - since);
             spindle.sr = 1U << 3U;
         }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32_h405/motion.hpp"
 
 #include "stm32_h405/wiring.hpp"
@@ -7,7 +8,7 @@
 using namespace millforce;
 using namespace millforce::stm32_h405;
 
-TEST_GROUP(AxisVelocity) {};
+TEST_GROUP(AxisVelocity){};
 
 TEST(AxisVelocity, is_the_mean_over_eight_periods_in_both_directions_across_the_wrap) {
     AxisVelocity velocity;
@@ -63,7 +64,7 @@ TEST(EncoderWatch, an_index_that_stays_away_is_found_after_two_revolutions) {
     CHECK_FALSE(watch.is_plausible(count - 2 * 4096 - 100, count, number));
 }
 
-TEST_GROUP(Wiring) {};
+TEST_GROUP(Wiring){};
 
 TEST(Wiring, each_pin_has_its_function_and_each_peripheral_its_clock) {
     stm32::GpioRegisters a{}, b{}, c{};

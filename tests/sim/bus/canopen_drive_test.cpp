@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bus/canopen_drive.hpp"
 #include "can_frames.hpp"
 
@@ -22,7 +23,9 @@ TEST_GROUP(CanopenDrive) {
     CanopenDrive drive{{3, 12.0, 8.0, 0}};
     std::uint64_t now_us = 0;
 
-    void setup() override { CHECK_EQUAL(1U, drive.take_frames().size()); }  // the boot-up
+    void setup() override {
+        CHECK_EQUAL(1U, drive.take_frames().size());
+    }  // the boot-up
     std::vector<hal::CanFrame> hears(const hal::CanFrame& f) {
         drive.on_frame(f, now_us);
         return drive.take_frames();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bus/loopback_bus.hpp"
 #include "can_frames.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/friction_calibration.hpp"
 #include "calibration/axis_motion.hpp"
 #include "estimation/friction_fit.hpp"

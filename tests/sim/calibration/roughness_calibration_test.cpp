@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/roughness_calibration.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"

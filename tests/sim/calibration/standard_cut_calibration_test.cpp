@@ -1,5 +1,6 @@
-#include "calibration/cutting_calibration.hpp"
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/standard_cut_calibration.hpp"
+#include "calibration/cutting_calibration.hpp"
 #include "files/input_error.hpp"
 #include "sim/files/temporary_folder.hpp"
 
@@ -62,25 +63,28 @@ struct Recorded {
     std::string table = "start_s,end_s,tool_diameter_mm,flutes,axial_depth_mm,radial_width_mm\n";
 };
 
-Recorded record(const millforce::estimation::CuttingLaw<double>& law, const std::vector<Cut>& cuts, bool with_air = true) {
+Recorded record(const millforce::estimation::CuttingLaw<double>& law, const std::vector<Cut>& cuts,
+                bool with_air = true) {
     constexpr double speed_rad_s = 1260.0 * 2.0 * std::numbers::pi / 60.0;
     std::mt19937 generator(5);
     std::normal_distribution<double> noise(0.0, 0.02);
     Recorded result;
     double t = 0.0;
     for (const Cut& cut : cuts) {
-        for (const double width : with_air ? std::vector<double>{0.0, cut.width_mm} : std::vector<double>{cut.width_mm}) {
+        for (const double width :
+             with_air ? std::vector<double>{0.0, cut.width_mm} : std::vector<double>{cut.width_mm}) {
             const double f_z = cut.feed_mm_min / (4.0 * 1260.0);
             const auto forces = millforce::estimation::average_forces<double>(
-                law, {f_z, width > 0.0 ? 12.0 : 0.0, millforce::estimation::engagement_angles(CutSide::down, width / 4.0), 4.0});
+                law, {f_z, width > 0.0 ? 12.0 : 0.0,
+                      millforce::estimation::engagement_angles(CutSide::down, width / 4.0), 4.0});
             const double torque_Nm = forces.tangential_N * 0.004;
             const double w = cut.feed_mm_min / 1000.0;
             result.table += fmt::format("{:.3f},{:.3f},8,4,{},{}\n", t - 0.005, t + 1.994, width > 0.0 ? 12 : 0, width);
             for (int k = 0; k < 200; ++k, t += 0.01) {
-                result.recording +=
-                    fmt::format("{:.4f},{:.6f},{:.6f},{:.6f},{:.6f}\n", t, std::fmod(t * speed_rad_s, 2.0 * std::numbers::pi),
-                                (torque_Nm + 0.6) / 0.65 + noise(generator),
-                                1.6 + 0.6 * w + forces.feed_N / 110.0 + noise(generator), w / 0.06);
+                result.recording += fmt::format("{:.4f},{:.6f},{:.6f},{:.6f},{:.6f}\n", t,
+                                                std::fmod(t * speed_rad_s, 2.0 * std::numbers::pi),
+                                                (torque_Nm + 0.6) / 0.65 + noise(generator),
+                                                1.6 + 0.6 * w + forces.feed_N / 110.0 + noise(generator), w / 0.06);
             }
         }
     }
@@ -132,14 +136,15 @@ millforce::estimation::CuttingLaw<double> carbide() {
 
 }  // namespace
 
-TEST_GROUP(StandardCutCalibration) {
-    void within(const Ended& ended, const char* table, const std::string& key, double truth) {
-        const double value = ended.toml[table][key].value_or(std::nan(""));
-        const double error = ended.toml[table][key + "_se"].value_or(std::nan(""));
-        DOUBLES_EQUAL(truth, value, 4.0 * error);
-        CHECK(error < 0.03 * std::abs(truth) + 0.2);
-    }
-};
+TEST_GROUP(StandardCutCalibration){
+    void within(const Ended& ended, const char* table, const std::string& key,
+                double truth){const double value = ended.toml[table][key].value_or(std::nan(""));
+const double error = ended.toml[table][key + "_se"].value_or(std::nan(""));
+DOUBLES_EQUAL(truth, value, 4.0 * error);
+CHECK(error < 0.03 * std::abs(truth) + 0.2);
+}
+}
+;
 
 TEST(StandardCutCalibration, finds_the_gains_of_both_drives) {
     const Ended ended = standard_cut(record(carbide(), seven_cuts));
@@ -187,28 +192,28 @@ TEST(StandardCutCalibration, lists_the_entries_of_the_database) {
     refuses(standard_cut(record(carbide(), seven_cuts), "steel"), {"library.toml", "'steel'", "carbide, HSS"});
 }
 
-TEST_GROUP(CurrentCuttingCalibration) {
-    Ended cutting(const Recorded& recorded, bool with_machine = true) {
-        const TemporaryFolder folder;
-        CuttingCalibrationOptions options;
-        options.data = {folder.write("recording.csv", recorded.recording)};
-        options.cuts = folder.write("cuts.csv", recorded.table);
-        std::string machine = machine_toml;
-        machine.replace(machine.find("0.7"), 3, "0.65");
-        machine.replace(machine.find("120.0"), 5, "110.0");
-        if (with_machine) {
-            options.machine = folder.write("machine.toml", machine);
-        }
-        options.output = folder.path("out.toml");
-        std::ostringstream out;
-        Ended ended;
-        ended.error = message_of<InputError>([&] { calibrate_cutting(options, out); });
-        if (ended.error.empty()) {
-            ended.toml = toml::parse(folder.read("out.toml"));
-        }
-        return ended;
-    }
-};
+TEST_GROUP(CurrentCuttingCalibration){
+    Ended cutting(const Recorded& recorded, bool with_machine = true){const TemporaryFolder folder;
+CuttingCalibrationOptions options;
+options.data = {folder.write("recording.csv", recorded.recording)};
+options.cuts = folder.write("cuts.csv", recorded.table);
+std::string machine = machine_toml;
+machine.replace(machine.find("0.7"), 3, "0.65");
+machine.replace(machine.find("120.0"), 5, "110.0");
+if (with_machine) {
+    options.machine = folder.write("machine.toml", machine);
+}
+options.output = folder.path("out.toml");
+std::ostringstream out;
+Ended ended;
+ended.error = message_of<InputError>([&] { calibrate_cutting(options, out); });
+if (ended.error.empty()) {
+    ended.toml = toml::parse(folder.read("out.toml"));
+}
+return ended;
+}
+}
+;
 
 TEST(CurrentCuttingCalibration, finds_the_law_from_currents_alone) {
     std::vector<Cut> cuts = seven_cuts;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calibration/warm_up_calibration.hpp"
 #include "files/input_error.hpp"
 #include "sim/files/temporary_folder.hpp"

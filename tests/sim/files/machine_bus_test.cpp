@@ -1,5 +1,6 @@
-#include "files/input_error.hpp"
+// SPDX-License-Identifier: Apache-2.0
 #include "files/machine_bus.hpp"
+#include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
 #include "sim/files/temporary_folder.hpp"
 
@@ -125,7 +126,8 @@ TEST(MachineBusFile, is_documented_key_by_key) {
 
 namespace {
 
-/// The spindle's current by a converter and its angle by a counter; of x the current alone, beside the drive's velocity.
+/// The spindle's current by a converter and its angle by a counter; of x the current alone, beside the drive's
+/// velocity.
 const std::string local = spindle + R"([bus]
 produces_sync = true
 [bus.spindle]

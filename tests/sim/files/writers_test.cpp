@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "files/csv.hpp"
 #include "files/nearest_name.hpp"
 #include "files/toml_writer.hpp"

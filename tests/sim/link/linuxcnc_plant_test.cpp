@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "link/linuxcnc_plant.hpp"
 
 #include <cmath>
@@ -61,8 +62,7 @@ TEST_GROUP(LinuxCncPlant){};
 TEST(LinuxCncPlant, runs_its_spindle_up_as_fast_as_its_current_allows) {
     CncAtRest cnc;
     const auto& spindle = cnc.scenario.machine.spindle;
-    const double most_rad_s2 =
-        2.5 * spindle.rated_current_A * spindle.torque_constant_Nm_per_A / spindle.inertia_kg_m2;
+    const double most_rad_s2 = 2.5 * spindle.rated_current_A * spindle.torque_constant_Nm_per_A / spindle.inertia_kg_m2;
     double last_rad_s = 0.0;
     for (int k = 0; k < 1000; ++k) {
         const double speed_rad_s = cnc.cycle(true).spindle_rev_s * 2.0 * std::numbers::pi;

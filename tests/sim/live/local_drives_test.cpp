@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "live/local_drives.hpp"
 
 #include <vector>
@@ -23,8 +24,8 @@ class Bench {
         tree.write("count", "4000\n");
         bus.local.device = tree.name("adc");
         bus.local.mode = 1.0;
-        bus.local.drives[0] = {.current_channel = "voltage0", .count_file = tree.name("count"), .A_per_V = 10.0,
-                               .zero_V = 1.0};
+        bus.local.drives[0] = {
+            .current_channel = "voltage0", .count_file = tree.name("count"), .A_per_V = 10.0, .zero_V = 1.0};
         bus.local.drives[1] = {.current_channel = "voltage3", .count_file = "", .A_per_V = -2.0};
         add_drive(0, 5, {{0x6064, 0, 32}, {0x6078, 0, 32}});
         add_drive(1, 6, {{0x6078, 0, 32}});
@@ -93,8 +94,8 @@ TEST(LocalDrives, give_the_controller_their_currents_and_counts_beside_what_a_dr
     DOUBLES_EQUAL(0.8, sample.axis_current_A[0], 1e-3);   // −200 · 2 mV · −2 A/V
     DOUBLES_EQUAL(10.0, sample.axis_velocity_mm_s[0], 1e-4);
     UNSIGNED_LONGS_EQUAL(546, sample.spindle_count - first.spindle_count);
-    const unsigned wanted = hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) |
-                            hal::axis_mask(0);
+    const unsigned wanted =
+        hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) | hal::axis_mask(0);
     UNSIGNED_LONGS_EQUAL(wanted, sample.present);
     CHECK_FALSE(local.health().is_failed);
 }

@@ -1,5 +1,6 @@
-#include "can_frames.hpp"
+// SPDX-License-Identifier: Apache-2.0
 #include "live/plant_on_can.hpp"
+#include "can_frames.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -77,7 +78,7 @@ struct PlantOnScript {
 
 }  // namespace
 
-TEST_GROUP(PlantOnCan) {};
+TEST_GROUP(PlantOnCan){};
 
 TEST(PlantOnCan, a_plant_that_computes_ahead_has_answered_a_SYNC_before_it_computes_on) {
     PlantOnScript ahead(true, {1'000});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
@@ -30,8 +31,8 @@ RunFigures controlled(const Scenario& scenario) {
 }
 
 /// Peak at most 10 % over the tooth's limit, and above it only within the reaction time after the engagement grew; no
-/// tooth broken, the part finished: for K_s off by ± 30 % and friction by ± 20 % from what was calibrated, current noise
-/// 1 % of rated current.
+/// tooth broken, the part finished: for K_s off by ± 30 % and friction by ± 20 % from what was calibrated, current
+/// noise 1 % of rated current.
 void holds_the_limit(const std::string& name) {
     for (const Conditions& conditions :
          {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}, Conditions{1.3, 1.2, 3}, Conditions{0.7, 1.2, 4}}) {
@@ -63,15 +64,29 @@ double time_saved(const std::string& name) {
 
 TEST_GROUP(ClosedLoop){};
 
-TEST(ClosedLoop, holds_the_limit_over_a_width_step) { holds_the_limit("width_step"); }
-TEST(ClosedLoop, holds_the_limit_entering_a_slot_head_on) { holds_the_limit("slot_entry"); }
-TEST(ClosedLoop, holds_the_limit_over_a_depth_ramp) { holds_the_limit("depth_ramp"); }
-TEST(ClosedLoop, holds_the_limit_in_an_interrupted_cut) { holds_the_limit("interrupted"); }
-TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_a_varying_width) { holds_the_limit("face_mill"); }
+TEST(ClosedLoop, holds_the_limit_over_a_width_step) {
+    holds_the_limit("width_step");
+}
+TEST(ClosedLoop, holds_the_limit_entering_a_slot_head_on) {
+    holds_the_limit("slot_entry");
+}
+TEST(ClosedLoop, holds_the_limit_over_a_depth_ramp) {
+    holds_the_limit("depth_ramp");
+}
+TEST(ClosedLoop, holds_the_limit_in_an_interrupted_cut) {
+    holds_the_limit("interrupted");
+}
+TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_a_varying_width) {
+    holds_the_limit("face_mill");
+}
 
-TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_the_middle) { holds_the_limit("face_mill_centred"); }
+TEST(ClosedLoop, holds_the_limit_with_a_face_mill_over_the_middle) {
+    holds_the_limit("face_mill_centred");
+}
 
-TEST(ClosedLoop, holds_the_limit_where_force_drops_tell_the_immersion) { holds_the_limit("face_mill_dynamometer"); }
+TEST(ClosedLoop, holds_the_limit_where_force_drops_tell_the_immersion) {
+    holds_the_limit("face_mill_dynamometer");
+}
 
 TEST(ClosedLoop, knows_the_engagement_better_and_is_faster_with_force_drops) {
     const Scenario with = scenario_named("face_mill_dynamometer");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <CppUTest/TestHarness.h>
 
 #include <span>
@@ -102,8 +103,9 @@ TEST(HtmlReport, AnExceededLimitIsSaid) {
     runs[0].figures.teeth_broken = 2;
     const std::string html = report_html(info, runs);
     CHECK(html.find("<div class=\"stat over\">") != std::string::npos);
-    CHECK(html.find("exceeded for 0.50 s in total, 0.200 s at a stretch: only while the engagement grew, and within the "
-                    "0.100 s") != std::string::npos);
+    CHECK(
+        html.find("exceeded for 0.50 s in total, 0.200 s at a stretch: only while the engagement grew, and within the "
+                  "0.100 s") != std::string::npos);
     runs[0].figures.late_over_limit_s = 0.05;
     CHECK(report_html(info, runs).find("0.050 s of it when the engagement had not grown for the 0.100 s") !=
           std::string::npos);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 // What C++ cannot say to the firmware around a program of the Cortex-A53.
 
 // long semihosting(operation, argument): Semihosting for AArch32 and AArch64, Arm IHI 0072

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 // Start of a program of the Cortex-A53.
     .section .start, "ax"
     .global _start

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starts the Cortex-R5F and sleeps.
 #include "target/zcu102/a53.hpp"
 

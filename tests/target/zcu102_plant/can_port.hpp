@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <deque>
@@ -43,9 +44,7 @@ class BarePort final : public sim::CanPort {
         heard_.pop_front();
         return true;
     }
-    void send(const hal::CanFrame& frame) override {
-        sent += can_.send(frame) ? 1U : 0U;
-    }
+    void send(const hal::CanFrame& frame) override { sent += can_.send(frame) ? 1U : 0U; }
     void wait(std::uint64_t timeout_us) override {
         const std::uint64_t end_us = now_us() + timeout_us;
         std::uint64_t time_us = 0;
@@ -55,7 +54,8 @@ class BarePort final : public sim::CanPort {
             poll(time_us);
         } while (heard_.empty() && time_us < end_us);
     }
-    /// The controller takes a frame at each of its rounds: enough of them for the drives' PDOs and the tick behind them.
+    /// The controller takes a frame at each of its rounds: enough of them for the drives' PDOs and the tick behind
+    /// them.
     static void let_controller_work() {
         constexpr unsigned rounds = 16;
         for (unsigned k = 0; k < rounds; ++k) {
@@ -75,8 +75,8 @@ class BarePort final : public sim::CanPort {
         hal::CanFrame frame;
     };
 
-    /// The registers are looked at every 8 µs: each look costs an emulator more than the waiting, and nothing is cheaper to
-    /// it than what does nothing.
+    /// The registers are looked at every 8 µs: each look costs an emulator more than the waiting, and nothing is
+    /// cheaper to it than what does nothing.
     static void let_time_pass() {
         for (unsigned k = 0; k < 8 * emulated_ns_per_us / 1000; ++k) {
             asm volatile(".rept 1000\n nop\n .endr" ::: "memory");

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // The few system calls that a static C++ program makes, served on a bare Cortex-A53: memory out of what lies behind the
-// image, files of the host to read, a console to write to, the generic timer as clock. Any other is named on the console
-// and ends the run. Runs inside the exception: without the FPU, whose registers are the program's.
+// image, files of the host to read, a console to write to, the generic timer as clock. Any other is named on the
+// console and ends the run. Runs inside the exception: without the FPU, whose registers are the program's.
 
 #include <asm/stat.h>
 #include <asm/unistd.h>
@@ -14,7 +15,7 @@
 #include "target/zcu102_plant/host_calls.hpp"
 
 extern "C" {
-extern char _end[];              // behind the image
+extern char _end[];                // behind the image
 extern const char __ehdr_start[];  // its ELF header
 }
 
@@ -41,7 +42,9 @@ constexpr long sys_get_command_line = 0x15;
 
 unsigned long calls_of_host = 0;
 
-long address_of(const void* object) { return static_cast<long>(reinterpret_cast<std::uintptr_t>(object)); }
+long address_of(const void* object) {
+    return static_cast<long>(reinterpret_cast<std::uintptr_t>(object));
+}
 
 long host(long operation, long first = 0, long second = 0, long third = 0) {
     const long block[] = {first, second, third};
@@ -67,7 +70,9 @@ struct File {
 };
 File files[most_files];
 
-bool is_file(long descriptor) { return descriptor >= first_file && descriptor < first_file + most_files; }
+bool is_file(long descriptor) {
+    return descriptor >= first_file && descriptor < first_file + most_files;
+}
 
 long open_file(const char* name, long flags) {
     constexpr long access_mode = 3;
@@ -83,7 +88,9 @@ long open_file(const char* name, long flags) {
     return first_file + handle;
 }
 
-long close_file(long descriptor) { return is_file(descriptor) ? host(sys_close, descriptor - first_file) : 0; }
+long close_file(long descriptor) {
+    return is_file(descriptor) ? host(sys_close, descriptor - first_file) : 0;
+}
 
 long read_file(long descriptor, std::uint64_t bytes, long count) {
     if (!is_file(descriptor)) {
@@ -151,7 +158,9 @@ long for_each_slice(const Slice* slices, long count, Transfer transfer) {
     return sum;
 }
 
-void say(const char* text) { write_console(reinterpret_cast<std::uintptr_t>(text), length_of(text)); }
+void say(const char* text) {
+    write_console(reinterpret_cast<std::uintptr_t>(text), length_of(text));
+}
 
 void say(unsigned long number) {
     char text[] = "0x0000000000000000";
@@ -239,13 +248,13 @@ std::uint64_t* first_stack() {
     const auto* const sizes = reinterpret_cast<const std::uint16_t*>(__ehdr_start);
     constexpr std::uint64_t float_and_simd = 3;
     const std::uint64_t auxiliary[] = {
-        3, header + *reinterpret_cast<const std::uint64_t*>(__ehdr_start + 32),  // AT_PHDR: e_phoff
-        4, sizes[27],                                                            // AT_PHENT: e_phentsize
-        5, sizes[28],                                                            // AT_PHNUM: e_phnum
-        6, page_bytes,
-        16, float_and_simd,                                                      // AT_HWCAP
-        25, header,                                                              // AT_RANDOM: no secret is kept
-        0, 0};
+        3,  header + *reinterpret_cast<const std::uint64_t*>(__ehdr_start + 32),  // AT_PHDR: e_phoff
+        4,  sizes[27],                                                            // AT_PHENT: e_phentsize
+        5,  sizes[28],                                                            // AT_PHNUM: e_phnum
+        6,  page_bytes,
+        16, float_and_simd,  // AT_HWCAP
+        25, header,          // AT_RANDOM: no secret is kept
+        0,  0};
     for (const std::uint64_t value : auxiliary) {
         *next++ = value;
     }
@@ -261,31 +270,46 @@ std::uint64_t* first_stack() {
 long serve(const long* x) {
     const auto* const slices = reinterpret_cast<const Slice*>(x[1]);
     switch (x[8]) {
-        case __NR_openat: return open_file(reinterpret_cast<const char*>(x[1]), x[2]);
-        case __NR_close: return close_file(x[0]);
-        case __NR_lseek: return seek_file(x[0], x[1], x[2]);
-        case __NR_read: return read_file(x[0], static_cast<std::uint64_t>(x[1]), x[2]);
+        case __NR_openat:
+            return open_file(reinterpret_cast<const char*>(x[1]), x[2]);
+        case __NR_close:
+            return close_file(x[0]);
+        case __NR_lseek:
+            return seek_file(x[0], x[1], x[2]);
+        case __NR_read:
+            return read_file(x[0], static_cast<std::uint64_t>(x[1]), x[2]);
         case __NR_readv:
             return for_each_slice(slices, x[2], [&](auto bytes, long count) { return read_file(x[0], bytes, count); });
-        case __NR_write: return write_console(static_cast<std::uint64_t>(x[1]), x[2]);
-        case __NR_writev: return for_each_slice(slices, x[2], write_console);
-        case __NR_brk: return move_break(static_cast<std::uint64_t>(x[0]));
-        case __NR_mmap: return x[4] < 0 ? map_memory(static_cast<std::uint64_t>(x[1])) : bad_argument;
-        case __NR_clock_gettime: return tell_time(reinterpret_cast<std::uint64_t*>(x[1]));
-        case __NR_set_tid_address: return 1;
+        case __NR_write:
+            return write_console(static_cast<std::uint64_t>(x[1]), x[2]);
+        case __NR_writev:
+            return for_each_slice(slices, x[2], write_console);
+        case __NR_brk:
+            return move_break(static_cast<std::uint64_t>(x[0]));
+        case __NR_mmap:
+            return x[4] < 0 ? map_memory(static_cast<std::uint64_t>(x[1])) : bad_argument;
+        case __NR_clock_gettime:
+            return tell_time(reinterpret_cast<std::uint64_t*>(x[1]));
+        case __NR_set_tid_address:
+            return 1;
         case __NR_newfstatat:
             return tell_status(reinterpret_cast<const char*>(x[1]), x[0], *reinterpret_cast<struct stat*>(x[2]));
-        case __NR_futex: return (x[1] & FUTEX_CMD_MASK) == FUTEX_WAKE ? 0 : no_such_call;  // nobody waits: one thread
+        case __NR_futex:
+            return (x[1] & FUTEX_CMD_MASK) == FUTEX_WAKE ? 0 : no_such_call;  // nobody waits: one thread
         case __NR_rseq:
         case __NR_prlimit64:
         case __NR_readlinkat:
-        case __NR_getrandom: return no_such_call;  // the C library does without
+        case __NR_getrandom:
+            return no_such_call;  // the C library does without
         case __NR_munmap:
         case __NR_mprotect:
-        case __NR_set_robust_list: return 0;
+        case __NR_set_robust_list:
+            return 0;
         case __NR_exit:
-        case __NR_exit_group: target::exit_emulator(x[0]);
-        default: break;
+        case __NR_exit_group:
+            target::exit_emulator(x[0]);
+        default:
+            break;
     }
     say("system call ");
     say(static_cast<unsigned long>(x[8]));
@@ -304,6 +328,8 @@ void end_by_fault(unsigned long syndrome, unsigned long at, unsigned long addres
     target::exit_emulator(68);
 }
 
-unsigned long host_calls() { return calls_of_host; }
+unsigned long host_calls() {
+    return calls_of_host;
+}
 
 }  // extern "C"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plant of the bus in the loop, on the Cortex-A53 of an emulated zcu102: SCENARIO.toml. It lays the controller's
-// parameters where a boot loader would, starts the Cortex-R5F, mills, and prints the figures as TOML. Exit codes: 0 milled,
-// 2 bad input, 3 the R5F does not start, 5 no CAN controller, 6 a system call that is not served, 68 a fault.
+// parameters where a boot loader would, starts the Cortex-R5F, mills, and prints the figures as TOML. Exit codes: 0
+// milled, 2 bad input, 3 the R5F does not start, 5 no CAN controller, 6 a system call that is not served, 68 a fault.
 
 #include <algorithm>
 #include <cstdio>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 // Start of a static Linux program on a bare Cortex-A53: FPU, flat memory map, vectors, its first stack. The program stays
 // at EL1 on the stack pointer of EL0, so that its system calls arrive on a stack of ours.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -34,8 +35,8 @@ namespace millforce::cia402 {
 struct BusHealth {
     bool sync_lost = false;  ///< no SYNC for three periods (consumer), or none yet
     std::uint32_t syncs = 0;
-    std::uint32_t syncs_skipped = 0;   ///< producer: poll() came a period or more too late
-    std::uint32_t samples_untaken = 0;  ///< a sample was overwritten by the next
+    std::uint32_t syncs_skipped = 0;       ///< producer: poll() came a period or more too late
+    std::uint32_t samples_untaken = 0;     ///< a sample was overwritten by the next
     std::uint32_t samples_incomplete = 0;  ///< handed over with a PDO missing
 };
 

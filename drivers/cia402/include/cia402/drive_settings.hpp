@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -87,17 +88,17 @@ struct BusSettings {
 enum class SettingsError : std::uint8_t {
     none,
     no_drive,
-    node_id,             ///< above 127, or used twice
-    pdo_mapping,         ///< see check(PdoMapping)
-    id_used_twice,       ///< two PDOs, or a PDO and the SYNC, with one CAN id
-    object_missing,      ///< no PDO carries the current or torque, or the count, or velocity or position
-    object_width,        ///< an object that is read has more than 32 bits
-    rated_value,         ///< negative, not finite; or 0 for a listener, who cannot ask
-    torque_constant,     ///< torque_actual without a torque constant
-    unit,                ///< velocity or position unit 0 or not finite
-    limit,               ///< largest_… not above 0 or not finite; modulus of 1 or steps beyond half of it
-    heartbeat,           ///< timeout not above the period
-    sync,                ///< period 0 or above 1 s, collect_us 0 or above the period, or an id outside 1…0x7FF
+    node_id,          ///< above 127, or used twice
+    pdo_mapping,      ///< see check(PdoMapping)
+    id_used_twice,    ///< two PDOs, or a PDO and the SYNC, with one CAN id
+    object_missing,   ///< no PDO carries the current or torque, or the count, or velocity or position
+    object_width,     ///< an object that is read has more than 32 bits
+    rated_value,      ///< negative, not finite; or 0 for a listener, who cannot ask
+    torque_constant,  ///< torque_actual without a torque constant
+    unit,             ///< velocity or position unit 0 or not finite
+    limit,            ///< largest_… not above 0 or not finite; modulus of 1 or steps beyond half of it
+    heartbeat,        ///< timeout not above the period
+    sync,             ///< period 0 or above 1 s, collect_us 0 or above the period, or an id outside 1…0x7FF
 };
 [[nodiscard]] SettingsError check(const BusSettings& settings);
 

@@ -1,8 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 namespace millforce::cia402 {
 
 /// |value|; NaN stays NaN.
-constexpr float magnitude(float value) { return value < 0.0F ? -value : value; }
+constexpr float magnitude(float value) {
+    return value < 0.0F ? -value : value;
+}
 
 }  // namespace millforce::cia402

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -25,8 +26,8 @@ struct MappedObject {
 };
 
 struct PdoMapping {
-    std::uint32_t id = 0;                 ///< CAN id; 0: this PDO is not used
-    std::uint8_t transmission_type = 1;   ///< 1: at every SYNC; 2…240: at every n-th; 254, 255: by event
+    std::uint32_t id = 0;                ///< CAN id; 0: this PDO is not used
+    std::uint8_t transmission_type = 1;  ///< 1: at every SYNC; 2…240: at every n-th; 254, 255: by event
     std::uint8_t object_count = 0;
     std::array<MappedObject, largest_pdo_objects> objects{};
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -9,25 +10,25 @@
 namespace millforce::cia402 {
 
 enum class Reject : std::uint8_t {
-    foreign_id,              ///< belongs to nothing that is configured: usual on a bus that others use too
-    not_standard_data,       ///< 29-bit id or remote frame: CANopen devices of this kind use neither
-    frame_length,            ///< more than 8 bytes
-    pdo_length,              ///< not the number of bytes that the mapping says: the drive is mapped otherwise
-    pdo_not_operational,     ///< from a drive that is not operational: its content is undefined
-    pdo_late,                ///< after the sample of its SYNC was handed over, or before the first SYNC
-    pdo_repeated,            ///< a second one in one SYNC period; it replaced the first
-    current_range,           ///< beyond the largest share of the rated current
-    velocity_range,          ///< beyond the largest velocity of the axis
-    position_step,           ///< a position or count moved more than the drive can
-    units_disagree,          ///< position and velocity tell different speeds: one of the units is wrong
-    sync_length,             ///< SYNC carries 0 or 1 bytes
-    sync_foreign,            ///< SYNC by another while this driver produces it
-    sync_early,              ///< less than half a period after the last: a duplicate
-    heartbeat_malformed,     ///< not one byte, or no NMT state
-    emergency_malformed,     ///< not eight bytes
-    sdo_malformed,           ///< not eight bytes, or a command that is no expedited transfer
-    sdo_unexpected,          ///< answers nothing that was asked
-    sdo_value_range,         ///< a rated value that no drive has
+    foreign_id,           ///< belongs to nothing that is configured: usual on a bus that others use too
+    not_standard_data,    ///< 29-bit id or remote frame: CANopen devices of this kind use neither
+    frame_length,         ///< more than 8 bytes
+    pdo_length,           ///< not the number of bytes that the mapping says: the drive is mapped otherwise
+    pdo_not_operational,  ///< from a drive that is not operational: its content is undefined
+    pdo_late,             ///< after the sample of its SYNC was handed over, or before the first SYNC
+    pdo_repeated,         ///< a second one in one SYNC period; it replaced the first
+    current_range,        ///< beyond the largest share of the rated current
+    velocity_range,       ///< beyond the largest velocity of the axis
+    position_step,        ///< a position or count moved more than the drive can
+    units_disagree,       ///< position and velocity tell different speeds: one of the units is wrong
+    sync_length,          ///< SYNC carries 0 or 1 bytes
+    sync_foreign,         ///< SYNC by another while this driver produces it
+    sync_early,           ///< less than half a period after the last: a duplicate
+    heartbeat_malformed,  ///< not one byte, or no NMT state
+    emergency_malformed,  ///< not eight bytes
+    sdo_malformed,        ///< not eight bytes, or a command that is no expedited transfer
+    sdo_unexpected,       ///< answers nothing that was asked
+    sdo_value_range,      ///< a rated value that no drive has
 };
 inline constexpr std::size_t reject_reasons = static_cast<std::size_t>(Reject::sdo_value_range) + 1;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -24,18 +25,28 @@ enum class PowerState : std::uint8_t {
 
 [[nodiscard]] constexpr PowerState power_state(std::uint16_t statusword) {
     switch (statusword & 0x4FU) {
-        case 0x00: return PowerState::not_ready_to_switch_on;
-        case 0x40: return PowerState::switch_on_disabled;
-        case 0x0F: return PowerState::fault_reaction_active;
-        case 0x08: return PowerState::fault;
-        default: break;
+        case 0x00:
+            return PowerState::not_ready_to_switch_on;
+        case 0x40:
+            return PowerState::switch_on_disabled;
+        case 0x0F:
+            return PowerState::fault_reaction_active;
+        case 0x08:
+            return PowerState::fault;
+        default:
+            break;
     }
     switch (statusword & 0x6FU) {
-        case 0x21: return PowerState::ready_to_switch_on;
-        case 0x23: return PowerState::switched_on;
-        case 0x27: return PowerState::operation_enabled;
-        case 0x07: return PowerState::quick_stop_active;
-        default: return PowerState::unknown;
+        case 0x21:
+            return PowerState::ready_to_switch_on;
+        case 0x23:
+            return PowerState::switched_on;
+        case 0x27:
+            return PowerState::operation_enabled;
+        case 0x07:
+            return PowerState::quick_stop_active;
+        default:
+            return PowerState::unknown;
     }
 }
 
@@ -53,9 +64,9 @@ enum class EmergencyClass : std::uint8_t {
     device_hardware,
     device_software,
     additional_modules,
-    monitoring,  ///< 80xx
+    monitoring,     ///< 80xx
     communication,  ///< 81xx
-    protocol,  ///< 82xx: PDO length and the like
+    protocol,       ///< 82xx: PDO length and the like
     external,
     additional_functions,
     device_specific,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,9 @@
 /// A stamp is not on time in two ways. The SYNC itself is late (arbitration, a busy producer) and the drives latch late
 /// with it: w. Or only the stamp is late (interrupt latency), or the drives have a clock of their own that is locked to
 /// the SYNC: v. The first must be believed and the second must not: 20 µs in 1 ms look like 2 % of spindle speed. The
-/// spindle helps, since its inertia keeps its speed for some periods: what it turned tells the time, but for what forces
-/// and the counts' step make of it: u. Stamps and counts are followed alike (position gain 1/4); what each is off by
+/// spindle helps, since its inertia keeps its speed for some periods: what it turned tells the time, but for what
+/// forces and the counts' step make of it: u. Stamps and counts are followed alike (position gain 1/4); what each is
+/// off by
 ///
 ///     s = stamp - expected stamp = w + v,    c = (count - expected count) / speed = w + u
 ///
@@ -17,8 +19,8 @@
 ///
 ///     latch = base + ((stamp - base) / σ_v² + c / σ_u²) / (1 / σ_v² + 1 / σ_u² + 1 / σ_w²)
 ///
-/// where base is a grid of even periods (gain 1/64), but moved to the expected stamp by the share of their distance that
-/// is more than v would make of it (σ_v²/4): where all of a stamp is w, it is believed however slowly w changes.
+/// where base is a grid of even periods (gain 1/64), but moved to the expected stamp by the share of their distance
+/// that is more than v would make of it (σ_v²/4): where all of a stamp is w, it is believed however slowly w changes.
 ///
 /// Counts that contradict the stamp (4 sd) are a spindle that changes its speed, and are left out. Stamps are taken as
 /// they are until 200 periods were seen with the spindle turning by at least 4 counts per period. A stamp more than a
@@ -47,20 +49,20 @@ class SyncClock {
     void weigh(float by_counts_us);
 
     std::uint64_t period_ns_;
-    std::uint64_t grid_ns_ = 0;       ///< of the newest SYNC
-    float drift_ns_ = 0.0F;           ///< of the grid, per period
-    float by_stamp_us_ = 0.0F;        ///< of the newest stamp: stamp - grid
-    float ahead_us_ = 0.0F;           ///< followed stamps - grid
+    std::uint64_t grid_ns_ = 0;  ///< of the newest SYNC
+    float drift_ns_ = 0.0F;      ///< of the grid, per period
+    float by_stamp_us_ = 0.0F;   ///< of the newest stamp: stamp - grid
+    float ahead_us_ = 0.0F;      ///< followed stamps - grid
     float ahead_us_per_period_ = 0.0F;
-    float expected_us_ = 0.0F;        ///< of the newest stamp, before it came
-    float latched_off_us_ = 0.0F;     ///< latch - grid
+    float expected_us_ = 0.0F;     ///< of the newest stamp, before it came
+    float latched_off_us_ = 0.0F;  ///< latch - grid
     bool has_count_ = false;
     std::uint32_t since_count_ = 0;  ///< periods from the last count's SYNC to the newest
     std::uint32_t last_count_ = 0;
-    float ahead_counts_ = 0.0F;       ///< followed position - last count
+    float ahead_counts_ = 0.0F;  ///< followed position - last count
     float counts_per_period_ = 0.0F;
-    std::uint32_t followed_ = 0;      ///< counts since the spindle is followed, at most settled
-    float learnt_ = 0.0F;             ///< periods in the mean squares, at most 1 / memory
+    std::uint32_t followed_ = 0;  ///< counts since the spindle is followed, at most settled
+    float learnt_ = 0.0F;         ///< periods in the mean squares, at most 1 / memory
     float mean_ss_us2_ = 0.0F;
     float mean_cc_us2_ = 0.0F;
     float mean_sc_us2_ = 0.0F;

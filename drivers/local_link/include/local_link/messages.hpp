@@ -44,7 +44,8 @@
 /// | 16…19 | ratio, F32 | of the programmed feed |
 /// | 20 | hold, U8 | 0 or 1: stop the feed, whatever the ratio says |
 /// | 21, 22, 23 | state, fault, limit, U8 | control::CutState, control::Fault, control::Limit |
-/// | 24…51 | tangential force, feed force, tooth force (N), immersion and its deviation (a_e/R), axial depth and its deviation (mm), F32 | NaN: no estimate; of the tooth force, also where only a bound is known |
+/// | 24…51 | tangential force, feed force, tooth force (N), immersion and its deviation (a_e/R), axial depth and its
+/// deviation (mm), F32 | NaN: no estimate; of the tooth force, also where only a bound is known |
 ///
 /// No heap, no operating system. Any thread.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -41,7 +42,7 @@ enum class FrameError : std::uint8_t {
     not_this_frame,  ///< another id, a 29-bit id or a remote frame
     length,          ///< not 8 bytes
     checksum,
-    reserved_bits,   ///< bits 1…7 of byte 2: a later layout
+    reserved_bits,  ///< bits 1…7 of byte 2: a later layout
 };
 /// Writes `feed_override` where the frame is sound. Its heartbeat is the counter: 16 bits.
 [[nodiscard]] FrameError decode(const hal::CanFrame& frame, std::uint32_t id, hal::FeedOverride& feed_override);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -41,10 +42,10 @@ enum class LinkState : std::uint8_t {
 
 struct LinkHealth {
     LinkState state = LinkState::absent;
-    bool send_queue_full = false;     ///< the last send() found no room; cleared by the next that does
-    int last_error = 0;               ///< errno of the last call that failed, 0: none did
-    std::uint32_t opened = 0;         ///< times that the socket was opened
-    std::uint32_t received = 0;       ///< frames handed over
+    bool send_queue_full = false;  ///< the last send() found no room; cleared by the next that does
+    int last_error = 0;            ///< errno of the last call that failed, 0: none did
+    std::uint32_t opened = 0;      ///< times that the socket was opened
+    std::uint32_t received = 0;    ///< frames handed over
     std::uint32_t sent = 0;
     std::uint32_t send_failures = 0;  ///< frames not sent, whatever the reason
     std::uint32_t overruns = 0;       ///< frames that the kernel dropped because nobody fetched them (SO_RXQ_OVFL)
@@ -60,7 +61,7 @@ inline constexpr std::size_t interface_name_capacity = 16;  // IFNAMSIZ
 inline constexpr std::size_t filter_capacity = 64;
 
 struct CanSocketSettings {
-    std::array<char, interface_name_capacity> interface{};
+    std::array<char, interface_name_capacity> interface {};
     std::array<hal::CanFilter, filter_capacity> filters{};
     std::size_t filter_count = 0;  ///< 0: every frame passes, 29-bit ids and remote frames too
     bool receive_own = false;      ///< frames that this socket sent come back when they were on the bus

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -19,14 +20,14 @@ enum class ControllerState : std::uint8_t {
 struct ErrorReport {
     bool has_state = false;
     ControllerState state = ControllerState::error_active;
-    bool restarted = false;            ///< after bus-off
-    bool receive_overflow = false;     ///< the controller lost frames
+    bool restarted = false;         ///< after bus-off
+    bool receive_overflow = false;  ///< the controller lost frames
     bool transmit_overflow = false;
-    bool not_acknowledged = false;     ///< nobody else is on the bus
+    bool not_acknowledged = false;  ///< nobody else is on the bus
     bool transmit_timeout = false;
     bool arbitration_lost = false;
-    bool protocol_violation = false;   ///< bit, stuff, form or CRC error
-    bool transceiver_fault = false;    ///< CANH or CANL
+    bool protocol_violation = false;  ///< bit, stuff, form or CRC error
+    bool transceiver_fault = false;   ///< CANH or CANL
 };
 
 /// `id` as the kernel gives it, with or without its flags; missing bytes count as 0.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@ enum class CanState : std::uint8_t {
     joining,         ///< waits for 11 recessive bits
     absent,          ///< the controller does not answer: no clock, or no such chip. Final
     running,
-    error_warning,   ///< an error counter at 96; frames flow
-    error_passive,   ///< at 128; the same
-    bus_off,         ///< nothing is sent; ends after 128 × 11 recessive bits, by itself
+    error_warning,  ///< an error counter at 96; frames flow
+    error_passive,  ///< at 128; the same
+    bus_off,        ///< nothing is sent; ends after 128 × 11 recessive bits, by itself
 };
 constexpr const char* name(CanState state) {
     constexpr const char* names[] = {"entering setup", "joining",       "absent", "running",
@@ -30,9 +31,9 @@ constexpr const char* name(CanState state) {
 
 struct CanHealth {
     std::uint32_t bus_offs = 0;
-    std::uint32_t overruns = 0;     ///< frames that came while the receive queue was full, at least
-    std::uint32_t unsent = 0;       ///< no free mailbox, or off the bus
-    std::uint8_t last_error = 0;    ///< ESR.LEC: 1 stuff, 2 form, 3 acknowledge, 4 and 5 bit, 6 CRC
+    std::uint32_t overruns = 0;   ///< frames that came while the receive queue was full, at least
+    std::uint32_t unsent = 0;     ///< no free mailbox, or off the bus
+    std::uint8_t last_error = 0;  ///< ESR.LEC: 1 stuff, 2 form, 3 acknowledge, 4 and 5 bit, 6 CRC
     std::uint8_t transmit_errors = 0;
     std::uint8_t receive_errors = 0;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,8 @@ enum class ClockState : std::uint8_t {
 class Clock {
   public:
     /// `crystal_hz`: a whole number of MHz, 4…26.
-    Clock(RccRegisters& rcc, FlashRegisters& flash, PwrRegisters& pwr, std::uint32_t crystal_hz, std::uint32_t patience);
+    Clock(RccRegisters& rcc, FlashRegisters& flash, PwrRegisters& pwr, std::uint32_t crystal_hz,
+          std::uint32_t patience);
 
     ClockState poll();
     [[nodiscard]] ClockState state() const { return state_; }
@@ -52,6 +54,8 @@ hal::ResetCause take_reset_cause(RccRegisters& rcc);
 
 /// Watches the supply: the comparator at 2.9 V, the highest level. RM0090 5.4
 void watch_supply(PwrRegisters& pwr);
-inline bool supply_is_low(const PwrRegisters& pwr) { return has_bits(pwr.csr, 1U << 2U); }
+inline bool supply_is_low(const PwrRegisters& pwr) {
+    return has_bits(pwr.csr, 1U << 2U);
+}
 
 }  // namespace millforce::stm32

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -32,9 +33,9 @@ struct ScanReading {
 };
 
 struct CurrentScanHealth {
-    std::uint32_t restarts = 0;    ///< after an overrun of the converter or an error of the DMA
-    std::uint32_t at_rail = 0;     ///< values at the end of the range, not used: a broken wire is no current
-    std::uint32_t beyond_limit = 0;///< values beyond largest_A
+    std::uint32_t restarts = 0;      ///< after an overrun of the converter or an error of the DMA
+    std::uint32_t at_rail = 0;       ///< values at the end of the range, not used: a broken wire is no current
+    std::uint32_t beyond_limit = 0;  ///< values beyond largest_A
 };
 
 /// take() at least every `ring_scans` − 1 scans; what is older is overwritten, unseen. One thread; the ring lies in RAM

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,7 @@ namespace millforce::stm32 {
 
 /// Where a slot is: the first bytes of a sector, of which nothing else is used.
 struct FlashSlot {
-    std::uint8_t sector = 0;               ///< 0…11
+    std::uint8_t sector = 0;  ///< 0…11
     std::span<volatile std::uint32_t> words{};
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -120,13 +121,19 @@ inline constexpr std::uintptr_t dma2 = 0x4002'6400U;
 }  // namespace address
 
 /// Compound assignments to volatile are deprecated, and hide that a register is read and written.
-inline void set_bits(Register& target, std::uint32_t bits) { target = target | bits; }
-inline void clear_bits(Register& target, std::uint32_t bits) { target = target & ~bits; }
+inline void set_bits(Register& target, std::uint32_t bits) {
+    target = target | bits;
+}
+inline void clear_bits(Register& target, std::uint32_t bits) {
+    target = target & ~bits;
+}
 /// `value` into the field of `width` bits from bit `position` on; the other bits stay.
 inline void set_field(Register& target, unsigned position, unsigned width, std::uint32_t value) {
     const std::uint32_t mask = (1U << width) - 1U;
     target = (target & ~(mask << position)) | ((value & mask) << position);
 }
-inline bool has_bits(const Register& source, std::uint32_t bits) { return (source & bits) == bits; }
+inline bool has_bits(const Register& source, std::uint32_t bits) {
+    return (source & bits) == bits;
+}
 
 }  // namespace millforce::stm32

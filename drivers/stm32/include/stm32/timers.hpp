@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -14,10 +15,10 @@ void start_microsecond_clock(TimerRegisters& timer, std::uint32_t clock_hz);
 void start_trigger(TimerRegisters& timer, std::uint32_t clock_hz, std::uint32_t rate_hz);
 
 struct EncoderSettings {
-    bool is_32_bit = false;  ///< TIM2, TIM5
-    bool reversed = false;   ///< counts against the direction that is wanted
-    bool has_index = false;  ///< the index pulse is wired to channel 3, its rising edge counts
-    std::uint8_t filter = 3; ///< of the inputs, ICxF: 3 is eight equal samples of the timer's clock
+    bool is_32_bit = false;   ///< TIM2, TIM5
+    bool reversed = false;    ///< counts against the direction that is wanted
+    bool has_index = false;   ///< the index pulse is wired to channel 3, its rising edge counts
+    std::uint8_t filter = 3;  ///< of the inputs, ICxF: 3 is eight equal samples of the timer's clock
 };
 
 struct EncoderReading {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace millforce::stm32 {
 
-/// Starts at start() and cannot be stopped. Its clock is an RC oscillator of 17…47 kHz, 32 nominal (data sheet table 35):
-/// `timeout_us` holds for the nominal one, and the true time is 0.68 to 1.9 of it.
+/// Starts at start() and cannot be stopped. Its clock is an RC oscillator of 17…47 kHz, 32 nominal (data sheet table
+/// 35): `timeout_us` holds for the nominal one, and the true time is 0.68 to 1.9 of it.
 class Watchdog {
   public:
     explicit Watchdog(WatchdogRegisters& registers) : registers_(registers) {}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@ namespace millforce::zynqmp {
 
 /// Entered and left by start() and poll() alone.
 enum class CanState : std::uint8_t {
-    off,            ///< not started
-    absent,         ///< the controller does not take its setup: no clock, or held in reset. Final until start()
-    joining,        ///< waits for 11 recessive bits
+    off,      ///< not started
+    absent,   ///< the controller does not take its setup: no clock, or held in reset. Final until start()
+    joining,  ///< waits for 11 recessive bits
     running,
     error_warning,  ///< an error counter at 96; frames flow
     error_passive,  ///< at 128; the same
@@ -25,8 +26,8 @@ constexpr const char* name(CanState state) {
     return names[static_cast<unsigned>(state) % 7U];
 }
 
-/// Time quanta are made from the reference clock (100 MHz on a ZCU102) by `prescaler`; a bit is one of them plus the two
-/// segments.
+/// Time quanta are made from the reference clock (100 MHz on a ZCU102) by `prescaler`; a bit is one of them plus the
+/// two segments.
 struct CanBitTiming {
     std::uint32_t prescaler = 10;      ///< 1…256
     std::uint32_t first_segment = 15;  ///< quanta before the sample, 1…16
@@ -39,9 +40,9 @@ inline constexpr CanBitTiming kbit_1000{5, 15, 4, 1};
 
 struct CanHealth {
     std::uint32_t bus_offs = 0;
-    std::uint32_t overruns = 0;   ///< times that frames came while the queue of 64 was full
-    std::uint32_t unsent = 0;     ///< no room, or off the bus
-    std::uint8_t last_errors = 0; ///< ESR: 1 CRC, 2 form, 4 stuff, 8 bit, 16 acknowledge
+    std::uint32_t overruns = 0;    ///< times that frames came while the queue of 64 was full
+    std::uint32_t unsent = 0;      ///< no room, or off the bus
+    std::uint8_t last_errors = 0;  ///< ESR: 1 CRC, 2 form, 4 stuff, 8 bit, 16 acknowledge
     std::uint8_t transmit_errors = 0;
     std::uint8_t receive_errors = 0;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <bit>
@@ -6,9 +7,9 @@
 #include <type_traits>
 
 /// Integer arithmetic behind fixed_point.hpp: 64-bit raw values in Q31.32, made of 32 × 32 → 64 bit products, which a
-/// Cortex-M3 has as one instruction. Nothing here needs a 128-bit type, a floating-point unit or a library call. Where the
-/// compiler takes several times what a 32-bit ARM needs, it is told the instructions: overflow by the flags, and products
-/// added where their sum stands.
+/// Cortex-M3 has as one instruction. Nothing here needs a 128-bit type, a floating-point unit or a library call. Where
+/// the compiler takes several times what a 32-bit ARM needs, it is told the instructions: overflow by the flags, and
+/// products added where their sum stands.
 
 namespace millforce::estimation::detail {
 
@@ -29,11 +30,19 @@ inline constexpr Raw raw_lowest = -INT64_MAX;  // symmetric. A sum may be one le
 constexpr std::uint64_t magnitude(Raw value) {
     return value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
 }
-constexpr std::uint32_t high_word(std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32U); }
-constexpr std::uint32_t low_word(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
-constexpr std::uint64_t product(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} * b; }
+constexpr std::uint32_t high_word(std::uint64_t value) {
+    return static_cast<std::uint32_t>(value >> 32U);
+}
+constexpr std::uint32_t low_word(std::uint64_t value) {
+    return static_cast<std::uint32_t>(value);
+}
+constexpr std::uint64_t product(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{a} * b;
+}
 
-constexpr std::uint64_t joined(std::uint32_t high, std::uint32_t low) { return std::uint64_t{high} << 32U | low; }
+constexpr std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
+    return std::uint64_t{high} << 32U | low;
+}
 
 constexpr Raw signed_raw(std::uint64_t magnitude_of, bool negative) {
     return negative ? -static_cast<Raw>(magnitude_of) : static_cast<Raw>(magnitude_of);
@@ -90,8 +99,8 @@ constexpr Raw negate(Raw a) {
     return subtract<Policy>(0, a);
 }
 
-/// a b of two numbers below 2¹⁵, rounded to nearest, halves upwards. Worked out modulo 2⁶⁴ with the words as they are: of a
-/// negative number the upper word is 2³² too large.
+/// a b of two numbers below 2¹⁵, rounded to nearest, halves upwards. Worked out modulo 2⁶⁴ with the words as they are:
+/// of a negative number the upper word is 2³² too large.
 constexpr Raw small_product(Raw a, Raw b) {
     const std::uint32_t a_low = low_word(static_cast<std::uint64_t>(a));
     const std::uint32_t b_low = low_word(static_cast<std::uint64_t>(b));
@@ -102,25 +111,26 @@ constexpr Raw small_product(Raw a, Raw b) {
         std::uint32_t low = 0;
         std::uint32_t high = 0;
         std::uint32_t scratch = 0;
-        __asm__("mul %[high], %[a_high], %[b_high]\n\t"
-                "and %[scratch], %[b_low], %[a_high], asr #31\n\t"
-                "sub %[high], %[high], %[scratch]\n\t"
-                "and %[scratch], %[a_low], %[b_high], asr #31\n\t"
-                "sub %[high], %[high], %[scratch]\n\t"
-                "umull %[scratch], %[low], %[a_low], %[b_low]\n\t"
-                "add %[low], %[low], %[scratch], lsr #31\n\t"
-                "umlal %[low], %[high], %[a_high], %[b_low]\n\t"
-                "umlal %[low], %[high], %[a_low], %[b_high]"
-                : [low] "=&r"(low), [high] "=&r"(high), [scratch] "=&r"(scratch)
-                : [a_low] "r"(a_low), [a_high] "r"(a_high), [b_low] "r"(b_low), [b_high] "r"(b_high));
+        __asm__(
+            "mul %[high], %[a_high], %[b_high]\n\t"
+            "and %[scratch], %[b_low], %[a_high], asr #31\n\t"
+            "sub %[high], %[high], %[scratch]\n\t"
+            "and %[scratch], %[a_low], %[b_high], asr #31\n\t"
+            "sub %[high], %[high], %[scratch]\n\t"
+            "umull %[scratch], %[low], %[a_low], %[b_low]\n\t"
+            "add %[low], %[low], %[scratch], lsr #31\n\t"
+            "umlal %[low], %[high], %[a_high], %[b_low]\n\t"
+            "umlal %[low], %[high], %[a_low], %[b_high]"
+            : [low] "=&r"(low), [high] "=&r"(high), [scratch] "=&r"(scratch)
+            : [a_low] "r"(a_low), [a_high] "r"(a_high), [b_low] "r"(b_low), [b_high] "r"(b_high));
         return static_cast<Raw>(joined(high, low));
     }
 #endif
     const auto if_negative = [](std::uint32_t word, Raw x) { return x < 0 ? word : 0U; };
     const std::uint64_t low = product(a_low, b_low);
-    const std::uint64_t middle = product(a_high, b_low) + product(a_low, b_high) + high_word(low) + (low_word(low) >> 31U);
-    const std::uint32_t high =
-        high_word(middle) + a_high * b_high - if_negative(b_low, a) - if_negative(a_low, b);
+    const std::uint64_t middle =
+        product(a_high, b_low) + product(a_low, b_high) + high_word(low) + (low_word(low) >> 31U);
+    const std::uint32_t high = high_word(middle) + a_high * b_high - if_negative(b_low, a) - if_negative(a_low, b);
     return static_cast<Raw>(joined(high, low_word(middle)));
 }
 
@@ -210,7 +220,8 @@ struct Divisor {
         const std::uint32_t second = ((0xFFFFFFFFU - first * first_bits) << 15U) / first_bits;
         const std::uint32_t rough = first << 15U | second;
         const auto miss = static_cast<std::int64_t>((1ULL << 62U) - product(rough, divisor)) >> 16U;
-        const std::int64_t correction = std::int64_t{static_cast<std::int32_t>(rough)} * static_cast<std::int32_t>(miss);
+        const std::int64_t correction =
+            std::int64_t{static_cast<std::int32_t>(rough)} * static_cast<std::int32_t>(miss);
         reciprocal = (rough << 2U) + static_cast<std::uint32_t>(correction >> 44U);
         std::uint64_t rest = ~(product(reciprocal, divisor) + joined(divisor, 0));
         while (rest >= divisor) {
@@ -293,8 +304,7 @@ MILLFORCE_CALLED constexpr Raw divide(Raw a, Raw b) {
         const Raw end = end_of_range<Policy>(negative);
         return a == 0 ? 0 : end;
     }
-    const std::uint64_t quotient =
-        high_word(y) == 0 ? quotient_by_word(x, low_word(y)) : quotient_by_two_words(x, y);
+    const std::uint64_t quotient = high_word(y) == 0 ? quotient_by_word(x, low_word(y)) : quotient_by_two_words(x, y);
     if (quotient > static_cast<std::uint64_t>(raw_highest)) {
         return end_of_range<Policy>(negative);
     }

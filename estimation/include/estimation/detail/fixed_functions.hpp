@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "estimation/detail/fixed_arithmetic.hpp"
@@ -24,7 +25,9 @@ consteval Fraction q31(std::floating_point auto value) {
     return static_cast<Fraction>(value * 2147483648.0L + (value < 0.0L ? -0.5L : 0.5L));
 }
 
-constexpr std::int64_t times(std::int64_t a, Fraction b) { return (a * b + (1LL << 30U)) >> 31U; }
+constexpr std::int64_t times(std::int64_t a, Fraction b) {
+    return (a * b + (1LL << 30U)) >> 31U;
+}
 
 /// c₀ + c₁ x + c₂ x² + …, by Horner.
 template <std::size_t Count>
@@ -54,8 +57,7 @@ constexpr Octant octant_of(Raw angle_rad) {
     constexpr std::uint64_t turns_per_rad = 0x28BE'60DB'9391'054AULL;  // 2⁶⁴/2π
     const std::uint64_t x = magnitude(angle_rad);
     // Turns modulo 1 in Q64: the whole turns fall off the upper end.
-    const std::uint64_t turns =
-        high_word(x) * turns_per_rad + scaled(std::uint64_t{low_word(x)} << 32U, turns_per_rad);
+    const std::uint64_t turns = high_word(x) * turns_per_rad + scaled(std::uint64_t{low_word(x)} << 32U, turns_per_rad);
     const std::uint64_t turned = angle_rad < 0 ? std::uint64_t{0} - turns : turns;
     const auto quarter = static_cast<unsigned>((turned + (1ULL << 61U)) >> 62U);
     const auto left = static_cast<std::int64_t>(turned - (std::uint64_t{quarter} << 62U));
@@ -63,7 +65,9 @@ constexpr Octant octant_of(Raw angle_rad) {
 }
 
 /// A Q31 value, also slightly above 1, as raw.
-constexpr Raw raw_of_q31(std::int64_t value) { return value * 2; }
+constexpr Raw raw_of_q31(std::int64_t value) {
+    return value * 2;
+}
 
 constexpr Raw sine_of(Octant angle) {
     const auto square = static_cast<Fraction>(times(angle.share, angle.share) - (angle.share == INT32_MIN ? 1 : 0));
@@ -76,14 +80,17 @@ constexpr Raw sine_of(Octant angle) {
     return raw_of_q31((angle.quarter & 2U) == 0U ? value : -value);
 }
 
-MILLFORCE_CALLED constexpr Raw raw_sin(Raw angle_rad) { return sine_of(octant_of(angle_rad)); }
+MILLFORCE_CALLED constexpr Raw raw_sin(Raw angle_rad) {
+    return sine_of(octant_of(angle_rad));
+}
 MILLFORCE_CALLED constexpr Raw raw_cos(Raw angle_rad) {
     Octant angle = octant_of(angle_rad);
     angle.quarter = (angle.quarter + 1U) & 3U;
     return sine_of(angle);
 }
 
-/// √x to 32 significant bits, x ≥ 0. Newton's iteration for 1/√m on the leading 32 bits, and one correction of √m itself.
+/// √x to 32 significant bits, x ≥ 0. Newton's iteration for 1/√m on the leading 32 bits, and one correction of √m
+/// itself.
 MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
     if (x <= 0) {
         return 0;
@@ -95,7 +102,7 @@ MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
     // 1/√top in Q30 to 24 bits, from a line that is 9 % off at most.
     std::uint32_t y = 0x887E'0000U - high_word(product(top, 0x4DFE'0000U));
     for (int round = 0; round < 3; ++round) {
-        const std::uint32_t y2 = high_word(product(y, y));                       // Q28
+        const std::uint32_t y2 = high_word(product(y, y));                              // Q28
         const std::uint32_t rest = 0xC000'0000U - (high_word(product(y2, top)) << 2U);  // 3 − m y² in Q30
         y = high_word(product(y, rest) << 1U);
     }
@@ -120,7 +127,7 @@ MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
 
 /// atan(r)/r over r² for r ≤ tan(π/8): 2.2e-11.
 inline constexpr std::array<Fraction, 7> arc_tangent_over_r{
-    q31(0.99999999953L),          q31(-0.3333333209760978L),  q31(0.19999883856576739L), q31(-0.14281588772783421L),
+    q31(0.99999999953L),       q31(-0.3333333209760978L),   q31(0.19999883856576739L), q31(-0.14281588772783421L),
     q31(0.11040489220095467L), q31(-0.084561927988172317L), q31(0.047073478671634861L)};
 
 inline constexpr Raw raw_pi = 13493037705;         // π 2³²
@@ -170,10 +177,10 @@ MILLFORCE_CALLED constexpr Raw raw_acos(Raw x) {
 }
 
 /// 2^f over f for 0 ≤ f < 1, halved: 3e-11.
-inline constexpr std::array<Fraction, 8> power_of_two{
-    q31(0.49999999997246952L),     q31(0.34657359380182401L),     q31(0.12011317974044365L),
-    q31(0.0277526408415587L),      q31(0.00480678260424099575L),  q31(0.00067146888157209495L),
-    q31(0.00007151277769011638L),  q31(1.0821350466834672e-05L)};
+inline constexpr std::array<Fraction, 8> power_of_two{q31(0.49999999997246952L),    q31(0.34657359380182401L),
+                                                      q31(0.12011317974044365L),    q31(0.0277526408415587L),
+                                                      q31(0.00480678260424099575L), q31(0.00067146888157209495L),
+                                                      q31(0.00007151277769011638L), q31(1.0821350466834672e-05L)};
 
 /// 2^e for e in Q31.32.
 template <typename Policy>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32_h405/analogue_controller.hpp"
 
 #include <algorithm>
@@ -6,17 +7,21 @@
 
 namespace millforce::stm32_h405 {
 
-using emergency::Reason;
 using emergency::error_code;
+using emergency::Reason;
 
 namespace {
 
 constexpr std::uint32_t can_patience = 100'000;  // polls until the CAN controller counts as absent
 constexpr float at_rest_mm_s = 0.5F;
 
-stm32::EncoderSettings axis_encoder(const AxisWiring& axis) { return {.reversed = axis.reversed}; }
+stm32::EncoderSettings axis_encoder(const AxisWiring& axis) {
+    return {.reversed = axis.reversed};
+}
 
-float seconds(std::uint64_t microseconds) { return static_cast<float>(microseconds) * 1e-6F; }
+float seconds(std::uint64_t microseconds) {
+    return static_cast<float>(microseconds) * 1e-6F;
+}
 
 }  // namespace
 
@@ -141,8 +146,9 @@ void AnalogueController::take_sample(std::uint64_t now_us) {
 
 bool AnalogueController::is_at_rest() const {
     return sample_.present == hal::all_present &&
-           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(),
-                       [](float velocity_mm_s) { return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s; });
+           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), [](float velocity_mm_s) {
+               return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
+           });
 }
 
 hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {

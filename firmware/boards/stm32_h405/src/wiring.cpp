@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stm32_h405/wiring.hpp"
 
 #include "stm32/gpio.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zcu102/bus_controller.hpp"
 
 #include "hal/tick_watch.hpp"

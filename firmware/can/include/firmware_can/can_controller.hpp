@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <bitset>
@@ -117,10 +118,10 @@ class CanController {
     CanControllerSettings settings_;
     Parameters<float> parameters_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
-    std::uint8_t complete_;    ///< what a complete sample has present
-    bool is_running_;          ///< the own boot-up was on the bus
-    bool was_heard_ = false;   ///< a frame came since the last poll()
-    bool has_begun_ = false;   ///< a complete sample came
+    std::uint8_t complete_;   ///< what a complete sample has present
+    bool is_running_;         ///< the own boot-up was on the bus
+    bool was_heard_ = false;  ///< a frame came since the last poll()
+    bool has_begun_ = false;  ///< a complete sample came
     bool is_silent_ = false;
     bool is_held_outside_ = false;
     bool stopped_ = false;

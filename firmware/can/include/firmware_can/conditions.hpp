@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -33,12 +34,12 @@ enum class Condition : std::uint8_t {
 inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::local_output_failed) + 1;
 
 constexpr const char* name(Condition condition) {
-    constexpr const char* names[] = {"interface_absent",  "interface_down",  "error_warning",        "error_passive",
-                                     "bus_off",           "send_queue_full", "frames_lost",          "sync_lost",
-                                     "sync_foreign",      "drive_preparing", "drive_refused",        "drive_lost",
-                                     "drive_not_enabled", "drive_emergency", "drive_units_disagree", "input_incomplete",
-                                     "input_stale",       "program_unknown", "program_silent",       "local_input_failed",
-                                     "local_output_failed"};
+    constexpr const char* names[] = {
+        "interface_absent",   "interface_down", "error_warning",     "error_passive",   "bus_off",
+        "send_queue_full",    "frames_lost",    "sync_lost",         "sync_foreign",    "drive_preparing",
+        "drive_refused",      "drive_lost",     "drive_not_enabled", "drive_emergency", "drive_units_disagree",
+        "input_incomplete",   "input_stale",    "program_unknown",   "program_silent",  "local_input_failed",
+        "local_output_failed"};
     static_assert(sizeof names / sizeof names[0] == condition_count);
     return names[static_cast<std::size_t>(condition) % condition_count];
 }

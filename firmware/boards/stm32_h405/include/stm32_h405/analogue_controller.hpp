@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -25,12 +26,11 @@
 /// |---|---|---|
 /// | start | hold until the first tick | boot-up, EMCY with the reset's cause |
 /// | no parameters, or refused | hold, fault `bad_configuration` | EMCY 0x6300 with the reason |
-/// | a current or an encoder is missing or implausible | not raised; after the CNC's `stale_s` hold, fault `stale_input` | EMCY 0x5000, the frame's fault |
-/// | supply below 2.9 V | hold at once; its samples are not used | EMCY 0x3200 |
-/// | fault of the tick | hold | the frame's fault, EMCY 0xFF00 |
-/// | CNC falls silent | the tick holds the feed | the frame's hold bit |
-/// | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when it is back |
-/// | fault of the processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice |
+/// | a current or an encoder is missing or implausible | not raised; after the CNC's `stale_s` hold, fault
+/// `stale_input` | EMCY 0x5000, the frame's fault | | supply below 2.9 V | hold at once; its samples are not used |
+/// EMCY 0x3200 | | fault of the tick | hold | the frame's fault, EMCY 0xFF00 | | CNC falls silent | the tick holds the
+/// feed | the frame's hold bit | | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when it is back
+/// | | fault of the processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice |
 /// | a tick that hangs, or answers nonsense | silence, then the watchdog's reset | EMCY 0x6010 after it |
 /// | supply fails | silence, reset by the brown-out circuit | EMCY 0x3200 after it |
 ///
@@ -60,8 +60,8 @@ class AnalogueController {
                              std::uint64_t now_us);
     /// As often as possible, at least once per sample period.
     void poll(std::uint64_t now_us);
-    /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is asked
-    /// while frames are on their way, and says when to wait no longer.
+    /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is
+    /// asked while frames are on their way, and says when to wait no longer.
     template <typename Patience>
     bool give_up(emergency::Reason reason, std::uint32_t detail, Patience has_patience) {
         can_.abort_all();
