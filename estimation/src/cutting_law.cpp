@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/cutting_law.hpp"
+#include "estimation/cutting/cutting_law.hpp"
 
 namespace millforce::estimation {
 

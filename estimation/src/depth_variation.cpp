@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-of-cut estimators from force profiles, instantiated for float.
-#include "estimation/depth_variation.hpp"
-#include "estimation/depth_monitor.hpp"
+#include "estimation/depth_shape/depth_variation.hpp"
+#include "estimation/depth_shape/depth_monitor.hpp"
 
 namespace millforce::estimation {
 

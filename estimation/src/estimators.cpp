@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instantiates every estimator for float, so that the core's compiler flags and warnings see all of it.
 #include "estimation/cut_estimator.hpp"
-#include "estimation/encoder_angle.hpp"
-#include "estimation/engagement_solver.hpp"
-#include "estimation/feed_drive.hpp"
-#include "estimation/feed_force_observer.hpp"
-#include "estimation/peak_factors.hpp"
-#include "estimation/spindle_drive.hpp"
-#include "estimation/synchronous_average.hpp"
-#include "estimation/warm_up_tracker.hpp"
+#include "estimation/cutting/peak_factors.hpp"
+#include "estimation/drives/feed_drive.hpp"
+#include "estimation/drives/feed_force_observer.hpp"
+#include "estimation/drives/spindle_drive.hpp"
+#include "estimation/drives/warm_up_tracker.hpp"
+#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/signal/encoder_angle.hpp"
+#include "estimation/signal/synchronous_average.hpp"
 
 namespace millforce::estimation {
 

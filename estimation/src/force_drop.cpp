@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/force_drop.hpp"
-
-#include "estimation/force_drop_calibration.hpp"
+#include "estimation/force_drop/force_drop.hpp"
 
 namespace millforce::estimation {
 
@@ -9,6 +7,5 @@ template class RevolutionProfile<float>;
 template class ForceDropDetector<float>;
 template class ForceDropImmersion<float>;
 template class ForceDrop<float>;
-template class ForceDropCalibration<float>;
 
 }  // namespace millforce::estimation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/least_squares.hpp"
+#include "estimation/number/least_squares.hpp"
 
 namespace millforce::estimation {
 

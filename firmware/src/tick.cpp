@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/tick.hpp"
 
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/parameter_table.hpp"
 
 namespace millforce::firmware {

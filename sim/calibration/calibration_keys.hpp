@@ -55,7 +55,7 @@ inline constexpr std::array<CalibrationKey, 5> directional_friction_keys{{
 inline constexpr CalibrationKey friction_force_residual_key = key_of("axis", "residual_rms_N");
 
 /// Table [x], [y] or [z], from recorded currents in air; order of estimation::FeedCurrentIndex. K_x3 is one for both
-/// directions: see estimation/friction_fit.hpp.
+/// directions: see estimation_calibration/friction_fit.hpp.
 inline constexpr std::array<CalibrationKey, 6> feed_current_keys{{
     key_of("axis", "K_x1_positive_A_min2_per_m2"),
     key_of("axis", "K_x2_positive_A_min_per_m"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/cutting_fit.hpp"
+#include "estimation_calibration/cutting_fit.hpp"
 #include "files/csv.hpp"
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/conditions.hpp"
-#include "estimation/current_cutting_fit.hpp"
+#include "estimation_calibration/current_cutting_fit.hpp"
 
 #include <filesystem>
 #include <functional>

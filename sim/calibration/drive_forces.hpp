@@ -3,7 +3,7 @@
 
 #include "calibration/conditions.hpp"
 #include "calibration/recorded_cuts.hpp"
-#include "estimation/current_cutting_fit.hpp"
+#include "estimation_calibration/current_cutting_fit.hpp"
 #include "firmware/parameters.hpp"
 
 #include <vector>

@@ -9,8 +9,8 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/recorded_forces.hpp"
-#include "estimation/force_drop.hpp"
-#include "estimation/force_drop_calibration.hpp"
+#include "estimation/force_drop/force_drop.hpp"
+#include "estimation_calibration/force_drop_calibration.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"

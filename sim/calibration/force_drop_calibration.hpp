@@ -17,14 +17,15 @@ struct ForceShapeCalibrationOptions {
 };
 
 /// Table [force_drop] of a tool: edge lengths, r = a r_av + b and ln K/K_av from cuts of known immersion (Hwang et al.,
-/// estimation/force_drop_calibration.hpp). Each cut is then estimated by the law of the others. Returns 0, or 1 where
-/// one of them is off by more than 10 %. Throws InputError for bad data, and where the cuts do not determine the law:
-/// it names what is missing.
+/// estimation_calibration/force_drop_calibration.hpp). Each cut is then estimated by the law of the others. Returns 0,
+/// or 1 where one of them is off by more than 10 %. Throws InputError for bad data, and where the cuts do not determine
+/// the law: it names what is missing.
 int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostream& out);
 
 /// tip_angle_deg of table [depth_shape]: where the teeth stand against the encoder's zero, from cuts of known depths
-/// (estimation/flute_profile_fit.hpp). Several cuts are averaged by their standard deviations. Returns 0, or 1 where
-/// they disagree by more than four of them. Throws InputError for bad data, and where no cut tells the angle.
+/// (estimation/depth_shape/flute_profile_fit.hpp). Several cuts are averaged by their standard deviations. Returns 0,
+/// or 1 where they disagree by more than four of them. Throws InputError for bad data, and where no cut tells the
+/// angle.
 int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::sim

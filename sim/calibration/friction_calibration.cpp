@@ -4,7 +4,7 @@
 #include "calibration/axis_motion.hpp"
 #include "calibration/calibration_report.hpp"
 #include "calibration/signal.hpp"
-#include "estimation/friction_fit.hpp"
+#include "estimation_calibration/friction_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/roughness_fit.hpp"
+#include "estimation_calibration/roughness_fit.hpp"
 
 #include <array>
 #include <filesystem>

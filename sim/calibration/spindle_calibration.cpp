@@ -3,7 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/signal.hpp"
-#include "estimation/spindle_fit.hpp"
+#include "estimation_calibration/spindle_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"

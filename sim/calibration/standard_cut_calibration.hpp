@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/drive_forces.hpp"
-#include "estimation/standard_cut_fit.hpp"
+#include "estimation_calibration/standard_cut_fit.hpp"
 
 #include <array>
 #include <filesystem>

@@ -7,7 +7,7 @@
 #include "calibration/calibration_report.hpp"
 #include "calibration/force_drop_calibration.hpp"
 #include "calibration/recorded_forces.hpp"
-#include "estimation/depth_monitor.hpp"
+#include "estimation/depth_shape/depth_monitor.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"

@@ -3,7 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/drive_forces.hpp"
-#include "estimation/warm_up_fit.hpp"
+#include "estimation_calibration/warm_up_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "cutting/revolution_load.hpp"
-#include "estimation/cut_geometry.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/parameter_choices.hpp"

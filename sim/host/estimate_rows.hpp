@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "estimation/roughness.hpp"
+#include "estimation/surface/roughness.hpp"
 #include "files/csv.hpp"
 #include "report/run_result.hpp"
 

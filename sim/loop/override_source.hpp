@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "hal/drive_sample.hpp"

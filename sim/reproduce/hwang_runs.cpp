@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "estimation/encoder_angle.hpp"
-#include "estimation/feed_force_observer.hpp"
+#include "estimation/drives/feed_force_observer.hpp"
+#include "estimation/signal/encoder_angle.hpp"
 #include "machine/machine_plant.hpp"
 
 namespace millforce::sim {

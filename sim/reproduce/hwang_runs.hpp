@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimation/force_drop.hpp"
-#include "estimation/force_drop_calibration.hpp"
+#include "estimation/force_drop/force_drop.hpp"
+#include "estimation_calibration/force_drop_calibration.hpp"
 #include "reproduce/hwang_bench.hpp"
 #include "reproduce/hwang_drives.hpp"
 

@@ -2,7 +2,7 @@
 #include "reproduce/hwang_thresholds.hpp"
 
 #include "cutting/revolution_load.hpp"
-#include "estimation/peak_factors.hpp"
+#include "estimation/cutting/peak_factors.hpp"
 
 namespace millforce::sim {
 

@@ -4,9 +4,9 @@
 #include "reproduce/reproduction.hpp"
 
 #include "cutting/revolution_load.hpp"
-#include "estimation/engagement_solver.hpp"
-#include "estimation/feed_drive.hpp"
-#include "estimation/spindle_drive.hpp"
+#include "estimation/drives/feed_drive.hpp"
+#include "estimation/drives/spindle_drive.hpp"
+#include "estimation/engagement/engagement_solver.hpp"
 
 #include <fmt/format.h>
 

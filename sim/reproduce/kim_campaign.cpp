@@ -2,8 +2,8 @@
 #include "reproduce/kim_campaign.hpp"
 
 #include "cutting/cutting_force.hpp"
-#include "estimation/cut_geometry.hpp"
-#include "estimation/friction_fit.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
+#include "estimation_calibration/friction_fit.hpp"
 #include "machine/machine_plant.hpp"
 
 #include <array>

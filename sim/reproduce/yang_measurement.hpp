@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cutting/angle_units.hpp"
-#include "estimation/depth_monitor.hpp"
-#include "estimation/depth_variation.hpp"
+#include "estimation/depth_shape/depth_monitor.hpp"
+#include "estimation/depth_shape/depth_variation.hpp"
 #include "reproduce/force_record.hpp"
 
 /// From a force record to what the estimators take: profiles of one signal, and a monitor that has seen it all.

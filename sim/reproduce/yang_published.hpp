@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "estimation/depth_variation.hpp"
+#include "estimation/depth_shape/depth_variation.hpp"
 #include "reproduce/force_record.hpp"
 #include "reproduce/yang_measurement.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/feed_bench.hpp"
 #include "control/feed_controller.hpp"
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/depth_variation.hpp"
+#include "estimation/depth_shape/depth_variation.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/feed_drive.hpp"
-#include "estimation/spindle_drive.hpp"
+#include "estimation/drives/feed_drive.hpp"
+#include "estimation/drives/spindle_drive.hpp"
 
 #include <CppUTest/TestHarness.h>
 

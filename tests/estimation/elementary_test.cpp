@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/elementary.hpp"
+#include "estimation/number/elementary.hpp"
 
 #include <cmath>
 #include <limits>

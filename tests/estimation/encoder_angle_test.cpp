@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/encoder_angle.hpp"
+#include "estimation/signal/encoder_angle.hpp"
 
 #include <CppUTest/TestHarness.h>
 

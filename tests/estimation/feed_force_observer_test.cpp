@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/feed_force_observer.hpp"
+#include "estimation/drives/feed_force_observer.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/flute_profile_fit.hpp"
+#include "estimation/depth_shape/flute_profile_fit.hpp"
 
-#include "estimation/depth_monitor.hpp"
+#include "estimation/depth_shape/depth_monitor.hpp"
 #include "flute_force.hpp"
 
 #include <CppUTest/TestHarness.h>

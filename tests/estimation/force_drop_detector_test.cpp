@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/force_drop_detector.hpp"
+#include "estimation/force_drop/force_drop_detector.hpp"
 
 #include "face_mill_signal.hpp"
 

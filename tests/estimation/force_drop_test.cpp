@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/force_drop.hpp"
+#include "estimation/force_drop/force_drop.hpp"
 
 #include "face_mill_signal.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/force_memory.hpp"
+#include "estimation/signal/force_memory.hpp"
 
 #include <CppUTest/TestHarness.h>
 

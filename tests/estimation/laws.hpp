@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/cutting_law.hpp"
+#include "estimation/cutting/cutting_law.hpp"
 
 namespace millforce::tests {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/low_pass_response.hpp"
+#include "estimation/signal/low_pass_response.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/peak_factors.hpp"
+#include "estimation/cutting/peak_factors.hpp"
 
 #include "laws.hpp"
 

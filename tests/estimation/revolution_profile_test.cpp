@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/revolution_profile.hpp"
+#include "estimation/signal/revolution_profile.hpp"
 
 #include <CppUTest/TestHarness.h>
 

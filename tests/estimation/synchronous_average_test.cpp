@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/synchronous_average.hpp"
+#include "estimation/signal/synchronous_average.hpp"
 
 #include <CppUTest/TestHarness.h>
 

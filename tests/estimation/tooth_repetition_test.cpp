@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/tooth_repetition.hpp"
+#include "estimation/signal/tooth_repetition.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/warm_up_tracker.hpp"
+#include "estimation/drives/warm_up_tracker.hpp"
 
 #include <CppUTest/TestHarness.h>
 

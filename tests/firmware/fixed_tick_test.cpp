@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"

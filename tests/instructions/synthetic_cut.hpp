@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "estimation/elementary.hpp"
+#include "estimation/number/elementary.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"

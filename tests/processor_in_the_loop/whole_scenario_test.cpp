@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "emulated_controller.hpp"
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
 #include "loop/bounds.hpp"
 #include "loop/override_source.hpp"

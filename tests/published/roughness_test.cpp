@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/roughness.hpp"
+#include "estimation/surface/roughness.hpp"
 #include "files/parameter_files.hpp"
 #include "reproduce/reproduction.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "common/processor.hpp"
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/tick.hpp"
 #include "target/instruction_counter.hpp"
 #include "target/lock_step.hpp"

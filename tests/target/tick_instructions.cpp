@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "common/processor.hpp"
-#include "estimation/fixed_point.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "instructions/synthetic_cut.hpp"

@@ -5,8 +5,8 @@
 #include "control/cut_trend.hpp"
 #include "control/feed_controller_data.hpp"
 #include "control/path_turn.hpp"
-#include "estimation/cut_geometry.hpp"
-#include "estimation/elementary.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
+#include "estimation/number/elementary.hpp"
 
 /// The feed override that holds the largest force on a tooth at its limit.
 ///

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/cutting_law.hpp"
-#include "estimation/engagement_solver.hpp"
-#include "estimation/measurement.hpp"
+#include "estimation/cutting/cutting_law.hpp"
+#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/number/measurement.hpp"
 
 #include <Eigen/Core>
 

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "estimation/cut_estimate.hpp"
-#include "estimation/encoder_angle.hpp"
-#include "estimation/engagement_peaks.hpp"
-#include "estimation/engagement_solver.hpp"
-#include "estimation/feed_drive.hpp"
-#include "estimation/force_memory.hpp"
-#include "estimation/spindle_drive.hpp"
-#include "estimation/synchronous_average.hpp"
-#include "estimation/tooth_force.hpp"
-#include "estimation/tooth_repetition.hpp"
+#include "estimation/cutting/engagement_peaks.hpp"
+#include "estimation/cutting/tooth_force.hpp"
+#include "estimation/drives/feed_drive.hpp"
+#include "estimation/drives/spindle_drive.hpp"
+#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/signal/encoder_angle.hpp"
+#include "estimation/signal/force_memory.hpp"
+#include "estimation/signal/synchronous_average.hpp"
+#include "estimation/signal/tooth_repetition.hpp"
 
 /// From drive signals to forces, engagement and peak force: the chain that the tick runs.
 ///

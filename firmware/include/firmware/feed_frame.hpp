@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "estimation/cut_geometry.hpp"
-#include "estimation/measurement.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
+#include "estimation/number/measurement.hpp"
 
 namespace millforce::firmware {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "estimation/encoder_angle.hpp"
-#include "estimation/feed_force_observer.hpp"
+#include "estimation/drives/feed_force_observer.hpp"
+#include "estimation/signal/encoder_angle.hpp"
 #include "firmware/feed_frame.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/wide_band_settings.hpp"

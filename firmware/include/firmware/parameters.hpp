@@ -3,8 +3,8 @@
 
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
-#include "estimation/force_drop_law.hpp"
-#include "estimation/roughness.hpp"
+#include "estimation/force_drop/force_drop_law.hpp"
+#include "estimation/surface/roughness.hpp"
 
 #include <array>
 #include <cstddef>

@@ -6,7 +6,7 @@
 
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
-#include "estimation/roughness.hpp"
+#include "estimation/surface/roughness.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "estimation/depth_monitor.hpp"
-#include "estimation/force_drop.hpp"
+#include "estimation/depth_shape/depth_monitor.hpp"
+#include "estimation/force_drop/force_drop.hpp"
 #include "firmware/feed_frame_forces.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/wide_band_settings.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/depth_monitor.hpp"
-#include "estimation/force_drop.hpp"
+#include "estimation/depth_shape/depth_monitor.hpp"
+#include "estimation/force_drop/force_drop.hpp"
 #include "firmware/parameters.hpp"
 
 /// Settings of the wide-band methods, worked out from the parameters.

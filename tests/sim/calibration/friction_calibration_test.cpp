@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/friction_calibration.hpp"
 #include "calibration/axis_motion.hpp"
-#include "estimation/friction_fit.hpp"
+#include "estimation_calibration/friction_fit.hpp"
 #include "files/input_error.hpp"
 #include "sim/files/temporary_folder.hpp"
 

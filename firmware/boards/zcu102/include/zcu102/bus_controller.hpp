@@ -45,7 +45,7 @@ struct Peripherals {
 };
 
 /// Not short, since the CNC stops the feed by itself after 20 ms of silence; longer than the longest work beside the
-/// tick, the fit of a flute profile (estimation/flute_profile_fit.hpp).
+/// tick, the fit of a flute profile (estimation/depth_shape/flute_profile_fit.hpp).
 inline constexpr std::uint32_t watchdog_us = 200'000;
 inline constexpr std::uint32_t watchdog_clock_MHz = 100;
 

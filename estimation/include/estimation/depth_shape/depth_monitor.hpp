@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/depth_shape/flute_profile_fit.hpp"
+
+namespace millforce::estimation {
+
+/// Depths of cut from a running force signal: plane forces against the spindle's angle are averaged over whole
+/// revolutions (FluteProfile), and each complete profile is fitted (FluteProfileFit).
+///
+/// add() is for the sampling loop, evaluate() for whatever runs beside it: where add() says that a profile is complete,
+/// samples are dropped until evaluate() has taken it. The forces may be in any fixed frame (machine or feed), as long
+/// as x, y and the spindle's rotation (clockwise from above, φ grows from +y to +x) are the right way round: a turned
+/// frame turns the law's complex coefficients and nothing else. It must not turn within a profile.
+///
+/// Memory: (3·Bins + 20) scalars and the settings; evaluate() needs some 20 kB of stack. No heap. Not thread-safe.
+template <typename Scalar, int Harmonics = 10, int Bins = 180>
+class DepthMonitor {
+  public:
+    using Estimate = FluteProfileEstimate<Scalar>;
+
+    DepthMonitor() = default;
+    explicit DepthMonitor(const FluteProfileFitSettings<Scalar>& settings, int revolutions = 20)
+        : settings_(settings), profile_({.teeth = settings.cutter.teeth, .revolutions = revolutions}) {}
+
+    /// One sample, dt_s after the last one; the angle wrapped to any one turn. A sample that is not finite, or a turn
+    /// of more than half a pitch since the last one, starts the profile anew. True where evaluate() has work to do.
+    bool add(Scalar dt_s, Scalar spindle_angle_rad, Scalar fx_N, Scalar fy_N) {
+        using std::floor;
+        const Scalar turns = spindle_angle_rad / (Scalar(2) * pi<Scalar>);
+        const Scalar angle_rev = turns - floor(turns);
+        Scalar turned_rev = angle_rev - angle_rev_;
+        turned_rev -= floor(turned_rev + Scalar(0.5F));
+        angle_rev_ = angle_rev;
+        typename FluteProfile<Scalar, 2, Bins>::Signals forces;
+        forces << fx_N, fy_N;
+        profile_.add(dt_s, started_ ? turned_rev : Scalar(0), angle_rev, forces);
+        started_ = true;
+        return profile_.complete();
+    }
+
+    [[nodiscard]] bool complete() const { return profile_.complete(); }
+
+    /// Fits the complete profile and starts the next one. Without a complete profile: no estimate.
+    Estimate evaluate() {
+        if (!profile_.complete()) {
+            return {};
+        }
+        const Estimate estimate = FluteProfileFit<Scalar, Harmonics>(settings_).estimate(take_spectrum());
+        return estimate;
+    }
+
+    /// Learns where the teeth stand against the encoder's zero from a profile of known depths, for all that follow
+    /// with this tool in this holder. False: no complete profile, or it does not tell.
+    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = static_cast<Scalar>(0.005L)) {
+        if (!profile_.complete()) {
+            return false;
+        }
+        const auto angle =
+            FluteProfileFit<Scalar, Harmonics>(settings_).calibrate_tip_angle(take_spectrum(), known, relative_sd);
+        if (angle.valid) {
+            settings_.tip_angle_rad = angle;
+        }
+        return angle.valid;
+    }
+
+    [[nodiscard]] const Measurement<Scalar>& tip_angle_rad() const { return settings_.tip_angle_rad; }
+    void restart() {
+        profile_.restart();
+        started_ = false;
+    }
+
+  private:
+    ProfileSpectrum<Scalar, Harmonics> take_spectrum() {
+        const auto spectrum = profile_spectrum<Harmonics>(profile_.average());
+        profile_.restart();
+        return spectrum;
+    }
+
+    FluteProfileFitSettings<Scalar> settings_{};
+    FluteProfile<Scalar, 2, Bins> profile_{};
+    Scalar angle_rev_{0};
+    bool started_ = false;
+};
+
+}  // namespace millforce::estimation

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/number/measurement.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace millforce::estimation {
+
+/// K_x1 w² + K_x2 w, w = |velocity| in m/min (Kim & Chung Eq. 9), for one direction of travel.
+template <typename Scalar>
+struct FrictionCurrent {
+    Scalar K_x1_A_min2_per_m2{0};
+    Scalar K_x2_A_min_per_m{0};
+
+    [[nodiscard]] Scalar at(Scalar speed_m_per_min) const {
+        return (K_x1_A_min2_per_m2 * speed_m_per_min + K_x2_A_min_per_m) * speed_m_per_min;
+    }
+};
+
+/// The friction of both directions of travel, relative to its calibration, tracked while the tool is in air.
+///
+/// Temperature and lubrication act on both directions alike: the two scales are two states with correlated errors,
+/// and travel in air in one direction teaches about the other as well. Kalman filter with two states:
+///   P ← P + q dt [1 ρ; ρ 1],   k = P e_d/(P_dd + R),   κ ← κ + k (z − κ_d),   P ← P − k e_dᵀ P
+template <typename Scalar>
+class FrictionScale {
+  public:
+    static constexpr Scalar correlation = static_cast<Scalar>(0.95L);
+
+    FrictionScale() = default;
+    FrictionScale(Scalar relative_sd, Scalar walk_per_sqrt_s)
+        : own_{square(relative_sd), square(relative_sd)},
+          shared_(correlation * square(relative_sd)),
+          limit_(square(relative_sd)),
+          walk_per_s_(square(walk_per_sqrt_s)) {}
+
+    void predict(Scalar dt_s) {
+        const Scalar growth = walk_per_s_ * dt_s;
+        if (own_[0] + growth < limit_ && own_[1] + growth < limit_) {
+            own_[0] += growth;
+            own_[1] += growth;
+            shared_ += correlation * growth;
+        }
+    }
+
+    void correct(std::size_t direction, Measurement<Scalar> seen) {
+        const std::size_t other = 1U - direction;
+        const Scalar total = own_[direction] + seen.variance;
+        if (!seen.valid || !(total > Scalar(0))) {
+            return;
+        }
+        const Scalar gain = own_[direction] / total;
+        const Scalar gain_of_other = shared_ / total;
+        const Scalar surprise = seen.value - value_[direction];
+        value_[direction] += gain * surprise;
+        value_[other] += gain_of_other * surprise;
+        own_[other] -= gain_of_other * shared_;
+        shared_ -= gain * shared_;
+        own_[direction] -= gain * own_[direction];
+    }
+
+    [[nodiscard]] Scalar value(std::size_t direction) const { return value_[direction]; }
+    [[nodiscard]] Scalar variance(std::size_t direction) const { return own_[direction]; }
+
+  private:
+    std::array<Scalar, 2> value_{Scalar(1), Scalar(1)};
+    std::array<Scalar, 2> own_{};
+    Scalar shared_{0};
+    Scalar limit_{0};
+    Scalar walk_per_s_{0};
+};
+
+template <typename Scalar>
+struct FeedDriveParameters {
+    FrictionCurrent<Scalar> positive{};  ///< growth of the friction current with speed, travelling in + direction
+    FrictionCurrent<Scalar> negative{};  ///< of its magnitude, travelling in − direction
+    Scalar K_x3_A{0};                    ///< constant friction current, of both directions: see gravity_A
+    Scalar gravity_A{0};                 ///< current that holds the axis against its weight; half the difference of
+                          ///< the directions' constant friction is in it: air data cannot tell them apart
+    Scalar K_x4_N_per_A{0};         ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
+    Scalar K_x5_N_m_per_min{0};     ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
+    Scalar mass_kg{0};              ///< moved mass, with the motor's inertia reflected
+    Scalar velocity_floor_mm_s{1};  ///< below it there is no estimate: friction is undefined at rest
+    Scalar gain_relative_sd{static_cast<Scalar>(0.03L)};           ///< of K_x4, from its calibration
+    Scalar friction_relative_sd{static_cast<Scalar>(0.2L)};        ///< of I_f before the first re-zeroing in air
+    Scalar friction_walk_per_sqrt_s{static_cast<Scalar>(0.002L)};  ///< drift of I_f, relative
+    Scalar friction_ripple_A{
+        static_cast<Scalar>(0.05L)};                 ///< position-dependent part of friction that no average removes
+    Scalar current_sd_A{static_cast<Scalar>(0.1L)};  ///< noise of one current sample
+};
+
+/// Mean force of the cut along one feed axis from its motor current.
+///
+///   F_ax = K_x4 (I − I_g − σ κ I_f(|w|)) + K_x5/w − M dv/dt,   σ = sign of w      Kim & Chung Eqs. 9, 10
+///   I_f(w) = K_x1 w² + K_x2 w + K_x3,   K_x1 and K_x2 by direction
+///
+/// positive in the axis' + direction, as a force on the workpiece. κ scales the friction and is re-zeroed in air
+/// (FrictionScale). An axis below its velocity floor, or one that turned round within the average, gives no estimate:
+/// at rest the force hides in static friction, and K_x5/w is singular there. Not thread-safe.
+template <typename Scalar>
+class FeedDrive {
+  public:
+    explicit FeedDrive(const FeedDriveParameters<Scalar>& parameters = {})
+        : parameters_(parameters),
+          friction_scale_(parameters.friction_relative_sd, parameters.friction_walk_per_sqrt_s) {}
+
+    struct Average {
+        Scalar current_A{0};
+        Scalar velocity_mm_s{0};
+        Scalar acceleration_mm_s2{0};
+        Scalar duration_s{0};
+        Scalar samples{1};
+        bool present = false;
+    };
+
+    [[nodiscard]] Measurement<Scalar> force_N(const Average& average) const {
+        if (!is_moving(average)) {
+            return {};
+        }
+        const Scalar friction_A = signed_friction_A(average);
+        const Scalar cut_A =
+            average.current_A - parameters_.gravity_A - friction_scale_.value(direction(average)) * friction_A;
+        const Scalar inertial_N = inertial_force_N(average);
+        const Scalar force = parameters_.K_x4_N_per_A * cut_A + force_by_speed_N(average) - inertial_N;
+        const Scalar friction_variance =
+            square(friction_A) * friction_scale_.variance(direction(average)) + square(parameters_.friction_ripple_A);
+        const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
+                             square(inertia_share_in_doubt * inertial_N);
+        return {
+            true, force,
+            noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
+            noise};
+    }
+
+    /// Time passes: the friction may have moved.
+    void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
+
+    /// The tool is known to be in air: the current is friction, weight and inertia alone.
+    [[gnu::cold]] void rezero(const Average& average) {
+        const Scalar friction_A = signed_friction_A(average);
+        if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
+            return;
+        }
+        const Scalar other_A =
+            parameters_.gravity_A + (inertial_force_N(average) - force_by_speed_N(average)) / parameters_.K_x4_N_per_A;
+        friction_scale_.correct(direction(average), {true, (average.current_A - other_A) / friction_A,
+                                                     current_variance_A2(average) / square(friction_A)});
+    }
+
+    [[nodiscard]] Scalar friction_scale(bool positive_direction) const {
+        return friction_scale_.value(positive_direction ? 1U : 0U);
+    }
+
+    [[nodiscard]] bool is_moving(const Average& average) const {
+        if (!average.present || !(average.samples > Scalar(0)) || !(parameters_.K_x4_N_per_A > Scalar(0))) {
+            return false;
+        }
+        const Scalar speed = average.velocity_mm_s < Scalar(0) ? -average.velocity_mm_s : average.velocity_mm_s;
+        const Scalar change = average.acceleration_mm_s2 * average.duration_s * Scalar(0.5F);
+        const Scalar magnitude = change < Scalar(0) ? -change : change;
+        return speed - magnitude >= parameters_.velocity_floor_mm_s;
+    }
+
+    /// Moving, and at nearly the same speed throughout the average.
+    [[nodiscard]] bool is_steady(const Average& average) const {
+        const Scalar change = average.acceleration_mm_s2 * average.duration_s;
+        return is_moving(average) && square(change) < square(static_cast<Scalar>(0.1L) * average.velocity_mm_s);
+    }
+
+  private:
+    /// Of M dv/dt: what the slope of an average misses of an acceleration that changes within it.
+    static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
+
+    [[nodiscard]] static std::size_t direction(const Average& average) {
+        return average.velocity_mm_s > Scalar(0) ? 1U : 0U;
+    }
+    [[nodiscard]] static Scalar velocity_m_per_min(const Average& average) {
+        return average.velocity_mm_s * static_cast<Scalar>(0.06L);
+    }
+    [[nodiscard]] Scalar signed_friction_A(const Average& average) const {
+        const Scalar w = velocity_m_per_min(average);
+        return w > Scalar(0) ? parameters_.positive.at(w) + parameters_.K_x3_A
+                             : -(parameters_.negative.at(-w) + parameters_.K_x3_A);
+    }
+    /// K_x5/w; most drives have none.
+    [[nodiscard]] Scalar force_by_speed_N(const Average& average) const {
+        const Scalar K_x5 = parameters_.K_x5_N_m_per_min;
+        return K_x5 == Scalar(0) ? Scalar(0) : K_x5 / velocity_m_per_min(average);
+    }
+    [[nodiscard]] Scalar inertial_force_N(const Average& average) const {
+        return parameters_.mass_kg * average.acceleration_mm_s2 * static_cast<Scalar>(0.001L);
+    }
+    [[nodiscard]] Scalar current_variance_A2(const Average& average) const {
+        return square(parameters_.current_sd_A) / average.samples + square(parameters_.friction_ripple_A);
+    }
+
+    FeedDriveParameters<Scalar> parameters_;
+    FrictionScale<Scalar> friction_scale_;  // [0]: − direction, [1]: + direction
+};
+
+}  // namespace millforce::estimation

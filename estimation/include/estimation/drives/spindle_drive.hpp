@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/drives/warm_up_tracker.hpp"
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+struct SpindleDriveParameters {
+    Scalar K_t1_Nm_per_A{0};           ///< torque per ampere below base speed (the paper's K_t1 times R)
+    Scalar K_t2_Nm{0};                 ///< torque at zero current, −K_t1 × idle current (the paper's K_t2 times R)
+    Scalar idle_torque_slope_Nm_s{0};  ///< growth of the idle torque with speed, N·m per rad/s
+    Scalar inertia_kg_m2{0};           ///< J of spindle, rotor and tool
+    Scalar base_speed_rad_s{0};        ///< above it K_t1 falls as base/ω (constant power); 0: never
+    Scalar gain_relative_sd{static_cast<Scalar>(0.02L)};  ///< of K_t1, from its calibration
+    Scalar idle_torque_sd_Nm{static_cast<Scalar>(0.2L)};  ///< of the idle torque before the first re-zeroing in air
+    Scalar idle_walk_Nm_per_sqrt_s{static_cast<Scalar>(0.01L)};  ///< drift of the idle torque
+    Scalar warm_up_torque_Nm{0};  ///< idle torque of the cold spindle above that of the warm one
+    Scalar warm_up_torque_sd_Nm{0};
+    Scalar warm_up_time_s{0};                        ///< time constant of the warming; 0: not known
+    Scalar current_sd_A{static_cast<Scalar>(0.1L)};  ///< noise of one current sample
+};
+
+/// Mean tangential force from the spindle's motor current.
+///
+///   F_at = (K_t1(ω) I + K_t2 − k ω − δ − J dω/dt) / R            Kim & Chung Eq. 8, with inertia, speed and drift
+///   K_t1(ω) = K_t1 for ω ≤ ω_base, K_t1 ω_base/ω above           field weakening: constant power
+///
+/// δ is the idle torque's drift, re-zeroed in air by rezero(); between two such moments it falls as the bearing warms
+/// up. Averages over whole tooth periods are meant: between teeth the rotor stores what the current does not show. R >
+/// 0 in mm, ω in rad/s, I in A. Not thread-safe.
+template <typename Scalar>
+class SpindleDrive {
+  public:
+    explicit SpindleDrive(const SpindleDriveParameters<Scalar>& parameters = {})
+        : parameters_(parameters),
+          drift_Nm_({parameters.idle_torque_sd_Nm, square(parameters.idle_walk_Nm_per_sqrt_s),
+                     parameters.warm_up_torque_Nm, parameters.warm_up_torque_sd_Nm, parameters.warm_up_time_s}) {}
+
+    struct Average {
+        Scalar current_A{0};
+        Scalar speed_rad_s{0};
+        Scalar acceleration_rad_s2{0};
+        Scalar acceleration_variance{0};
+        Scalar samples{1};
+        bool present = false;
+    };
+
+    [[nodiscard]] Measurement<Scalar> tangential_force_N(const Average& average, Scalar cutter_radius_mm) const {
+        return cutter_radius_mm > Scalar(0) ? force_N(average, Scalar(1000) / cutter_radius_mm) : Measurement<Scalar>{};
+    }
+    /// The same for a tool whose newtons per N·m, 1000/R, are known already.
+    [[nodiscard]] Measurement<Scalar> force_N(const Average& average, Scalar per_Nm) const {
+        if (!is_usable(average)) {
+            return {};
+        }
+        const Scalar torque_Nm = torque_without_drift_Nm(average) - drift_Nm_.value();
+        const Scalar noise = noise_variance(average, per_Nm);
+        const Scalar others = drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque_Nm);
+        return {true, torque_Nm * per_Nm, noise + others * square(per_Nm), noise};
+    }
+
+    /// Time passes: the drift may have moved.
+    void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
+
+    /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of
+    /// its inertia's torque a share is in doubt.
+    [[gnu::cold]] void rezero(const Average& average) {
+        if (!is_usable(average)) {
+            return;
+        }
+        const Scalar noise = noise_variance(average, Scalar(1));
+        const Scalar doubt = square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
+        drift_Nm_.correct({true, torque_without_drift_Nm(average), noise + doubt, noise});
+    }
+
+    /// Of the difference of two means of the current, each of so many samples, by its noise; of none: 0.
+    [[nodiscard]] Scalar difference_variance_A2(Scalar samples) const {
+        return samples > Scalar(0) ? Scalar(2) * square(parameters_.current_sd_A) / samples : Scalar(0);
+    }
+
+    [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
+
+    [[nodiscard]] Scalar torque_constant_Nm_per_A(Scalar speed_rad_s) const {
+        const bool weakened = parameters_.base_speed_rad_s > Scalar(0) && speed_rad_s > parameters_.base_speed_rad_s;
+        return weakened ? parameters_.K_t1_Nm_per_A * parameters_.base_speed_rad_s / speed_rad_s
+                        : parameters_.K_t1_Nm_per_A;
+    }
+
+  private:
+    /// Of J dω/dt: what J is off by, and what the slope of an average misses of an acceleration that changes within it.
+    static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
+
+    [[nodiscard]] static bool is_usable(const Average& average) {
+        return average.present && average.samples > Scalar(0) && average.speed_rad_s > Scalar(0);
+    }
+
+    [[nodiscard]] Scalar torque_without_drift_Nm(const Average& average) const {
+        return torque_constant_Nm_per_A(average.speed_rad_s) * average.current_A + parameters_.K_t2_Nm -
+               parameters_.idle_torque_slope_Nm_s * average.speed_rad_s -
+               parameters_.inertia_kg_m2 * average.acceleration_rad_s2;
+    }
+
+    /// Of the torque times `unit`. The unit goes in before the square: that of a small spindle's torque in N·m, 1e-10,
+    /// is at the end of fixed point's digits.
+    [[nodiscard]] Scalar noise_variance(const Average& average, Scalar unit) const {
+        const Scalar sd = torque_constant_Nm_per_A(average.speed_rad_s) * parameters_.current_sd_A * unit;
+        return square(sd) / average.samples + square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;
+    }
+
+    SpindleDriveParameters<Scalar> parameters_;
+    WarmUpTracker<Scalar> drift_Nm_;
+};
+
+}  // namespace millforce::estimation

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/number/elementary.hpp"
+#include "estimation/number/measurement.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+/// Surface roughness from the ratio of cutting forces, during the cut (Tangjitsitcharoen & Senjuntichaj Eqs. 1–2):
+///
+///   R = C V^a₁ f^a₂ φ^a₃ D^a₄ ρ^a₅,   ρ = F_x/F_z
+///
+/// V spindle speed (rpm), f feed (mm/rev), φ tool diameter and D depth of cut (mm), R is R_a or R_z (µm). The paper
+/// calls this power law an exponential function. Its two published models (ball end, AISI 1050):
+///
+///   R_a = 7.5e-6 V^0.964 f^0.195 φ^2.69 D^0.917 ρ^−2.6     R_z = 2.91 V^0.16 f^0.438 φ^1.25 D^0.474 ρ^−2.84
+///
+/// The paper draws 95 % prediction intervals and prints neither their formula nor its residual, its number of tests or
+/// the range of ρ. Here, with x₀ = (1, ln V, …, ln ρ) of the cut and X of the n tests that the model was fitted to,
+///
+///   R · exp(± √(t² s² (1 + h₀) + (1.96 a₅)² var ln ρ)),   h₀ = x₀ᵀ(XᵀX)⁻¹x₀,   t = t_{0.975, n−p}
+///
+/// The first term is the interval of a test as they were made for the fit. The second is what the paper has no need of:
+/// there a dynamometer measures ρ as in the tests, here two motor currents do. R itself is the median, not the mean.
+/// Without s and n − p there is no interval, and nothing may act on R: so it is with the published models.
+///
+/// h₀ is held as 1/n + zᵀ M z: z the logarithms of the variables over their geometric means in the tests, M = (ZᵀZ)⁻¹
+/// of the centred tests. This is the same number, and float keeps it.
+///
+/// Memory: 49 scalars, the model included. No heap. Not thread-safe. Valid from 1 degree of freedom.
+
+namespace millforce::estimation {
+
+enum RoughnessVariable : int {
+    roughness_spindle_speed,
+    roughness_feed,
+    roughness_tool_diameter,
+    roughness_axial_depth,
+    roughness_force_ratio,
+    roughness_variable_count
+};
+
+template <typename Scalar>
+using RoughnessValues = std::array<Scalar, static_cast<std::size_t>(roughness_variable_count)>;
+
+/// What R is predicted from: V in rpm, f in mm/rev, φ in mm, D in mm, ρ; in the order of RoughnessVariable. Each > 0.
+template <typename Scalar>
+using RoughnessConditions = RoughnessValues<Scalar>;
+
+enum class RoughnessMeasure : unsigned char { Ra, Rz };
+
+/// A model with its range and with what its interval is made of. Plain data: the [roughness] table of a tool.
+template <typename Scalar>
+struct RoughnessModel {
+    static constexpr std::size_t pairs = 15;
+    Scalar measure{0};                     ///< index into RoughnessMeasure
+    Scalar constant_um{0};                 ///< C; 0: there is no model
+    RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
+    RoughnessValues<Scalar> minimum{};     ///< range of the tests …
+    RoughnessValues<Scalar> maximum{};     ///< … 0: not told
+    RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
+    Scalar tests{0};                       ///< n
+    Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
+    Scalar residual_ln_sd{0};              ///< s
+    std::array<Scalar, pairs> leverage{};  ///< M, lower triangle by rows; see pair()
+    Scalar largest_leverage{0};            ///< of a test on the fit; 0: not told
+
+    /// Where M(row, column) stands in `leverage`; row ≥ column.
+    static constexpr std::size_t pair(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
+};
+
+/// The two-sided 95 % quantile of Student's t. Cornish–Fisher to the fourth order (Abramowitz & Stegun 26.7.5), exact
+/// for 1 and 2 degrees of freedom; from 3 on within 0.13 %, from 10 on within 0.002 %. NaN below 1.
+template <typename Scalar>
+Scalar student_t_975(Scalar degrees_of_freedom) {
+    const Scalar nu = degrees_of_freedom;
+    if (!(nu >= Scalar(1))) {
+        return std::numeric_limits<Scalar>::quiet_NaN();
+    }
+    if (nu < Scalar(3)) {
+        return nu < Scalar(2) ? static_cast<Scalar>(12.706205L) : static_cast<Scalar>(4.302653L);
+    }
+    const Scalar x = Scalar(1) / nu;
+    return static_cast<Scalar>(1.9599640L) +
+           x * (static_cast<Scalar>(2.3722712L) +
+                x * (static_cast<Scalar>(2.8224986L) +
+                     x * (static_cast<Scalar>(2.5558497L) + x * static_cast<Scalar>(1.5895341L))));
+}
+
+/// |F_x/F_z| with its variance. No estimate where either force is none or lies within three standard deviations of
+/// zero: the ratio of such numbers has no bounded interval. Signs are the axes' business: a ball end presses down.
+template <typename Scalar>
+Measurement<Scalar> force_ratio(const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z) {
+    const auto is_clear = [](const Measurement<Scalar>& f) {
+        constexpr Scalar least_significance{3};
+        return f.valid && f.variance >= Scalar(0) && square(f.value) - square(f.value) == Scalar(0) &&
+               square(f.value) > square(least_significance) * f.variance && square(f.value) > Scalar(0);
+    };
+    if (!is_clear(f_x) || !is_clear(f_z)) {
+        return {};
+    }
+    const Scalar ratio = f_x.value / f_z.value;
+    const Scalar ln_variance = f_x.variance / square(f_x.value) + f_z.variance / square(f_z.value);
+    return {true, ratio < Scalar(0) ? -ratio : ratio, square(ratio) * ln_variance, Scalar(0)};
+}
+
+/// R of a cut with its 95 % prediction interval, and whether the cut is like those that the model was fitted to.
+template <typename Scalar>
+struct RoughnessPrediction {
+    bool valid = false;         ///< roughness_um is an estimate
+    bool has_interval = false;  ///< low_um and high_um are
+    Scalar roughness_um{0};
+    Scalar low_um{0};
+    Scalar high_um{0};
+    Scalar leverage{0};        ///< h₀
+    unsigned outside{0};       ///< bit j: variable j lies outside the range of the tests; see also hidden_extrapolation
+    unsigned range_untold{0};  ///< bit j: nobody told the range of variable j
+
+    /// Each variable is in its range, but no test had them together: h₀ is beyond that of any test.
+    static constexpr unsigned hidden_extrapolation = 1U << static_cast<unsigned>(roughness_variable_count);
+
+    /// Within the fitted range, as far as it was told.
+    [[nodiscard]] bool in_range() const { return valid && outside == 0U; }
+    /// Fit to act on: with an interval, and within a range that was told in full.
+    [[nodiscard]] bool is_sure() const { return in_range() && has_interval && range_untold == 0U; }
+};
+
+template <typename Scalar>
+class RoughnessPredictor {
+  public:
+    RoughnessPredictor() = default;
+    [[gnu::cold]] explicit RoughnessPredictor(const RoughnessModel<Scalar>& model);
+
+    [[nodiscard]] bool has_model() const { return has_model_; }
+    [[nodiscard]] bool has_interval() const { return has_interval_; }
+    [[nodiscard]] const RoughnessModel<Scalar>& model() const { return model_; }
+
+    /// R of a cut whose ρ is known as well as in the tests. No estimate where a condition is not positive and finite.
+    /// Cost: 5 logarithms, 3 exponentials, 1 root, some 60 products.
+    [[nodiscard]] RoughnessPrediction<Scalar> predict(const RoughnessConditions<Scalar>& cut) const {
+        return prediction_of(cut, Scalar(0));
+    }
+
+    /// The same from forces as the drives give them: the doubt of both goes into the interval.
+    [[nodiscard]] RoughnessPrediction<Scalar> predict(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
+                                                      const Measurement<Scalar>& f_z) const {
+        const Measurement<Scalar> ratio = force_ratio(f_x, f_z);
+        if (!ratio.valid) {
+            return {};
+        }
+        cut[roughness_force_ratio] = ratio.value;
+        return prediction_of(cut, ratio.variance / square(ratio.value));
+    }
+
+    /// How fast to feed at most so that the upper bound of R stays at `limit_um` or below, with all but the feed as in
+    /// `cut`. Within the fitted feeds: what others would do to the surface nobody has measured.
+    struct FeedCeiling {
+        bool valid = false;      ///< feed_mm_rev is a ceiling
+        bool reachable = false;  ///< a fitted feed keeps the limit; else feed_mm_rev is the lowest of them
+        bool in_range = false;   ///< the cut at this feed is like those of the tests
+        Scalar feed_mm_rev{0};
+    };
+
+    /// No ceiling without an interval, without a told range of feeds, or where R does not grow with the feed (a₂ ≤ 0:
+    /// a slower feed would not help). Cost: 18 times 15 products and a root, and
+    /// two predictions.
+    [[nodiscard, gnu::cold]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
+                                                      const Measurement<Scalar>& f_z, Scalar limit_um) const;
+
+  private:
+    static constexpr std::size_t count = static_cast<std::size_t>(roughness_variable_count);
+
+    [[nodiscard, gnu::cold]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
+                                                                       Scalar ratio_ln_variance) const;
+    [[nodiscard, gnu::cold]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
+                                                        Scalar ratio_ln_variance) const;
+    [[nodiscard]] static bool are_usable(const RoughnessConditions<Scalar>& cut);
+    [[nodiscard]] RoughnessValues<Scalar> logarithms(const RoughnessConditions<Scalar>& cut) const;
+    [[nodiscard]] Scalar ln_roughness(const RoughnessValues<Scalar>& z) const;
+    [[nodiscard]] Scalar leverage(const RoughnessValues<Scalar>& z) const;
+    [[nodiscard]] Scalar half_interval(Scalar leverage, Scalar ratio_ln_variance) const;
+    void compare_with_tests(const RoughnessConditions<Scalar>& cut, RoughnessPrediction<Scalar>& prediction) const;
+
+    RoughnessModel<Scalar> model_{};
+    RoughnessValues<Scalar> ln_reference_{};  // of z: geometric means of the tests, or 1 where there are none
+    Scalar ln_at_reference_um_{0};
+    Scalar t_{0};
+    bool has_model_ = false;
+    bool has_interval_ = false;
+};
+
+template <typename Scalar>
+RoughnessPredictor<Scalar>::RoughnessPredictor(const RoughnessModel<Scalar>& model) : model_(model) {
+    using elementary::log;
+    const auto is_positive = [](Scalar value) { return value > Scalar(0) && value - value == Scalar(0); };
+    has_model_ = is_positive(model.constant_um);
+    if (!has_model_) {
+        return;
+    }
+    ln_at_reference_um_ = log(model.constant_um);
+    bool has_references = true;
+    for (std::size_t j = 0; j < count; ++j) {
+        const bool is_given = is_positive(model.reference[j]);
+        has_references = has_references && is_given;
+        ln_reference_[j] = is_given ? log(model.reference[j]) : Scalar(0);
+        ln_at_reference_um_ += model.exponent[j] * ln_reference_[j];
+    }
+    has_model_ = ln_at_reference_um_ - ln_at_reference_um_ == Scalar(0);
+    has_interval_ = has_model_ && has_references && is_positive(model.residual_ln_sd) && is_positive(model.tests) &&
+                    model.degrees_of_freedom >= Scalar(1);
+    t_ = has_interval_ ? student_t_975(model.degrees_of_freedom) : Scalar(0);
+}
+
+template <typename Scalar>
+bool RoughnessPredictor<Scalar>::are_usable(const RoughnessConditions<Scalar>& cut) {
+    for (const Scalar value : cut) {
+        if (!(value > Scalar(0)) || !(value - value == Scalar(0))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <typename Scalar>
+RoughnessValues<Scalar> RoughnessPredictor<Scalar>::logarithms(const RoughnessConditions<Scalar>& cut) const {
+    using elementary::log;
+    RoughnessValues<Scalar> z{};
+    for (std::size_t j = 0; j < count; ++j) {
+        z[j] = log(cut[j]) - ln_reference_[j];
+    }
+    return z;
+}
+
+template <typename Scalar>
+Scalar RoughnessPredictor<Scalar>::ln_roughness(const RoughnessValues<Scalar>& z) const {
+    Scalar sum = ln_at_reference_um_;
+    for (std::size_t j = 0; j < count; ++j) {
+        sum += model_.exponent[j] * z[j];
+    }
+    return sum;
+}
+
+template <typename Scalar>
+Scalar RoughnessPredictor<Scalar>::leverage(const RoughnessValues<Scalar>& z) const {
+    Scalar form{0};
+    for (std::size_t row = 0; row < count; ++row) {
+        form += model_.leverage[model_.pair(row, row)] * square(z[row]);
+        for (std::size_t column = 0; column < row; ++column) {
+            form += Scalar(2) * model_.leverage[model_.pair(row, column)] * z[row] * z[column];
+        }
+    }
+    return Scalar(1) / model_.tests + (form > Scalar(0) ? form : Scalar(0));
+}
+
+template <typename Scalar>
+Scalar RoughnessPredictor<Scalar>::half_interval(Scalar leverage, Scalar ratio_ln_variance) const {
+    using std::sqrt;
+    constexpr Scalar normal_975 = static_cast<Scalar>(1.9599640L);
+    return sqrt(square(t_ * model_.residual_ln_sd) * (Scalar(1) + leverage) +
+                square(normal_975 * model_.exponent[roughness_force_ratio]) * ratio_ln_variance);
+}
+
+template <typename Scalar>
+void RoughnessPredictor<Scalar>::compare_with_tests(const RoughnessConditions<Scalar>& cut,
+                                                    RoughnessPrediction<Scalar>& prediction) const {
+    // What a drive holds of a programmed speed or feed: no cut in the loop has the tests' numbers to the digit.
+    constexpr Scalar tolerance = static_cast<Scalar>(0.01L);
+    for (std::size_t j = 0; j < count; ++j) {
+        const unsigned bit = 1U << static_cast<unsigned>(j);
+        if (!(model_.maximum[j] > Scalar(0))) {
+            prediction.range_untold |= bit;
+        } else if (cut[j] < model_.minimum[j] * (Scalar(1) - tolerance) ||
+                   cut[j] > model_.maximum[j] * (Scalar(1) + tolerance)) {
+            prediction.outside |= bit;
+        }
+    }
+    const bool is_told = prediction.has_interval && model_.largest_leverage > Scalar(0);
+    if (is_told && prediction.leverage > model_.largest_leverage * (Scalar(1) + Scalar(5) * tolerance)) {
+        prediction.outside |= RoughnessPrediction<Scalar>::hidden_extrapolation;
+    }
+}
+
+template <typename Scalar>
+RoughnessPrediction<Scalar> RoughnessPredictor<Scalar>::prediction_of(const RoughnessConditions<Scalar>& cut,
+                                                                      Scalar ratio_ln_variance) const {
+    using elementary::exp;
+    RoughnessPrediction<Scalar> prediction;
+    if (!has_model_ || !are_usable(cut)) {
+        return prediction;
+    }
+    const RoughnessValues<Scalar> z = logarithms(cut);
+    const Scalar ln_R = ln_roughness(z);
+    prediction.roughness_um = exp(ln_R);
+    prediction.valid = prediction.roughness_um - prediction.roughness_um == Scalar(0);
+    if (has_interval_) {
+        prediction.leverage = leverage(z);
+        const Scalar half = half_interval(prediction.leverage, ratio_ln_variance);
+        prediction.low_um = exp(ln_R - half);
+        prediction.high_um = exp(ln_R + half);
+        prediction.has_interval = prediction.valid && prediction.high_um - prediction.high_um == Scalar(0);
+    }
+    compare_with_tests(cut, prediction);
+    return prediction;
+}
+
+/// The feed, as ln(f/reference), at which the upper bound of R meets its limit, by bisection; `z` is at the highest
+/// fitted feed. Where none does: below the lowest fitted feed.
+template <typename Scalar>
+Scalar RoughnessPredictor<Scalar>::highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
+                                                       Scalar ratio_ln_variance) const {
+    using elementary::log;
+    const auto keeps_limit = [&](Scalar z_feed) {
+        z[roughness_feed] = z_feed;
+        return ln_roughness(z) + half_interval(leverage(z), ratio_ln_variance) <= ln_limit;
+    };
+    Scalar broken = z[roughness_feed];
+    if (keeps_limit(broken)) {
+        return broken;
+    }
+    Scalar kept = log(model_.minimum[roughness_feed]) - ln_reference_[roughness_feed];
+    if (!keeps_limit(kept)) {
+        return kept - Scalar(1);
+    }
+    constexpr int halvings = 16;
+    for (int k = 0; k < halvings; ++k) {
+        const Scalar middle = Scalar(0.5F) * (kept + broken);
+        (keeps_limit(middle) ? kept : broken) = middle;
+    }
+    return kept;
+}
+
+template <typename Scalar>
+typename RoughnessPredictor<Scalar>::FeedCeiling RoughnessPredictor<Scalar>::feed_ceiling(
+    RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z,
+    Scalar limit_um) const {
+    using elementary::exp;
+    using elementary::log;
+    const Measurement<Scalar> ratio = force_ratio(f_x, f_z);
+    const Scalar lowest = model_.minimum[roughness_feed];
+    const Scalar highest = model_.maximum[roughness_feed];
+    cut[roughness_feed] = highest;
+    cut[roughness_force_ratio] = ratio.value;
+    const bool has_feeds = lowest > Scalar(0) && highest >= lowest && model_.exponent[roughness_feed] > Scalar(0);
+    if (!has_interval_ || !ratio.valid || !has_feeds || !(limit_um > Scalar(0)) || !are_usable(cut)) {
+        return {};
+    }
+    const Scalar ratio_ln_variance = ratio.variance / square(ratio.value);
+    const Scalar feed =
+        exp(highest_feed_within(log(limit_um), logarithms(cut), ratio_ln_variance) + ln_reference_[roughness_feed]);
+    FeedCeiling ceiling;
+    ceiling.reachable = feed > lowest * (Scalar(1) - static_cast<Scalar>(0.01L));
+    ceiling.feed_mm_rev = clamp(feed, lowest, highest);
+    cut[roughness_feed] = ceiling.feed_mm_rev;
+    const RoughnessPrediction<Scalar> there = prediction_of(cut, ratio_ln_variance);
+    ceiling.valid = there.has_interval;
+    ceiling.in_range = there.is_sure();
+    return ceiling;
+}
+
+}  // namespace millforce::estimation

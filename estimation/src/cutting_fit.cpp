@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "estimation/cutting_fit.hpp"
-
-namespace millforce::estimation {
-
-template struct CuttingFit<float>;
-template CuttingFit<float> fit_cutting_law(std::span<const CuttingMeasurement<float>>, const CuttingFitOptions<float>&);
-
-}  // namespace millforce::estimation
