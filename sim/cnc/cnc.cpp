@@ -17,7 +17,7 @@ constexpr double arrived_mm = 1e-9;
 
 void require(const char* name, double value, double least, double most) {
     if (!(value >= least && value <= most)) {
-        throw InputError(fmt::format("cnc.{}: {}, expected {} to {}", name, value, least, most));
+        throw host::InputError(fmt::format("cnc.{}: {}, expected {} to {}", name, value, least, most));
     }
 }
 
@@ -33,7 +33,7 @@ const CncSettings& validated(const CncSettings& settings) {
 
 std::vector<Move> validated(std::vector<Move> moves) {
     if (moves.empty()) {
-        throw InputError("part program: no moves, expected at least one");
+        throw host::InputError("part program: no moves, expected at least one");
     }
     return moves;
 }

@@ -433,12 +433,13 @@ std::vector<Move> parse_gcode(std::istream& stream, std::string_view file_name, 
     while (stream.read(chunk.data(), chunk.size()) || stream.gcount() > 0) {
         text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
         if (text.size() > largest_text_bytes) {
-            throw InputError(fmt::format("{}: found more than {} bytes, expected a part program of at most 256 MiB",
-                                         file_name, largest_text_bytes));
+            throw host::InputError(
+                fmt::format("{}: found more than {} bytes, expected a part program of at most 256 MiB", file_name,
+                            largest_text_bytes));
         }
     }
     if (stream.bad()) {
-        throw InputError(fmt::format("{}: found a read error, expected a readable part program", file_name));
+        throw host::InputError(fmt::format("{}: found a read error, expected a readable part program", file_name));
     }
     return parse_gcode(text, file_name, settings);
 }

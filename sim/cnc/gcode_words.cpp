@@ -164,8 +164,8 @@ class LineReader {
 }  // namespace
 
 void reject(const GcodePlace& place, std::string_view found, std::string_view expected) {
-    throw InputError(fmt::format("{}:{}:{}: found '{}', expected {}", place.file_name, place.line, place.column,
-                                 printable(found), expected));
+    throw host::InputError(fmt::format("{}:{}:{}: found '{}', expected {}", place.file_name, place.line, place.column,
+                                       printable(found), expected));
 }
 
 GcodeBlock split_block(std::string_view text, std::string_view file_name, std::size_t line) {

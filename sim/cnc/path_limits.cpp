@@ -17,18 +17,18 @@ void validate(const Move& move) {
     const bool finite = move.start_mm.allFinite() && move.end_mm.allFinite() && move.centre_mm.allFinite() &&
                         std::isfinite(move.spindle_speed_rad_s);
     if (!finite) {
-        throw InputError(
+        throw host::InputError(
             fmt::format("part program:{}: found a position or spindle speed that is not finite, expected "
                         "finite ones",
                         move.line));
     }
     if (move.kind == MoveKind::dwell) {
         if (!(move.dwell_s >= 0.0 && move.dwell_s <= 86400.0)) {
-            throw InputError(
+            throw host::InputError(
                 fmt::format("part program:{}: found a dwell of {} s, expected 0 to 86400", move.line, move.dwell_s));
         }
     } else if (move.kind != MoveKind::rapid && !(move.feed_mm_s > 0.0 && std::isfinite(move.feed_mm_s))) {
-        throw InputError(
+        throw host::InputError(
             fmt::format("part program:{}: found a feed of {} mm/s, expected one above 0", move.line, move.feed_mm_s));
     }
 }

@@ -21,7 +21,7 @@ void validate_pitch(const Cutter& cutter) {
     }
     constexpr double tolerance_rad = 1e-6;
     if (std::abs(sum_rad - turn) > tolerance_rad) {
-        throw InputError(fmt::format("cutter.tooth_pitch_rad: the sum is {}, expected 2 pi", sum_rad));
+        throw host::InputError(fmt::format("cutter.tooth_pitch_rad: the sum is {}, expected 2 pi", sum_rad));
     }
 }
 
@@ -29,7 +29,7 @@ void validate_pitch(const Cutter& cutter) {
 
 void validate(const Cutter& cutter) {
     if (cutter.teeth < 1 || cutter.teeth > Cutter::max_teeth) {
-        throw InputError(fmt::format("cutter.teeth: {}, expected 1 to {}", cutter.teeth, Cutter::max_teeth));
+        throw host::InputError(fmt::format("cutter.teeth: {}, expected 1 to {}", cutter.teeth, Cutter::max_teeth));
     }
     check_range("cutter.diameter_mm", cutter.diameter_mm, 0.1, 1000.0);
     check_range("cutter.flute_length_mm", cutter.flute_length_mm, 0.01, 500.0);

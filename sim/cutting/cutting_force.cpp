@@ -57,7 +57,7 @@ void turn_by(double delta, double& sine, double& cosine) {
 
 void require_finite(const char* name, double value) {
     if (!std::isfinite(value)) {
-        throw InputError(fmt::format("{}: {}, expected a finite number", name, value));
+        throw host::InputError(fmt::format("{}: {}, expected a finite number", name, value));
     }
 }
 
@@ -105,8 +105,8 @@ void CuttingForce::build_slices() {
     const std::size_t on_sphere = divide(radius_mm * arc_rad, arc_rad * std::max(1.0, lag_over_arc));
     const std::size_t above = divide(length_mm - sphere_mm, lag_rad_per_mm_ * (length_mm - sphere_mm));
     if (on_sphere + above > most_slices) {
-        throw InputError(fmt::format("resolution: {} slices over the flute length, expected at most {}",
-                                     on_sphere + above, most_slices));
+        throw host::InputError(fmt::format("resolution: {} slices over the flute length, expected at most {}",
+                                           on_sphere + above, most_slices));
     }
     slices_.reserve(on_sphere + above);
     for (std::size_t j = 0; j < on_sphere; ++j) {

@@ -33,8 +33,8 @@ struct Pool {
             ++count;
         }
     }
-    [[nodiscard]] double mean() const { return count > 0 ? sum / count : no_estimate; }
-    [[nodiscard]] double rms() const { return count > 0 ? std::sqrt(sum_of_squares / count) : no_estimate; }
+    [[nodiscard]] double mean() const { return count > 0 ? sum / count : host::no_estimate; }
+    [[nodiscard]] double rms() const { return count > 0 ? std::sqrt(sum_of_squares / count) : host::no_estimate; }
 };
 
 double median(std::vector<double> values) {

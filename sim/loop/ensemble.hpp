@@ -25,10 +25,10 @@ struct EnsembleFigures {
     double late_over_limit_s_worst = 0.0;  ///< see RunFigures
     double time_s_mean = 0.0;
     double estimate_share = 0.0;  ///< of the time in cut: with an immersion
-    double immersion_rms = no_estimate;
-    double immersion_coverage = no_estimate;  ///< mean over the runs
-    double depth_rms_mm = no_estimate;
-    double depth_coverage = no_estimate;
+    double immersion_rms = host::no_estimate;
+    double immersion_coverage = host::no_estimate;  ///< mean over the runs
+    double depth_rms_mm = host::no_estimate;
+    double depth_coverage = host::no_estimate;
 };
 
 /// Runs `runs` plants with seeds scenario.seed, +1, … on all processors; the result does not depend on their number.

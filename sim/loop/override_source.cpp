@@ -20,7 +20,7 @@ double as_double(Scalar value) {
 
 template <typename Scalar>
 double value_or_none(const estimation::Measurement<Scalar>& measurement) {
-    return measurement.valid ? as_double(measurement.value) : no_estimate;
+    return measurement.valid ? as_double(measurement.value) : host::no_estimate;
 }
 
 }  // namespace

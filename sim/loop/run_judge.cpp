@@ -169,8 +169,10 @@ RunResult RunJudge::result(const std::string& controller, bool finished) const {
         f.mean_override = override_sum_ / f.cutting_time_s;
         f.mean_force_use = use_sum_ / f.cutting_time_s;
     }
-    const auto rms = [](double sum, int count) { return count > 0 ? std::sqrt(sum / count) : no_estimate; };
-    const auto share = [](int part, int count) { return count > 0 ? static_cast<double>(part) / count : no_estimate; };
+    const auto rms = [](double sum, int count) { return count > 0 ? std::sqrt(sum / count) : host::no_estimate; };
+    const auto share = [](int part, int count) {
+        return count > 0 ? static_cast<double>(part) / count : host::no_estimate;
+    };
     f.immersion_rms = rms(immersion_error2_, immersion_samples_);
     f.immersion_coverage = share(immersion_inside_, immersion_samples_);
     f.depth_rms_mm = rms(depth_error2_, depth_samples_);

@@ -12,7 +12,7 @@ namespace millforce::sim {
 
 namespace {
 
-using Table = TomlFile::Table;
+using Table = host::TomlFile::Table;
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double rad_s_per_rpm = 2.0 * std::numbers::pi / 60.0;
@@ -181,7 +181,7 @@ void tilt(CuttingCoefficients& k, const PlantDeviation& deviation) {
 }  // namespace
 
 Scenario read_scenario(const std::string& path) {
-    TomlFile file = TomlFile::open(path);
+    host::TomlFile file = host::TomlFile::open(path);
     Table root = file.root();
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     Scenario scenario;
@@ -191,7 +191,7 @@ Scenario read_scenario(const std::string& path) {
     scenario.machine_file = (folder / root.text("machine")).string();
     scenario.tool_file = (folder / root.text("tool")).string();
     scenario.seed = static_cast<std::uint64_t>(root.number("seed", 0.0, 4e9, 1.0));
-    scenario.parameters = read_parameters(scenario.machine_file, scenario.tool_file);
+    scenario.parameters = host::read_parameters(scenario.machine_file, scenario.tool_file);
     read_cutter(root, scenario.parameters.tool, scenario.cutter);
     read_material(root, scenario);
     read_deviation(root, scenario.deviation);

@@ -148,7 +148,7 @@ std::vector<Move> moves_of(const Scenario& scenario) {
     }
     std::ifstream file(scenario.program_file);
     if (!file) {
-        throw InputError(fmt::format("{}: no such file", scenario.program_file));
+        throw host::InputError(fmt::format("{}: no such file", scenario.program_file));
     }
     GcodeSettings settings;
     settings.start_mm = {scenario.stock.start_x_mm, scenario.stock.start_y_mm, scenario.stock.start_z_mm};

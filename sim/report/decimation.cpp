@@ -12,8 +12,8 @@ namespace {
 struct Extremes {
     const TracePoint* lowest = nullptr;
     const TracePoint* highest = nullptr;
-    double low = no_estimate;
-    double high = no_estimate;
+    double low = host::no_estimate;
+    double high = host::no_estimate;
 };
 
 Extremes extremes(std::span<const TracePoint> points, const TraceValue& value) {

@@ -22,13 +22,13 @@ void make_directory(const std::filesystem::path& directory) {
     std::filesystem::create_directories(directory, error);
     if (!std::filesystem::is_directory(directory)) {
         const std::string reason = error ? error.message() : "there is a file of that name";
-        throw InputError(
+        throw host::InputError(
             fmt::format("{}: cannot be made ({}); expected a directory for the report", directory.string(), reason));
     }
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
-    AtomicFile file(path);
+    host::AtomicFile file(path);
     file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
     file.commit();
 }

@@ -26,7 +26,7 @@ struct ChartColumn {
 };
 
 double out_of_rapid(const TracePoint& point, double value) {
-    return point.rapid ? no_estimate : value;
+    return point.rapid ? host::no_estimate : value;
 }
 
 /// Columns of every run. Rapid moves are left out of feed and override: their feed would flatten everything else.

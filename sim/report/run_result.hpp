@@ -29,22 +29,22 @@ struct TracePoint {
     std::uint8_t fault = 0;  ///< control::Fault
     bool rapid = false;
 
-    double true_tooth_force_N = 0.0;             ///< largest in-plane force of one tooth in the interval
-    double true_peak_force_N = 0.0;              ///< largest total in-plane force in the interval
-    double true_tangential_force_N = 0.0;        ///< mean F_at in the interval
-    double true_feed_force_N = 0.0;              ///< mean F_ax in the interval
-    double true_radial_immersion = no_estimate;  ///< NaN in air
-    double true_axial_depth_mm = no_estimate;
+    double true_tooth_force_N = 0.0;                   ///< largest in-plane force of one tooth in the interval
+    double true_peak_force_N = 0.0;                    ///< largest total in-plane force in the interval
+    double true_tangential_force_N = 0.0;              ///< mean F_at in the interval
+    double true_feed_force_N = 0.0;                    ///< mean F_ax in the interval
+    double true_radial_immersion = host::no_estimate;  ///< NaN in air
+    double true_axial_depth_mm = host::no_estimate;
 
-    double tangential_force_N = no_estimate;
-    double feed_force_N = no_estimate;
-    double radial_immersion = no_estimate;
-    double radial_immersion_sd = no_estimate;
-    double axial_depth_mm = no_estimate;
-    double axial_depth_sd_mm = no_estimate;
-    double tooth_force_N = no_estimate;
-    double peak_force_N = no_estimate;
-    double force_limit_N = no_estimate;  ///< the threshold on the total force, F_tooth,max · g
+    double tangential_force_N = host::no_estimate;
+    double feed_force_N = host::no_estimate;
+    double radial_immersion = host::no_estimate;
+    double radial_immersion_sd = host::no_estimate;
+    double axial_depth_mm = host::no_estimate;
+    double axial_depth_sd_mm = host::no_estimate;
+    double tooth_force_N = host::no_estimate;
+    double peak_force_N = host::no_estimate;
+    double force_limit_N = host::no_estimate;  ///< the threshold on the total force, F_tooth,max · g
 };
 
 /// The figures of one run.
@@ -62,10 +62,10 @@ struct RunFigures {
     double mean_override = 0.0;         ///< over cutting time
     double mean_force_use = 0.0;        ///< mean of true tooth force / limit over cutting time
 
-    double immersion_rms = no_estimate;       ///< error of the estimate over samples with an estimate
-    double immersion_coverage = no_estimate;  ///< share of them within the estimate's own 95 % band
-    double depth_rms_mm = no_estimate;
-    double depth_coverage = no_estimate;
+    double immersion_rms = host::no_estimate;       ///< error of the estimate over samples with an estimate
+    double immersion_coverage = host::no_estimate;  ///< share of them within the estimate's own 95 % band
+    double depth_rms_mm = host::no_estimate;
+    double depth_coverage = host::no_estimate;
     double estimate_share = 0.0;    ///< share of cutting samples that had an immersion estimate
     double real_time_factor = 0.0;  ///< simulated time per wall-clock time
     std::string fault = "none";

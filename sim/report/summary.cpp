@@ -40,7 +40,7 @@ constexpr FigureColumn figure_columns[] = {
      [](const RunResult& run, auto) { return with_unit(run.figures.time_s, 1, " s"); }},
     {"time saved", "Against the constant feed that is safe everywhere on the part.",
      [](const RunResult& run, std::span<const RunResult> runs) {
-         return with_unit(time_saved_percent(run, runs).value_or(no_estimate), 1, " %");
+         return with_unit(time_saved_percent(run, runs).value_or(host::no_estimate), 1, " %");
      }},
     {"peak tooth force", "Largest true force of one tooth.",
      [](const RunResult& run, auto) { return with_unit(run.figures.peak_tooth_force_N, 0, " N"); }},

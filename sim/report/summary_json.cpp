@@ -55,7 +55,7 @@ void write_run(JsonWriter& json, const RunResult& run, std::span<const RunResult
     json.key("controller").text(run.controller);
     json.key("finished").boolean(run.figures.finished);
     json.key("fault").text(run.figures.fault);
-    json.key("time_saved_percent").number(time_saved_percent(run, runs).value_or(no_estimate));
+    json.key("time_saved_percent").number(time_saved_percent(run, runs).value_or(host::no_estimate));
     json.key("teeth_broken").integer(run.figures.teeth_broken);
     for (const auto& [key, value] : figure_keys) {
         json.key(key).number(run.figures.*value);

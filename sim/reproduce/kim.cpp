@@ -340,7 +340,8 @@ std::vector<KimCut> new_cuts() {
             {250.0, 4.0, 5.0},  {200.0, 5.2, 4.0}, {150.0, 6.4, 4.0}, {150.0, 8.0, 3.0}};
 }
 
-estimation::AverageForceMeasurement<double> measured_forces(const CutRow& row, const RecordedStretch& stretch,
+estimation::AverageForceMeasurement<double> measured_forces(const host::CutRow& row,
+                                                            const host::RecordedStretch& stretch,
                                                             const KimCampaign& campaign) {
     const auto& gains = campaign.gains;
     const double per_root_s = std::sqrt(1.5 / stretch.duration_s);  // the cut's own and half of each air's
@@ -360,7 +361,7 @@ estimation::AverageForceMeasurement<double> measured_forces(const CutRow& row, c
 void tally_engagements(const KimCampaign& campaign, const KimUnknownTool& tool, const AverageChipLaw& law,
                        EngagementTally& tally) {
     const auto stretches = simulate_cuts(campaign.machine, law, new_cuts(), 7);
-    const auto rows = forces_of_cuts(stretches, campaign.calibrated);
+    const auto rows = host::forces_of_cuts(stretches, campaign.calibrated);
     estimation::EngagementSolverSettings<double> settings;
     settings.teeth = KimStandardCut::flutes;
     const estimation::EngagementSolver<double> solver(tool.fit.law, settings);

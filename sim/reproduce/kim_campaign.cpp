@@ -91,8 +91,8 @@ MachinePlantSettings plant_settings(const KimMachine& machine, std::uint64_t noi
     return settings;
 }
 
-DriveReading reading_of(const hal::DriveSample& sample, double time_s, double angle_rad) {
-    DriveReading reading{time_s, angle_rad, static_cast<double>(sample.spindle_current_A), {}, {}};
+host::DriveReading reading_of(const hal::DriveSample& sample, double time_s, double angle_rad) {
+    host::DriveReading reading{time_s, angle_rad, static_cast<double>(sample.spindle_current_A), {}, {}};
     for (std::size_t k = 0; k < reading.axis_current_A.size(); ++k) {
         reading.axis_current_A[k] = static_cast<double>(sample.axis_current_A[k]);
         reading.axis_velocity_mm_s[k] = static_cast<double>(sample.axis_velocity_mm_s[k]);
@@ -109,7 +109,7 @@ class StretchRunner {
     }
 
     /// 2 mm to settle, then whole turns of the screw that are averaged; `direction` +1 or −1.
-    RecordedStretch run(const AverageChipLaw& law, const KimCut& cut, double direction = 1.0) {
+    host::RecordedStretch run(const AverageChipLaw& law, const KimCut& cut, double direction = 1.0) {
         const double feed_mm_s = direction * cut.feed_mm_min / 60.0;
         const PitchForce force(law, cut);
         const double start_s = plant_.time_s();
@@ -117,7 +117,7 @@ class StretchRunner {
         // Whole turns of the screw: its ripple averages out.
         const double turns = std::ceil(least_measured_s * std::abs(feed_mm_s) / screw_pitch_mm);
         const double end_s = settled_s + turns * screw_pitch_mm / std::abs(feed_mm_s);
-        StretchAverage average;
+        host::StretchAverage average;
         for (long step = 1; plant_.time_s() < end_s; ++step) {
             place_mm_ += feed_mm_s * plant_step_s;
             plant_.advance(plant_step_s,
@@ -132,7 +132,7 @@ class StretchRunner {
                 }
             }
         }
-        StretchConditions conditions;
+        host::StretchConditions conditions;
         conditions.recording = "simulated";
         conditions.place = "simulated";
         conditions.start_s = settled_s;
@@ -155,14 +155,14 @@ std::vector<KimAirCut> simulate_air_cuts(const KimMachine& machine) {
     std::vector<KimAirCut> air;
     for (const double feed_mm_min : {100.0, 175.0, 250.0, 350.0, 500.0, 700.0, 1000.0}) {
         for (const double direction : {1.0, -1.0}) {
-            const RecordedStretch stretch = runner.run({}, {feed_mm_min, 0.0, 0.0}, direction);
+            const host::RecordedStretch stretch = runner.run({}, {feed_mm_min, 0.0, 0.0}, direction);
             air.push_back({stretch.feed_m_per_min(), stretch.axis_current_A});
         }
     }
     return air;
 }
 
-void fill_friction(const std::vector<KimAirCut>& air, MachineParameters& machine) {
+void fill_friction(const std::vector<KimAirCut>& air, host::MachineParameters& machine) {
     estimation::FeedCurrentFit<double> fit;
     for (const KimAirCut& cut : air) {
         fit.add(cut.feed_m_per_min, cut.current_A);
@@ -193,10 +193,10 @@ KimMachine KimMachine::numbered(std::uint64_t number) {
     return machine;
 }
 
-std::vector<RecordedStretch> simulate_cuts(const KimMachine& machine, const AverageChipLaw& law,
-                                           const std::vector<KimCut>& cuts, std::uint64_t noise) {
+std::vector<host::RecordedStretch> simulate_cuts(const KimMachine& machine, const AverageChipLaw& law,
+                                                 const std::vector<KimCut>& cuts, std::uint64_t noise) {
     StretchRunner runner(machine, noise);
-    std::vector<RecordedStretch> stretches;
+    std::vector<host::RecordedStretch> stretches;
     for (const KimCut& cut : cuts) {
         stretches.push_back(runner.run(law, {cut.feed_mm_min, 0.0, 0.0}));
         stretches.push_back(runner.run(law, cut));
@@ -227,14 +227,14 @@ KimCampaign calibrate_machine(const KimMachine& machine, const AverageChipLaw& d
     KimCampaign campaign;
     campaign.machine = machine;
     campaign.air_cuts = simulate_air_cuts(machine);
-    MachineParameters& calibrated = campaign.calibrated;
+    host::MachineParameters& calibrated = campaign.calibrated;
     calibrated.spindle.K_t1_Nm_per_A = 0.7F;     // the data sheets'
     calibrated.spindle.warm_up_time_s = 240.0F;  // of its own calibration: see warm_up_fit.hpp
     calibrated.axes[0].K_x4_N_per_A = 120.0F;
     fill_friction(campaign.air_cuts, calibrated);
     campaign.standard_cuts = simulate_cuts(machine, database, kim_standard_cuts(), 2);
     campaign.gains =
-        standard_cut_gains(campaign.standard_cuts, calibrated, closed_law(database), estimation::CutSide::down);
+        host::standard_cut_gains(campaign.standard_cuts, calibrated, closed_law(database), estimation::CutSide::down);
     const auto& spindle = campaign.gains.spindle;
     const auto& feed = *campaign.gains.axes[0];
     calibrated.spindle.K_t1_Nm_per_A = static_cast<float>(spindle.gain);
@@ -251,9 +251,9 @@ KimCampaign calibrate_machine(const KimMachine& machine, const AverageChipLaw& d
 KimUnknownTool calibrate_tool(const KimCampaign& campaign, const AverageChipLaw& law, std::uint64_t noise) {
     KimUnknownTool tool;
     tool.stretches = simulate_cuts(campaign.machine, law, kim_unknown_cuts(), noise);
-    tool.cuts = forces_of_cuts(tool.stretches, campaign.calibrated);
-    tool.fit = fit_cuts_from_currents(tool.cuts, estimation::CuttingLawForm::power, estimation::CutSide::down,
-                                      campaign.gain_doubt);
+    tool.cuts = host::forces_of_cuts(tool.stretches, campaign.calibrated);
+    tool.fit = host::fit_cuts_from_currents(tool.cuts, estimation::CuttingLawForm::power, estimation::CutSide::down,
+                                            campaign.gain_doubt);
     return tool;
 }
 

@@ -46,8 +46,8 @@ struct KimMachine {
 
 /// All cuts in one recording, each after running in air at its own feed: 2 mm for the drives to settle, then as many
 /// turns of the screw as take 6 s. Air once more at the end.
-std::vector<RecordedStretch> simulate_cuts(const KimMachine& machine, const AverageChipLaw& law,
-                                           const std::vector<KimCut>& cuts, std::uint64_t noise);
+std::vector<host::RecordedStretch> simulate_cuts(const KimMachine& machine, const AverageChipLaw& law,
+                                                 const std::vector<KimCut>& cuts, std::uint64_t noise);
 
 /// One feed of step 1.
 struct KimAirCut {
@@ -59,9 +59,9 @@ struct KimAirCut {
 struct KimCampaign {
     KimMachine machine;
     std::vector<KimAirCut> air_cuts;
-    MachineParameters calibrated;  ///< after steps 1 and 2
-    StandardCutGains gains;        ///< of step 2
-    std::vector<RecordedStretch> standard_cuts;
+    host::MachineParameters calibrated;  ///< after steps 1 and 2
+    host::StandardCutGains gains;        ///< of step 2
+    std::vector<host::RecordedStretch> standard_cuts;
     estimation::DriveGainDoubt<double> gain_doubt;
     double idle_torque_Nm = 0.0;  ///< of the plant's warm bearing at the spindle's speed
 };
@@ -71,8 +71,8 @@ KimCampaign calibrate_machine(const KimMachine& machine, const AverageChipLaw& d
 
 /// Step 3 on a calibrated machine.
 struct KimUnknownTool {
-    std::vector<RecordedStretch> stretches;
-    std::vector<CutRow> cuts;  ///< with forces from currents
+    std::vector<host::RecordedStretch> stretches;
+    std::vector<host::CutRow> cuts;  ///< with forces from currents
     estimation::CuttingFit<double> fit;
 };
 KimUnknownTool calibrate_tool(const KimCampaign& campaign, const AverageChipLaw& law, std::uint64_t noise);

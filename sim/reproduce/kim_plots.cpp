@@ -36,7 +36,7 @@ struct CutCoefficients {
     double r_1;
 };
 
-CutCoefficients of_cut(const CutRow& row) {
+CutCoefficients of_cut(const host::CutRow& row) {
     const auto m = row.measurement(estimation::CutSide::down);
     const auto i = estimation::engagement_integrals(m.cut.engagement);
     const double per_pressure =
@@ -47,7 +47,7 @@ CutCoefficients of_cut(const CutRow& row) {
 
 PlotSeries points_of(const std::string& name, const KimUnknownTool& tool, double CutCoefficients::*value) {
     PlotSeries series{name, PlotSeries::Style::points, {}, {}};
-    for (const CutRow& row : tool.cuts) {
+    for (const host::CutRow& row : tool.cuts) {
         const CutCoefficients cut = of_cut(row);
         series.x.push_back(cut.chip_mm);
         series.y.push_back(cut.*value);
@@ -78,7 +78,7 @@ void add_coefficient_plot(const KimDrawn& drawn, const KimUnknownTool& tool, Rep
 
 void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
     const auto friction = [&](double w) {
-        return signed_friction_current_A(campaign.calibrated, 0, w) +
+        return host::signed_friction_current_A(campaign.calibrated, 0, w) +
                static_cast<double>(campaign.calibrated.axes[0].gravity_A);
     };
     PlotSeries air{"air cuts", PlotSeries::Style::points, {}, {}};
@@ -99,7 +99,7 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
     PlotSeries feed{"standard cuts and air", PlotSeries::Style::points, {}, {}};
     PlotSeries spindle{"standard cuts and air", PlotSeries::Style::points, {}, {}};
     const double kappa = campaign.gains.axes[0]->nuisance;
-    for (const RecordedStretch& s : campaign.standard_cuts) {
+    for (const host::RecordedStretch& s : campaign.standard_cuts) {
         const auto side = estimation::CutSide::down;
         const auto forces = estimation::average_forces<double>(
             law,
@@ -107,7 +107,7 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
              estimation::engagement_angles(side, 2.0 * s.conditions.radial_width_mm / s.conditions.tool_diameter_mm),
              static_cast<double>(s.conditions.flutes)});
         feed.x.push_back(s.axis_current_A - static_cast<double>(campaign.calibrated.axes[0].gravity_A) -
-                         kappa * signed_friction_current_A(campaign.calibrated, 0, s.feed_m_per_min()));
+                         kappa * host::signed_friction_current_A(campaign.calibrated, 0, s.feed_m_per_min()));
         feed.y.push_back(s.conditions.in_cut() ? forces.feed_N : 0.0);
         spindle.x.push_back(s.spindle_current_A);
         spindle.y.push_back(s.conditions.in_cut() ? forces.tangential_N : 0.0);

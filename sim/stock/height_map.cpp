@@ -68,7 +68,7 @@ HeightMap::HeightMap(double min_x_mm, double min_y_mm, double max_x_mm, double m
     const double columns = std::ceil(width - 1e-9);
     const double rows = std::ceil(depth - 1e-9);
     if (!(columns >= 1.0 && rows >= 1.0 && columns * rows <= most_cells && cell_mm > 0.0 && std::isfinite(top_mm))) {
-        throw InputError(
+        throw host::InputError(
             fmt::format("stock: a block of {} × {} mm, {} mm high, in cells of {} mm has {} × {} cells, "
                         "expected 1 to 64 million in all",
                         max_x_mm - min_x_mm, max_y_mm - min_y_mm, top_mm, cell_mm, columns, rows));

@@ -47,8 +47,8 @@ TEST_GROUP(BusInTheLoop){};
 
 TEST(BusInTheLoop, a_Cortex_R5F_mills_a_part_with_nothing_but_frames_between) {
     const sim::Scenario scenario = sim::read_scenario(bus_scenario_file());
-    sim::TomlFile file = sim::TomlFile::from_text(milled_on_zcu102(bus_scenario_file()), "zcu102");
-    sim::TomlFile::Table told = file.root();
+    host::TomlFile file = host::TomlFile::from_text(milled_on_zcu102(bus_scenario_file()), "zcu102");
+    host::TomlFile::Table told = file.root();
     const auto count = [&](const char* name) { return told.number(name, 0.0, 1e9); };
     sim::RunFigures figures;
     figures.finished = told.boolean("finished", false);

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "sim/files/temporary_folder.hpp"
+#include "firmware/program/files/temporary_folder.hpp"
 
 namespace millforce {
 

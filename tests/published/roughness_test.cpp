@@ -9,6 +9,7 @@
 #include <string>
 
 using namespace millforce;
+using namespace millforce::host;
 using namespace millforce::sim;
 
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/program.hpp"
+#include "program/program.hpp"
 #include "vcan/bus_peers.hpp"
 
 /// `millforce run` and `millforce simulate --bus` as two processes on vcan0.

@@ -56,3 +56,15 @@ function(millforce_core target)
         set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)  # only what an image or a test links
     endif()
 endfunction()
+
+# millforce_host_library(<prefix> <folder> LINKS ...): all sources of a folder beside the caller, as <prefix>_<folder>.
+function(millforce_host_library prefix folder)
+    cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+    find_package(fmt REQUIRED)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    set(target ${prefix}_${folder})
+    add_library(${target} STATIC ${sources})
+    target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+    target_link_libraries(${target} PUBLIC fmt::fmt ${ARG_LINKS})
+    millforce_target_warnings(${target})
+endfunction()

@@ -25,7 +25,7 @@ bool is_boot_up(const LoggedFrame& logged) {
 std::vector<std::string> replayed(const ControllerOnLoopback& run, const sim::Scenario& scenario,
                                   std::uint64_t late_us = 0) {
     firmware::CanControllerSettings settings =
-        controller_settings(sim::read_machine_bus(scenario.machine_file).value());
+        controller_settings(host::read_machine_bus(scenario.machine_file).value());
     settings.drives.produces_sync = false;
     TickLog ticks;
     firmware::CanController controller(settings, scenario.parameters, &ticks);

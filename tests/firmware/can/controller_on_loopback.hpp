@@ -11,10 +11,10 @@
 #include "bus/cnc_on_bus.hpp"
 #include "bus/loopback_bus.hpp"
 #include "bus/machine_on_bus.hpp"
+#include "bus/plant_wiring.hpp"
 #include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "firmware_can/can_controller.hpp"
-#include "live/plant_wiring.hpp"
 #include "loop/override_source.hpp"
 #include "loop/scenario.hpp"
 
@@ -38,14 +38,14 @@ class TickLog final : public firmware::TickListener {
         for (const double value :
              {point.tangential_force_N, point.feed_force_N, point.radial_immersion, point.axial_depth_mm,
               point.peak_force_N, static_cast<double>(controller.output().ratio)}) {
-            line += ',' + sim::CsvWriter::cell(value);
+            line += ',' + host::CsvWriter::cell(value);
         }
         lines.push_back(line + ',' + std::to_string(controller.output().state));
     }
     std::vector<std::string> lines{};
 };
 
-inline firmware::CanControllerSettings controller_settings(const sim::MachineBus& bus) {
+inline firmware::CanControllerSettings controller_settings(const host::MachineBus& bus) {
     firmware::CanControllerSettings settings;
     settings.drives = bus.drives;
     settings.feed_override = bus.feed_override;
@@ -57,8 +57,8 @@ inline firmware::CanControllerSettings controller_settings(const sim::MachineBus
 class ControllerOnLoopback : public sim::OverrideSource {
   public:
     explicit ControllerOnLoopback(const sim::Scenario& scenario)
-        : ControllerOnLoopback(scenario, sim::read_machine_bus(scenario.machine_file).value()) {}
-    ControllerOnLoopback(const sim::Scenario& scenario, const sim::MachineBus& bus)
+        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value()) {}
+    ControllerOnLoopback(const sim::Scenario& scenario, const host::MachineBus& bus)
         : machine(sim::drives_on_bus(scenario, bus)),
           cnc(sim::cnc_on_bus(scenario, bus)),
           controller(controller_settings(bus), scenario.parameters, &ticks) {

@@ -29,7 +29,7 @@ inline std::vector<Move> parse_body(std::string_view body) {
 inline std::string refusal_of(std::string_view text) {
     try {
         parse(text);
-    } catch (const InputError& error) {
+    } catch (const host::InputError& error) {
         return error.what();
     }
     return "";

@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "live/can_port.hpp"
+#include "daemon/can_port.hpp"
 #include "target/zcu102_plant/emulated_time.hpp"
 #include "zynqmp/can_controller.hpp"
 
@@ -17,7 +17,7 @@ inline std::uint64_t timer_us() {
 }
 
 /// The plant's end of the bus: CAN 1.
-class BarePort final : public sim::CanPort {
+class BarePort final : public host::CanPort {
   public:
     BarePort() { can_.start(zynqmp::kbit_1000); }
 

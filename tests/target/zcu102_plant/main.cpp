@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
+#include "bus/plant_on_can.hpp"
+#include "bus/plant_wiring.hpp"
 #include "files/input_error.hpp"
 #include "firmware/parameter_block.hpp"
-#include "live/plant_on_can.hpp"
-#include "live/plant_wiring.hpp"
 #include "loop/scenario.hpp"
 #include "loop/simulation.hpp"
 #include "target/zcu102/a53.hpp"
@@ -74,7 +74,7 @@ class PlantOnBoard final : public sim::PlantOnCan {
     std::uint64_t longest_computing_us = 0;  ///< of a sample, with the turns that were given away meanwhile
 
   private:
-    PlantOnBoard(const sim::Scenario& scenario, target::BarePort& bare, std::unique_ptr<sim::CanPort> port)
+    PlantOnBoard(const sim::Scenario& scenario, target::BarePort& bare, std::unique_ptr<host::CanPort> port)
         : PlantOnCan(plant_settings(scenario), std::move(port)), wire(bare), scenario_(scenario) {}
 
     const sim::Scenario& scenario_;
@@ -112,7 +112,7 @@ void mill(const char* scenario_file) {
 int main(int argc, char** argv) {
     try {
         if (argc != 2) {
-            throw sim::InputError("expected SCENARIO.toml");
+            throw host::InputError("expected SCENARIO.toml");
         }
         mill(argv[1]);
         return 0;

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/can_daemon.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cia402/objects.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+using firmware::Condition;
+
+constexpr std::uint64_t second_us = 1'000'000;
+/// The override's sender finds out that ticks stay away (20 ms) and says so in its heartbeat.
+constexpr std::uint64_t farewell_us = 40'000;
+
+firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
+    firmware::CanControllerSettings settings;
+    settings.drives = bus.drives;
+    settings.feed_override = bus.feed_override;
+    settings.program = bus.program;
+    return settings;
+}
+
+}  // namespace
+
+CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
+                     const firmware::Parameters<float>& parameters, Journal& journal, const CanDaemonSettings& settings)
+    : journal_(journal),
+      override_id_(bus.feed_override.id),
+      entries_(run_log_interval_us),
+      controller_(controller_settings(bus), parameters, this),
+      socket_(socket_settings(interface, controller_, settings.records)),
+      clock_(settings.time, socket_.unix_offset_us()),
+      sync_id_(bus.drives.sync_id),
+      heartbeat_id_(cia402::cob_id::heartbeat + bus.feed_override.node_id),
+      local_drives_(bus),
+      local_outputs_(bus.local) {}
+
+socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSettings settings,
+                                                        const firmware::CanController& controller, bool records) {
+    settings.receive_own = true;
+    if (!records) {
+        std::array<hal::CanFilter, firmware::CanController::filter_capacity> filters{};
+        settings.filter_count = controller.filters(filters);
+        std::copy_n(filters.begin(), settings.filter_count, settings.filters.begin());
+    }
+    return settings;
+}
+
+void CanDaemon::run(const std::atomic<bool>& stop) {
+    while (!stop.load(std::memory_order_relaxed)) {
+        step();
+    }
+    end(farewell_us);
+}
+
+/// In lock-step the next SYNC is due when all drives have answered this one, or do not.
+std::uint64_t CanDaemon::now_us() const {
+    const BusTime& time = clock_.time();
+    const std::uint64_t passed_us = time.in_lock_step && has_cycle_ended() ? time.sync_period_us : 0;
+    return clock_.of_monotonic(socketcan::monotonic_us()) + passed_us;
+}
+
+bool CanDaemon::has_cycle_ended() const {
+    constexpr std::uint64_t start_patience_us = 5'000;
+    constexpr std::uint64_t patience_us = 1'000'000;
+    const std::uint64_t elapsed_us = socketcan::monotonic_us() - sync_heard_us_;
+    return elapsed_us > (controller_.ticks() == 0 ? start_patience_us : patience_us) ||
+           (controller_.ticks() > 0 && !controller_.drives().is_collecting());
+}
+
+bool CanDaemon::is_boot_up(const socketcan::ReceivedFrame& received) const {
+    const hal::CanFrame& frame = received.frame;
+    return received.is_own && frame.id == heartbeat_id_ && frame.length == 1 && frame.data[0] == 0;
+}
+
+void CanDaemon::step() {
+    const std::uint64_t before_us = now_us();
+    socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
+    const std::uint64_t time_us = now_us();
+    socket_.poll(socketcan::monotonic_us());
+    receive_all();
+    controller_.poll(time_us);
+    send_all();
+    local_outputs_.poll(socketcan::monotonic_us());
+    controller_.hold_from_outside(local_outputs_.health().is_failed);
+    controller_.work();
+    report(time_us);
+}
+
+void CanDaemon::end(std::uint64_t duration_us) {
+    const std::uint64_t start_us = socketcan::monotonic_us();
+    controller_.stop(now_us());
+    while (socketcan::monotonic_us() < start_us + clock_.real_us(duration_us)) {
+        step();
+    }
+}
+
+void CanDaemon::receive_all() {
+    socketcan::ReceivedFrame received;
+    while (socket_.receive(received)) {
+        const std::int64_t unix_us = static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us();
+        journal_.record(received.frame, static_cast<std::uint64_t>(unix_us));
+        clock_.on_frame(received.frame);
+        if (is_boot_up(received)) {
+            clock_.begin();
+        }
+        if (received.frame.id == sync_id_ && !received.frame.extended && !received.frame.remote) {
+            sync_heard_us_ = socketcan::monotonic_us();
+            local_drives_.on_sync(socketcan::monotonic_us());
+        }
+        controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);
+    }
+}
+
+void CanDaemon::send_all() {
+    hal::CanFrame frame;
+    while (local_drives_.take_frame(frame)) {
+        socket_.send(frame);
+    }
+    while (controller_.take_frame(frame)) {
+        const bool is_new = frame.id == override_id_ && controller_.tick_time_us() != measured_tick_us_;
+        if (socket_.send(frame) && is_new) {
+            measured_tick_us_ = controller_.tick_time_us();
+            const std::uint64_t sent_us = now_us();
+            latency_.add(clock_.real_us(sent_us > measured_tick_us_ ? sent_us - measured_tick_us_ : 0));
+        }
+    }
+}
+
+void CanDaemon::on_tick(const firmware::CanController& controller) {
+    local_outputs_.update(controller.told(), socketcan::monotonic_us());
+    if (entries_.add(controller, newest_)) {
+        journal_.estimate(newest_);
+    }
+}
+
+firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
+    using socketcan::LinkState;
+    const socketcan::LinkHealth& link = socket_.health();
+    firmware::Conditions found = controller_.conditions();
+    found.set(Condition::interface_absent, link.state == LinkState::absent);
+    found.set(Condition::interface_down, link.state == LinkState::down);
+    found.set(Condition::error_warning, link.state == LinkState::error_warning);
+    found.set(Condition::error_passive, link.state == LinkState::error_passive);
+    found.set(Condition::bus_off, link.state == LinkState::bus_off);
+    found.set(Condition::send_queue_full, link.send_queue_full);
+    found.set(Condition::local_input_failed, local_drives_.health().is_failed);
+    found.set(Condition::local_output_failed, local_outputs_.health().is_failed);
+    if (const std::uint32_t lost = link.overruns + link.controller_overflows; lost != frames_lost_) {
+        frames_lost_ = lost;
+        frames_lost_us_ = now_us;
+    }
+    found.set(Condition::frames_lost, frames_lost_ > 0 && now_us < frames_lost_us_ + second_us);
+    return found;
+}
+
+/// With what was there within the last second: a condition that flutters is told once.
+firmware::Conditions CanDaemon::recent(const firmware::Conditions& now, std::uint64_t now_us) {
+    firmware::Conditions found;
+    for (std::size_t k = 0; k < firmware::condition_count; ++k) {
+        const auto condition = static_cast<Condition>(k);
+        seen_us_[k] = now.has(condition) ? now_us : seen_us_[k];
+        found.set(condition, seen_us_[k] != 0 && now_us < seen_us_[k] + second_us);
+    }
+    return found;
+}
+
+void CanDaemon::report(std::uint64_t now_us) {
+    const firmware::Conditions now = recent(conditions(now_us), now_us);
+    const bool is_periodic = now_us >= next_status_us_;
+    const bool is_news = !has_told_ || !(now == told_);
+    if (!is_periodic && !is_news) {
+        return;
+    }
+    has_told_ = true;
+    told_ = now;
+    StatusEntry entry;
+    entry.unix_us = now_us;
+    entry.conditions = now;
+    entry.link = socket_.health();
+    entry.bus = controller_.drives().health();
+    entry.rejects = controller_.drives().rejects();
+    for (std::size_t role = 0; role < entry.drives.size(); ++role) {
+        const auto drive = static_cast<cia402::DriveRole>(role);
+        entry.drives[role] = controller_.drives().health(drive);
+        entry.is_used[role] = controller_.drives().node(drive).node_id() != 0;
+    }
+    entry.ticks = controller_.ticks();
+    entry.syncs_skipped = controller_.syncs_skipped();
+    entry.newest = newest_;
+    entry.input = local_drives_.health();
+    entry.output = local_outputs_.health();
+    if (is_news) {
+        journal_.status(entry);
+    }
+    if (is_periodic) {
+        next_status_us_ = now_us + second_us;
+        entry.is_periodic = true;
+        journal_.status(entry);
+    }
+}
+
+}  // namespace millforce::host

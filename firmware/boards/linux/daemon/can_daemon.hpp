@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "daemon/bus_clock.hpp"
+#include "daemon/journal.hpp"
+#include "daemon/latency.hpp"
+#include "files/machine_bus.hpp"
+#include "firmware_can/can_controller.hpp"
+#include "socketcan/can_socket.hpp"
+
+namespace millforce::host {
+
+struct CanDaemonSettings {
+    bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
+    BusTime time{};
+};
+
+/// The controller on a CAN interface: socket, CanController and journal in one loop, until `stop` is set. Then the
+/// override says hold, and the heartbeat `stopped`, before run() returns. No heap in the loop; it blocks in the socket
+/// alone. One thread.
+class CanDaemon final : private firmware::TickListener {
+  public:
+    CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
+              const firmware::Parameters<float>& parameters, Journal& journal, const CanDaemonSettings& settings);
+
+    void run(const std::atomic<bool>& stop);
+
+    [[nodiscard]] const socketcan::LinkHealth& link() const { return socket_.health(); }
+    [[nodiscard]] const firmware::CanController& controller() const { return controller_; }
+    /// From a SYNC on the bus to the override frame that was worked out of its sample, on a clock.
+    [[nodiscard]] const LatencyHistogram& sync_to_override() const { return latency_; }
+    [[nodiscard]] std::uint64_t overruns() const { return socket_.health().overruns; }
+
+  private:
+    void on_tick(const firmware::CanController& controller) override;
+    void step();
+    void receive_all();
+    void send_all();
+    void end(std::uint64_t duration_us);
+    void report(std::uint64_t now_us);
+    [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
+    [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
+    [[nodiscard]] std::uint64_t now_us() const;
+    [[nodiscard]] bool has_cycle_ended() const;
+    [[nodiscard]] bool is_boot_up(const socketcan::ReceivedFrame& received) const;
+    static socketcan::CanSocketSettings socket_settings(socketcan::CanSocketSettings settings,
+                                                        const firmware::CanController& controller, bool records);
+
+    Journal& journal_;
+    std::uint32_t override_id_;
+    TickEntries entries_;
+    firmware::CanController controller_;
+    socketcan::CanSocket socket_;
+    BusClock clock_;
+    std::uint32_t sync_id_;
+    std::uint32_t heartbeat_id_;
+    std::uint64_t sync_heard_us_ = 0;  ///< on CLOCK_MONOTONIC
+    LocalDrives local_drives_;
+    LocalOutputs local_outputs_;
+    LatencyHistogram latency_{};
+    EstimateEntry newest_{};
+    std::uint64_t measured_tick_us_ = 0;
+    std::uint64_t next_status_us_ = 0;
+    firmware::Conditions told_{};
+    bool has_told_ = false;
+    std::array<std::uint64_t, firmware::condition_count> seen_us_{};
+    std::uint32_t frames_lost_ = 0;
+    std::uint64_t frames_lost_us_ = 0;
+};
+
+}  // namespace millforce::host

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "daemon/estimate_entry.hpp"
+#include "daemon/local_drives.hpp"
+#include "daemon/local_outputs.hpp"
+#include "daemon/spsc_ring.hpp"
+#include "firmware_can/can_controller.hpp"
+#include "socketcan/can_socket.hpp"
+
+namespace millforce::host {
+
+struct JournalSettings {
+    std::string interface;
+    std::string record_file;   ///< candump log of every frame; empty: none
+    std::string log_file;      ///< JSON lines; empty: none
+    bool status_line = false;  ///< on standard output, once a second
+};
+
+/// How bus and drives are.
+struct StatusEntry {
+    std::uint64_t unix_us = 0;
+    bool is_periodic = false;  ///< once a second; else because a condition came or went
+    firmware::Conditions conditions{};
+    socketcan::LinkHealth link{};
+    cia402::BusHealth bus{};
+    cia402::RejectCounters rejects{};
+    std::array<cia402::NodeHealth, cia402::drive_capacity> drives{};
+    std::array<bool, cia402::drive_capacity> is_used{};
+    std::uint32_t ticks = 0;
+    std::uint32_t syncs_skipped = 0;
+    EstimateEntry newest{};
+    LocalInputHealth input{};
+    LocalOutputHealth output{};
+};
+
+/// What a run leaves behind, written by a thread of its own: the real-time thread hands over without waiting. What did
+/// not fit is counted, told in the files at its place, and told at the end.
+class Journal {
+  public:
+    /// Opens the files; throws InputError.
+    explicit Journal(const JournalSettings& settings);
+    ~Journal();
+    Journal(const Journal&) = delete;
+    Journal& operator=(const Journal&) = delete;
+
+    void record(const hal::CanFrame& frame, std::uint64_t unix_us);
+    void estimate(const EstimateEntry& entry);
+    void status(const StatusEntry& entry);
+
+    /// Writes what is left and closes the files.
+    void finish();
+    /// Frames and entries that did not fit, or could not be written; after finish().
+    [[nodiscard]] std::uint64_t lost() const { return lost_frames_ + lost_entries_; }
+    [[nodiscard]] std::uint64_t recorded() const { return recorded_; }
+    [[nodiscard]] bool write_failed() const { return write_failed_; }
+    [[nodiscard]] bool has_log() const { return log_ != nullptr; }
+
+  private:
+    struct FileCloser {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    using File = std::unique_ptr<std::FILE, FileCloser>;
+    struct FrameEntry {
+        std::uint64_t unix_us = 0;
+        std::uint64_t lost_before = 0;
+        hal::CanFrame frame{};
+    };
+
+    static File opened(const std::string& name);
+    void run();
+    void write_all();
+    void write_frames();
+    void write_status(const StatusEntry& entry);
+    void put(const File& file, const std::string& text);
+
+    JournalSettings settings_;
+    File record_;
+    File log_;
+    SpscRing<FrameEntry, 1U << 15U> frames_{};
+    SpscRing<EstimateEntry, 1U << 10U> estimates_{};
+    SpscRing<StatusEntry, 1U << 6U> statuses_{};
+    std::atomic<std::uint64_t> lost_frames_{0};
+    std::atomic<std::uint64_t> lost_entries_{0};
+    std::uint64_t told_lost_ = 0;
+    std::uint64_t recorded_ = 0;
+    bool write_failed_ = false;
+    std::atomic<bool> ended_{false};
+    std::thread writer_{};
+};
+
+}  // namespace millforce::host

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "daemon/journal.hpp"
+
+namespace millforce::host {
+
+/// One line of the log of `millforce run`, with its end: an estimate, or a status.
+std::string json_line(const EstimateEntry& entry);
+std::string json_line(const StatusEntry& entry);
+
+/// The status in one line for a person.
+std::string status_line(const StatusEntry& entry);
+
+/// `drive_lost (x), sync_lost`; empty: nothing is wrong.
+std::string condition_list(const StatusEntry& entry);
+
+}  // namespace millforce::host

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "files/local_io.hpp"
+#include "gpio/feed_hold_line.hpp"
+#include "gpio/gpio_chip.hpp"
+#include "hal/feed_override.hpp"
+#include "iio/analogue_override.hpp"
+
+namespace millforce::host {
+
+struct LocalOutputHealth {
+    bool is_failed = false;  ///< the override does not reach the converter or the lines: the others say hold
+    const char* what = "";
+    iio::Fault fault{};
+    int error = 0;  ///< errno
+};
+
+/// The override as a voltage and on lines of this computer, beside the CAN frame; each where machine.toml has it. What
+/// each shows at a hold, a fault and a dead tick: drivers/README.md. One thread; no heap after construction.
+class LocalOutputs {
+  public:
+    /// Throws InputError: a path or a name that is too long.
+    explicit LocalOutputs(const LocalIoKeys& keys);
+
+    /// With each tick's override.
+    void update(const hal::FeedOverride& feed_override, std::uint64_t now_us);
+    /// At least every 5 ms, whether ticks come or not.
+    void poll(std::uint64_t now_us);
+    [[nodiscard]] LocalOutputHealth health() const;
+
+  private:
+    std::optional<iio::AnalogueOverride> voltage_{};
+    std::optional<gpio::GpioChip> chip_{};
+    std::optional<gpio::FeedHoldLine> lines_{};
+};
+
+}  // namespace millforce::host

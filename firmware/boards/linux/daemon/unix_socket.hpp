@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace millforce::host {
+
+/// A Unix socket of type SOCK_SEQPACKET that serves one peer after the other. A message is a whole message or none.
+class UnixServer {
+  public:
+    /// Listens at the path, readable and writable for the user and the group. A socket that nobody serves any more is
+    /// replaced. Throws InputError: the path is too long, in use, or no socket can be made there.
+    explicit UnixServer(std::string path);
+    ~UnixServer();
+    UnixServer(const UnixServer&) = delete;
+    UnixServer& operator=(const UnixServer&) = delete;
+
+    /// Waits for a peer, or for a signal (then false). While there is one, others are turned away.
+    bool wait_for_peer();
+    [[nodiscard]] bool has_peer() const { return peer_ >= 0; }
+    void drop_peer();
+
+    /// Waits for the peer's next message; empty: the peer is gone, or a signal came.
+    std::span<const std::uint8_t> receive();
+    /// A peer that does not take the message is dropped: nobody is waited for.
+    void send(std::span<const std::uint8_t> bytes);
+
+    /// SIGINT or SIGTERM came since the first server was made.
+    [[nodiscard]] bool stop_asked() const { return stop_.load(); }
+
+  private:
+    void turn_away_others() const;
+    [[nodiscard]] bool wait_readable(int descriptor) const;
+
+    std::string path_;
+    const std::atomic<bool>& stop_;
+    int listener_ = -1;
+    int peer_ = -1;
+    std::array<std::uint8_t, 1024> bytes_{};
+};
+
+}  // namespace millforce::host

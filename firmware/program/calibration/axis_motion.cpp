@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/axis_motion.hpp"
+
+#include "calibration/signal.hpp"
+#include "files/csv.hpp"
+#include "files/input_error.hpp"
+#include "files/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+namespace millforce::host {
+
+namespace {
+
+void check_even_spacing(const CsvReader& csv, const std::vector<double>& time_s,
+                        const std::vector<std::size_t>& lines) {
+    const double mean = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+    for (std::size_t k = 1; k < time_s.size(); ++k) {
+        const double step = time_s[k] - time_s[k - 1];
+        if (!(std::abs(step - mean) <= 0.01 * mean + 1e-9)) {
+            throw InputError(
+                fmt::format("{}:{}: column 'time_s': a step of {:.6g} s from the line before; expected even "
+                            "steps of {:.6g} s",
+                            csv.file_name(), lines[k], step, mean));
+        }
+    }
+}
+
+/// Collects stretches of steady velocity, without their beginning (the drive settles) and their end (it begins to
+/// brake).
+class SteadyFeedFinder {
+  public:
+    explicit SteadyFeedFinder(double minimum_speed_mm_s) : minimum_speed_mm_s_(minimum_speed_mm_s) {}
+
+    void add(double time_s, double velocity_mm_s, double current_A) {
+        const double tolerance = std::max(0.03 * std::abs(mean_velocity_), 0.3);
+        if (samples_ == 0 || std::abs(velocity_mm_s - mean_velocity_) > tolerance) {
+            close();
+            start_s_ = time_s;
+        }
+        ++samples_;
+        mean_velocity_ += (velocity_mm_s - mean_velocity_) / static_cast<double>(samples_);
+        if (time_s - start_s_ >= settling_s) {
+            pending_.push_back({time_s, velocity_mm_s, current_A});
+        }
+        while (!pending_.empty() && time_s - pending_.front().time_s >= braking_s) {
+            settle(pending_.front());
+            pending_.pop_front();
+        }
+    }
+
+    std::vector<SteadyFeed> finish() {
+        close();
+        return std::move(found_);
+    }
+
+    void close() {
+        constexpr double m_per_min = 0.06;  // in 1 mm/s
+        const double duration = last_settled_s_ - first_settled_s_;
+        if (settled_ > 2 && duration >= shortest_s && std::abs(settled_velocity_) > minimum_speed_mm_s_) {
+            found_.push_back({settled_velocity_ * m_per_min, settled_current_, duration});
+        }
+        pending_.clear();
+        samples_ = settled_ = 0;
+        mean_velocity_ = settled_velocity_ = settled_current_ = 0.0;
+    }
+
+  private:
+    static constexpr double settling_s = 0.1;
+    static constexpr double braking_s = 0.05;
+    static constexpr double shortest_s = 0.2;
+
+    struct Pending {
+        double time_s;
+        double velocity_mm_s;
+        double current_A;
+    };
+
+    void settle(const Pending& sample) {
+        first_settled_s_ = settled_ == 0 ? sample.time_s : first_settled_s_;
+        last_settled_s_ = sample.time_s;
+        ++settled_;
+        settled_velocity_ += (sample.velocity_mm_s - settled_velocity_) / static_cast<double>(settled_);
+        settled_current_ += (sample.current_A - settled_current_) / static_cast<double>(settled_);
+    }
+
+    double minimum_speed_mm_s_;
+    std::vector<SteadyFeed> found_;
+    std::deque<Pending> pending_;
+    long samples_ = 0;
+    long settled_ = 0;
+    double start_s_ = 0.0;
+    double first_settled_s_ = 0.0;
+    double last_settled_s_ = 0.0;
+    double mean_velocity_ = 0.0;
+    double settled_velocity_ = 0.0;
+    double settled_current_ = 0.0;
+};
+
+}  // namespace
+
+bool is_axis_motion(const std::filesystem::path& file) {
+    const CsvReader csv(file);
+    return csv.find("position_m").has_value();
+}
+
+AxisMotion read_axis_motion(const std::filesystem::path& file, double low_pass_hz) {
+    CsvReader csv(file);
+    const CsvColumn time = csv.require("time_s");
+    const CsvColumn position = csv.require("position_m");
+    const CsvColumn force = csv.require("motor_force_N");
+    std::vector<double> time_s;
+    std::vector<double> position_m;
+    std::vector<double> force_N;
+    std::vector<std::size_t> lines;
+    Progress progress("reading " + csv.file_name());
+    while (csv.next_row()) {
+        time_s.push_back(csv.required_number(time, -1e9, 1e9));
+        position_m.push_back(csv.required_number(position, -1e4, 1e4));
+        force_N.push_back(csv.required_number(force, -1e9, 1e9));
+        lines.push_back(csv.line_number());
+        progress.update(csv.fraction_read());
+    }
+    constexpr std::size_t fewest = 20;
+    if (time_s.size() < fewest) {
+        throw InputError(fmt::format("{}:{}: {} rows; expected at least {}", csv.file_name(), csv.line_number(),
+                                     time_s.size(), fewest));
+    }
+    check_even_spacing(csv, time_s, lines);
+    AxisMotion motion;
+    motion.dt_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+    const double rate_hz = 1.0 / motion.dt_s;
+    motion.velocity_m_s = derivative(zero_phase_low_pass(position_m, low_pass_hz, rate_hz), motion.dt_s);
+    motion.acceleration_m_s2 = derivative(motion.velocity_m_s, motion.dt_s);
+    motion.motor_force_N = zero_phase_low_pass(force_N, low_pass_hz, rate_hz);
+    return motion;
+}
+
+std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, char axis, double minimum_speed_mm_s) {
+    CsvReader csv(file);
+    const CsvColumn time = csv.require("time_s");
+    const auto velocity = csv.find(fmt::format("{}_velocity_mm_s", axis));
+    const auto current = csv.find(fmt::format("{}_current_A", axis));
+    if (!velocity || !current) {
+        return {};
+    }
+    SteadyFeedFinder finder(minimum_speed_mm_s);
+    Progress progress("reading " + csv.file_name());
+    double last_s = -std::numeric_limits<double>::infinity();
+    while (csv.next_row()) {
+        const double time_s = csv.required_number(time, -1e12, 1e12);
+        if (time_s < last_s) {
+            csv.fail(time, fmt::format("{} s after {} s; expected time to grow", time_s, last_s));
+        }
+        last_s = time_s;
+        const double v = csv.number(velocity);
+        const double i = csv.number(current);
+        if (std::isnan(v) || std::isnan(i)) {
+            finder.close();
+        } else {
+            finder.add(time_s, v, i);
+        }
+        progress.update(csv.fraction_read());
+    }
+    return finder.finish();
+}
+
+}  // namespace millforce::host

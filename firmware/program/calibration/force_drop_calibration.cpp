@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/force_drop_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "calibration/calibration_report.hpp"
+#include "calibration/recorded_forces.hpp"
+#include "estimation/force_drop/force_drop.hpp"
+#include "estimation_calibration/force_drop_calibration.hpp"
+#include "files/atomic_file.hpp"
+#include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
+#include "firmware/wide_band_settings.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+using ForceDrop = estimation::ForceDrop<float>;
+using DropCalibration = estimation::ForceDropCalibration<float>;
+using DropCut = DropCalibration::Cut;
+using estimation::CutSide;
+
+constexpr int revolutions_of_a_cut = 8;
+constexpr double widest_immersion = 0.95;
+
+double immersion_of(const StretchConditions& cut) {
+    return cut.radial_width_mm / (0.5 * cut.tool_diameter_mm);
+}
+
+/// One cut while it is read: as many estimates of its jump and averages as it is long.
+struct KnownCut {
+    ForceDrop drop;
+    std::vector<estimation::ForceDropMeasurement<float>> measured;
+    double path_mm = 0.0;
+    double turned_rev = 0.0;
+    std::size_t refused = 0;
+};
+
+KnownCut known_cut(const StretchConditions& cut, const firmware::Parameters<float>& parameters) {
+    if (immersion_of(cut) >= widest_immersion) {
+        throw InputError(fmt::format("{}: immersion {:.2f} (radial_width_mm over the radius), expected less than {}",
+                                     cut.place, immersion_of(cut), widest_immersion));
+    }
+    auto settings = firmware::force_drop_settings(parameters);
+    settings.revolutions = revolutions_of_a_cut;
+    settings.known_immersion = static_cast<float>(immersion_of(cut));
+    return {ForceDrop({}, settings), {}};
+}
+
+void take_force(KnownCut& cut, float dt_s, const FeedForces& forces, float teeth) {
+    if (!forces.valid || forces.is_new_frame) {
+        cut.drop.restart();
+        cut.path_mm = cut.turned_rev = 0.0;
+        if (!forces.valid) {
+            return;
+        }
+    } else {
+        cut.path_mm += static_cast<double>(forces.speed_mm_s * dt_s);
+        cut.turned_rev += static_cast<double>(forces.turned_rev);
+    }
+    if (!cut.drop.collect({forces.angle_rev, dt_s, forces.along_N, forces.across_N})) {
+        return;
+    }
+    const double feed_per_tooth_mm = cut.path_mm / std::max(cut.turned_rev * static_cast<double>(teeth), 1e-9);
+    cut.drop.evaluate(static_cast<float>(feed_per_tooth_mm));
+    const auto& measured = cut.drop.measurement();
+    const bool is_there = measured.tooth_x_N.valid && measured.mean_x_N.valid;
+    cut.refused += is_there ? 0 : 1;
+    if (is_there) {
+        cut.measured.push_back(measured);
+    }
+    cut.path_mm = cut.turned_rev = 0.0;
+}
+
+std::vector<DropCut> read_known_cuts(const ForceShapeCalibrationOptions& options,
+                                     const firmware::Parameters<float>& parameters) {
+    const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
+    std::vector<KnownCut> known;
+    known.reserve(cuts.size());
+    for (const StretchConditions& cut : cuts) {
+        known.push_back(known_cut(cut, parameters));
+    }
+    read_recorded_forces(options.data, cuts, parameters, [&](std::size_t k, float dt_s, const FeedForces& forces) {
+        take_force(known[k], dt_s, forces, parameters.tool.teeth);
+    });
+    std::vector<DropCut> measured;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        if (known[k].measured.empty()) {
+            throw InputError(
+                fmt::format("{}: no force drop from {} to {} s in {} revolutions that were whole; expected at least {} "
+                            "revolutions of a "
+                            "steady cut whose tooth passing the low-pass lets through",
+                            cuts[k].place, cuts[k].start_s, cuts[k].end_s, known[k].refused * revolutions_of_a_cut,
+                            revolutions_of_a_cut));
+        }
+        for (const auto& m : known[k].measured) {
+            measured.push_back(
+                {m, static_cast<float>(cuts[k].axial_depth_mm), static_cast<float>(immersion_of(cuts[k]))});
+        }
+    }
+    return measured;
+}
+
+DropCalibration::Result law_of(const std::vector<DropCut>& cuts, std::optional<std::size_t> left_out = {}) {
+    DropCalibration calibration;
+    const std::size_t step = std::max<std::size_t>(1, (cuts.size() + 63) / 64);  // it has room for 64
+    for (std::size_t k = 0; k < cuts.size(); k += step) {
+        const bool is_left_out =
+            left_out && cuts[k].radial_immersion == cuts[*left_out].radial_immersion &&
+            cuts[k].axial_depth_mm == cuts[*left_out].axial_depth_mm &&
+            std::abs(cuts[k].measured.feed_per_tooth_mm / cuts[*left_out].measured.feed_per_tooth_mm - 1.0F) < 0.05F;
+        if (!is_left_out) {
+            calibration.add(cuts[k]);
+        }
+    }
+    return calibration.solve();
+}
+
+void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const DropCalibration::Result& result) {
+    const auto refuse = [&](std::string_view why) {
+        throw InputError(fmt::format("{}: {}", options.cuts.string(), why));
+    };
+    if (!result.edges_determined) {
+        refuse(
+            "'e_t_mm' and 'e_r_mm' cannot be determined: all cuts have about the same feed per tooth; expected cuts "
+            "whose feeds differ by a factor of 1.5 or more");
+    }
+    if (!result.law.valid) {
+        refuse("'b' cannot be determined: fewer than three cuts show their immersion; expected cuts of several widths");
+    }
+}
+
+/// Each cut by the law of the others: its immersion as the equations tell it, in shares of the true one.
+struct LeftOut {
+    double mean = 0.0;
+    double worst = 0.0;
+    std::size_t without = 0;
+    std::size_t cuts = 0;
+};
+
+LeftOut leave_each_out(const std::vector<DropCut>& cuts) {
+    LeftOut result;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        const auto law = law_of(cuts, k).law;
+        const auto estimate = estimation::ForceDropImmersion<float>(law).solve(cuts[k].measured);
+        ++result.cuts;
+        if (!estimate.valid()) {
+            ++result.without;
+            continue;
+        }
+        const double error = static_cast<double>(std::abs(estimate.radial_immersion / cuts[k].radial_immersion - 1.0F));
+        result.mean += error;
+        result.worst = std::max(result.worst, error);
+    }
+    const std::size_t estimated = result.cuts - result.without;
+    result.mean /= static_cast<double>(std::max<std::size_t>(estimated, 1));
+    return result;
+}
+
+/// Every key of the table but `revolutions`, which is the user's choice.
+void write_law(TomlWriter& toml, const estimation::ForceDropLaw<float>& law) {
+    firmware::Parameters<float> holder;
+    holder.tool.force_drop.law = law;
+    toml.table("force_drop");
+    for (const auto& row : firmware::parameter_table<float>) {
+        if (std::string_view(row.table) != "force_drop" || std::string_view(row.key) == "revolutions") {
+            continue;
+        }
+        const float value = row.field(holder, 0);
+        if (value < row.minimum || value > row.maximum) {
+            throw InputError(fmt::format("'{}' comes out as {:g}, expected {:g} to {:g}: these cuts are no tool's",
+                                         row.key, value, row.minimum, row.maximum));
+        }
+        toml.key(row.key, static_cast<double>(value));
+    }
+}
+
+void print_law(std::ostream& out, const DropCalibration::Result& result) {
+    const auto& law = result.law;
+    const auto line = [&](const char* name, double value, double sd, const char* unit) {
+        out << fmt::format("  {:<8} {:>9.4f} ± {:.4f} {}\n", name, value, sd, unit);
+    };
+    const auto root = [](float variance) { return std::sqrt(static_cast<double>(variance)); };
+    line("e_t", static_cast<double>(law.e_t_mm), static_cast<double>(law.e_t_sd_mm), "mm");
+    line("e_r", static_cast<double>(law.e_r_mm), static_cast<double>(law.e_r_sd_mm), "mm");
+    line("a", static_cast<double>(law.a), root(law.a_b_covariance(0, 0)), result.a_determined ? "" : "(put)");
+    line("b", static_cast<double>(law.b), root(law.a_b_covariance(1, 1)), "");
+    for (int k = 0; k < 3; ++k) {
+        const bool is_put = k > 0 && !result.c_determined;
+        line(fmt::format("c_{}", k).c_str(), static_cast<double>(law.c(k)), root(law.c_covariance(k, k)),
+             is_put ? "(put)" : "");
+    }
+}
+
+}  // namespace
+
+int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostream& out) {
+    constexpr double largest_error = 0.1;
+    auto parameters = read_parameters(options.machine.string(), options.tool.string());
+    const CutSide side = firmware::cut_side(parameters.tool);
+    if (side == CutSide::centred) {
+        throw InputError(
+            fmt::format("{}: side = \"centred\", expected down, up or unknown: a centred cut has no wall "
+                        "whose width the drop tells",
+                        options.tool.string()));
+    }
+    const std::vector<DropCut> cuts = read_known_cuts(options, parameters);
+    const auto result = law_of(cuts);
+    refuse_what_cuts_lack(options, result);
+    const LeftOut left_out = leave_each_out(cuts);
+    AtomicFile file(options.output);
+    TomlWriter toml(file.stream());
+    toml.comment("Immersion from force drops: r = a r_av + b, ln(K/K_av) = c_0 + c_1 (1 - R_r) + c_2 ln(f_z/0.15 mm).");
+    toml.comment("Fitted from " + list_of_files(options.data));
+    write_law(toml, result.law);
+    file.commit();
+    out << fmt::format("force drops of {} times {} revolutions, {} milling\n", cuts.size(), revolutions_of_a_cut,
+                       cuts.front().measured.side == CutSide::up ? "up" : "down");
+    print_law(out, result);
+    out << fmt::format(
+        "  each cut by the law of the others: immersion off by {:.1f} % on average, {:.1f} % at most; no "
+        "estimate for {} of {}\n",
+        100.0 * left_out.mean, 100.0 * left_out.worst, left_out.without, left_out.cuts);
+    return left_out.worst > largest_error ? exit_bound_broken : exit_done;
+}
+
+}  // namespace millforce::host

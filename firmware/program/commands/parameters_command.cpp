@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "commands/command_line.hpp"
+#include "commands/machine_commands.hpp"
+#include "files/input_error.hpp"
+#include "files/parameter_block_file.hpp"
+#include "files/parameter_files.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+struct ParametersOptions {
+    std::string machine;
+    std::string tool;
+    std::string block_to_write;
+    std::string block_to_read;
+};
+
+void write_block(const ParametersOptions& options) {
+    write_parameter_block(options.block_to_write, read_parameters(options.machine, options.tool));
+    fmt::print("{}: {} bytes, {} values\n", options.block_to_write, firmware::block_bytes, firmware::block_values);
+}
+
+}  // namespace
+
+void add_parameters(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<ParametersOptions>();
+    CLI::App* command = app.add_subcommand(
+        "parameters", "Every key of machine.toml and tool.toml, as Markdown; the block that a target keeps in flash");
+    auto* write = command->add_option("--write-block", options->block_to_write, "Make a target's block of two files")
+                      ->type_name("FILE");
+    auto* machine = command->add_option("--machine", options->machine, "For --write-block")->type_name("M.toml");
+    auto* tool = command->add_option("--tool", options->tool, "For --write-block")->type_name("T.toml");
+    auto* read = command->add_option("--read-block", options->block_to_read, "Print a target's block as TOML")
+                     ->type_name("FILE");
+    write->needs(machine)->needs(tool)->excludes(read);
+    machine->needs(write);
+    tool->needs(write);
+    command->callback([options, &exit_code] {
+        if (!options->block_to_write.empty()) {
+            write_block(*options);
+        } else if (!options->block_to_read.empty()) {
+            write_parameters_as_toml(std::cout, read_parameter_block(options->block_to_read));
+        } else {
+            fmt::print("{}", parameter_documentation());
+        }
+        exit_code = 0;
+    });
+}
+
+}  // namespace millforce::host

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "commands/command_line.hpp"
+#include "commands/machine_commands.hpp"
+#include "files/atomic_file.hpp"
+#include "files/csv.hpp"
+#include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
+#include "files/progress.hpp"
+#include "firmware/wide_band_settings.hpp"
+#include "loop/override_source.hpp"
+#include "recording/recording.hpp"
+#include "replay/estimate_rows.hpp"
+#include "replay/replay_candump.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+struct ReplayOptions {
+    std::string log;
+    std::string machine;
+    std::string tool;
+    std::string output;
+    std::optional<double> programmed_feed_mm_min;
+    double interval_s = 0.02;
+    std::string interface;
+    std::string run_log;
+    BusPace pace{};
+};
+
+/// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
+/// drops from the drives. What the parameters lack is told once, on standard error; its cells are empty then.
+class WideBandCells {
+  public:
+    using Estimates = firmware::WideBandEstimate<float>;
+
+    WideBandCells(bool has_sensor, const firmware::Parameters<float>& parameters)
+        : tool_(parameters.tool),
+          has_sensor_(has_sensor),
+          is_there_(has_sensor || firmware::has_force_drop_law(tool_)) {}
+
+    void tell_what_is_missing() const {
+        for (const std::string_view line : {lacking_for_force_drops(), lacking_for_depths()}) {
+            if (has_sensor_ && !line.empty()) {
+                fmt::print(stderr, "millforce: note: {}\n", line);
+            }
+        }
+    }
+    void write_header(std::ostream& out) const {
+        out << (is_there_ ? ",force_drop_immersion,force_drop_immersion_sd,depth_shape_axial_depth_mm,"
+                            "depth_shape_axial_depth_sd_mm,depth_shape_radial_width_mm,depth_shape_radial_width_sd_mm,"
+                            "depth_shape_axial_variation_percent,depth_shape_radial_variation_percent"
+                          : "");
+    }
+    void write(std::ostream& out, const Estimates& made) const {
+        if (!is_there_) {
+            return;
+        }
+        write_with_sd(out, made.force_drop_immersion);
+        write_with_sd(out, made.axial_depth_mm);
+        write_with_sd(out, made.radial_width_mm);
+        write_variation(out, made.axial_depth_mm, tool_.depth_shape.nominal_axial_depth_mm);
+        write_variation(out, made.radial_width_mm, tool_.depth_shape.nominal_radial_width_mm);
+    }
+    [[nodiscard]] std::string summary(const Estimates& made) const {
+        std::string text;
+        if (is_there_ && lacking_for_force_drops().empty()) {
+            text += fmt::format("immersion from force drops: {} estimates of {} that were due\n",
+                                made.force_drops_valid, made.force_drops);
+        }
+        if (has_sensor_ && lacking_for_depths().empty()) {
+            text += fmt::format("depths from the force's shape: {} estimates of {} that were due\n", made.depths_valid,
+                                made.depths);
+        }
+        return text;
+    }
+
+  private:
+    using Estimate = estimation::Measurement<float>;
+
+    [[nodiscard]] std::string_view lacking_for_force_drops() const {
+        if (!firmware::has_force_drop_law(tool_)) {
+            return "no immersion from force drops: the tool has no calibrated [force_drop] table";
+        }
+        return has_sensor_ && !firmware::has_force_sensor(tool_)
+                   ? "no immersion from force drops of the sensor: the tool's [force_sensor] table has no low_pass_hz"
+                   : "";
+    }
+    [[nodiscard]] std::string_view lacking_for_depths() const {
+        if (!firmware::has_nominal_depths(tool_)) {
+            return "no depths from the force's shape: the tool's [depth_shape] table has no nominal_axial_depth_mm or "
+                   "no nominal_radial_width_mm";
+        }
+        if (!firmware::force_has_shape(tool_)) {
+            return "no depths from the force's shape: it takes a helix of at least 5° and a wall to one side";
+        }
+        return firmware::has_force_sensor(tool_)
+                   ? ""
+                   : "no depths from the force's shape: the tool's [force_sensor] table has no low_pass_hz";
+    }
+
+    static void write_with_sd(std::ostream& out, const Estimate& m) {
+        out << ',' << (m.valid ? CsvWriter::cell(m.value) + ',' + CsvWriter::cell(std::sqrt(m.variance)) : ",");
+    }
+    static void write_variation(std::ostream& out, const Estimate& m, float nominal) {
+        out << ',' << (m.valid ? CsvWriter::cell(100.0F * (m.value / nominal - 1.0F)) : "");
+    }
+
+    firmware::ToolParameters<float> tool_;
+    bool has_sensor_;
+    bool is_there_;
+};
+
+/// The program's status of each row: the recording's own, with F from the command line where it was given.
+hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOptions& options) {
+    hal::ProgramStatus program = recording.program();
+    if (options.programmed_feed_mm_min) {
+        program.programmed_feed_mm_s = static_cast<float>(*options.programmed_feed_mm_min / 60.0);
+    }
+    return program;
+}
+
+/// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
+/// come out.
+int replay_table(const ReplayOptions& options) {
+    const auto parameters = read_parameters(options.machine, options.tool);
+    RecordingReader recording(options.log, static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
+    sim::MillforceController controller(parameters);
+    std::optional<AtomicFile> file;
+    if (!options.output.empty()) {
+        file.emplace(options.output);
+    }
+    // Without a file, an error in the last row must not leave half a table behind: rows go out when all are good.
+    std::ostringstream held_back;
+    std::ostream& out = file ? file->stream() : held_back;
+    RoughnessCells roughness(parameters.tool.roughness);
+    WideBandCells wide_band(recording.has_force_sensor(), parameters);
+    out << estimate_header;
+    roughness.write_header(out);
+    wide_band.write_header(out);
+    out << '\n';
+    Progress progress("replaying");
+    std::size_t rows = 0;
+    double next_row_s = -std::numeric_limits<double>::infinity();
+    while (recording.next()) {
+        progress.update(recording.fraction_read());
+        const hal::FeedOverride output = controller.step(recording.sample(), program_of(recording, options));
+        if (recording.time_s() >= next_row_s) {
+            sim::TracePoint point;
+            controller.describe(point);
+            write_estimate_row(out, recording.time_s(), point, output.ratio);
+            roughness.write(out, controller.roughness());
+            wide_band.write(out, controller.wide_band());
+            out << '\n';
+            next_row_s = recording.time_s() + options.interval_s;
+            ++rows;
+        }
+    }
+    if (rows == 0) {
+        throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
+    }
+    wide_band.tell_what_is_missing();
+    if (recording.has_one_force_only()) {
+        fmt::print(stderr, "millforce: note: {}: fx_N and fy_N are used together, and one of them is missing\n",
+                   options.log);
+    }
+    if (file) {
+        file->commit();
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(),
+                   wide_band.summary(controller.wide_band()));
+    } else {
+        std::cout << held_back.str();
+    }
+    return 0;
+}
+
+int replay(const ReplayOptions& options) {
+    if (!is_candump_log(options.log)) {
+        if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
+            throw InputError(fmt::format(
+                "{}: is no candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
+        }
+        return replay_table(options);
+    }
+    if (options.programmed_feed_mm_min) {
+        throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
+                                     options.log));
+    }
+    return replay_candump({options.log, options.machine, options.tool, options.output, options.interface,
+                           options.interval_s, options.run_log, options.pace});
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<ReplayOptions>();
+    CLI::App* command = app.add_subcommand("replay", "Estimation and control (open loop) on a recording");
+    command->footer(
+        "Columns of the recording: time_s, spindle_angle_rad, spindle_current_A, and AXIS_current_A and\n"
+        "AXIS_velocity_mm_s for x, y, z as they are there. A recording of 'simulate --record' holds besides the index\n"
+        "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
+        "An empty cell of the estimates is \"no estimate\". A tool with a [roughness] table adds its prediction with\n"
+        "the 95 % interval, and whether the cut is in the range of the model's tests.\n"
+        "With a force sensor (fx_N, fy_N on the workpiece, in the machine's axes; currents may be missing) it adds "
+        "the\n"
+        "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
+        "[force_sensor], [force_drop] and [depth_shape].\n"
+        "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables.\n"
+        "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for "
+        "digit.");
+    command->add_option("log", options->log, "Recording: CSV, or a candump log")->required()->type_name("LOG");
+    command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
+    command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
+    command->add_option("-o,--output", options->output, "Estimates; default: standard output")->type_name("OUT.csv");
+    command
+        ->add_option("--programmed-feed", options->programmed_feed_mm_min,
+                     "F of the program in mm/min, for the override; default: the recording's, else not known")
+        ->check(number_from(0.0, 1e6));
+    command->add_option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
+        ->check(number_from(0.0, 1e6))
+        ->capture_default_str();
+    command->add_option("--interface", options->interface, "Of a candump log with several: the one to replay")
+        ->type_name("IFACE");
+    command
+        ->add_option("--verify", options->run_log,
+                     "Compare with the log of 'millforce run --log'; exit code 1 where one bit of one tick differs")
+        ->type_name("RUN.jsonl");
+    add_bus_pace(*command, options->pace);
+    command->callback([options, &exit_code] { exit_code = replay(*options); });
+}
+
+}  // namespace millforce::host

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands/command_line.hpp"
+#include "commands/machine_commands.hpp"
+#include "daemon/can_daemon.hpp"
+#include "daemon/journal.hpp"
+#include "daemon/service.hpp"
+#include "files/input_error.hpp"
+#include "files/machine_bus.hpp"
+#include "files/parameter_files.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+struct RunOptions {
+    std::string interface;
+    std::string machine;
+    std::string tool;
+    std::string log;
+    std::string record;
+    BusPace pace{};
+};
+
+MachineBus bus_of(const std::string& machine_file) {
+    const auto bus = read_machine_bus(machine_file);
+    if (!bus) {
+        throw InputError(
+            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle], [bus.x], … with "
+                        "node_id and tpdo1, "
+                        "see 'millforce parameters'",
+                        machine_file));
+    }
+    return *bus;
+}
+
+socketcan::CanSocketSettings socket_on(const std::string& interface) {
+    socketcan::CanSocketSettings settings;
+    if (!settings.set_interface(interface)) {
+        throw InputError(fmt::format("'{}': expected a CAN interface of at most 15 characters, e.g. can0", interface));
+    }
+    return settings;
+}
+
+void print_summary(const RunOptions& options, const CanDaemon& daemon, const Journal& journal) {
+    const socketcan::LinkHealth& link = daemon.link();
+    const LatencyHistogram& latency = daemon.sync_to_override();
+    fmt::print("{}: {} ticks; {} frames received, {} sent, {} not sent, {} lost\n", options.interface,
+               daemon.controller().ticks(), link.received, link.sent, link.send_failures,
+               link.overruns + link.controller_overflows);
+    if (latency.total() > 0) {
+        fmt::print("SYNC to override: median {:.2f} ms, 99 % {:.2f} ms, longest {:.2f} ms\n",
+                   1e-3 * static_cast<double>(latency.quantile_us(0.5)),
+                   1e-3 * static_cast<double>(latency.quantile_us(0.99)),
+                   1e-3 * static_cast<double>(latency.largest_us()));
+    }
+    if (!options.record.empty()) {
+        fmt::print("{}: {} frames\n", options.record, journal.recorded());
+    }
+}
+
+int run_on_bus(const RunOptions& options) {
+    const auto parameters = read_parameters(options.machine, options.tool);
+    const MachineBus bus = bus_of(options.machine);
+    if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
+        (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
+        throw InputError(
+            fmt::format("--slow-motion, --lock-step: {} has [iio], [override_voltage] or [feed_hold_line], expected a "
+                        "machine that is on the bus alone",
+                        options.machine));
+    }
+    if (options.pace.lock_step && !bus.drives.produces_sync) {
+        throw InputError(fmt::format("--lock-step: {}: bus.produces_sync = false, expected true", options.machine));
+    }
+    const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
+    const socketcan::CanSocketSettings interface = socket_on(options.interface);
+    const std::atomic<bool>& stop = stop_on_signal();
+    const auto journal = std::make_unique<Journal>(
+        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), time});
+    if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
+        for (const std::string& note : become_real_time()) {
+            fmt::print(stderr, "millforce: note: {}\n", note);
+        }
+    }
+    notify_service_manager("READY=1");
+    daemon->run(stop);
+    notify_service_manager("STOPPING=1");
+    journal->finish();
+    print_summary(options, *daemon, *journal);
+    if (journal->lost() > 0 || journal->write_failed()) {
+        fmt::print(stderr, "millforce: the files are not complete: {} entries did not fit{}\n", journal->lost(),
+                   journal->write_failed() ? ", and a write failed" : "");
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "The live controller on a CAN interface");
+    command->footer(
+        "Runs until SIGINT or SIGTERM; then the override says hold and the heartbeat 'stopped'. An interface that is "
+        "not\n"
+        "there, or goes down, is waited for. Conditions that come and go are told on standard error; on a terminal a\n"
+        "status line is printed each second.\n"
+        "Exit code 1: frames of --record or lines of --log are missing.");
+    command->add_option("interface", options->interface, "CAN interface, e.g. can0")->required()->type_name("IFACE");
+    command->add_option("--machine", options->machine, "Machine parameters, with [bus]")
+        ->required()
+        ->type_name("M.toml");
+    command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
+    command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
+    command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
+        ->type_name("FILE.log");
+    add_bus_pace(*command, options->pace);
+    command->callback([options, &exit_code] { exit_code = run_on_bus(*options); });
+}
+
+}  // namespace millforce::host

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "commands/command_line.hpp"
+#include "commands/machine_commands.hpp"
+#include "control/cut_state.hpp"
+#include "daemon/service.hpp"
+#include "daemon/unix_socket.hpp"
+#include "files/parameter_files.hpp"
+#include "firmware_link/link_controller.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+struct ServeOptions {
+    std::string socket;
+    std::string machine;
+    std::string tool;
+    double override_max = 1.0;
+};
+
+/// Tells of a fault as it comes and goes.
+class FaultTeller {
+  public:
+    void follow(const hal::FeedOverride& output) {
+        if (output.fault != fault_) {
+            fault_ = output.fault;
+            fmt::print(stderr, "millforce: fault: {}\n", control::name(static_cast<control::Fault>(fault_)));
+        }
+    }
+
+  private:
+    std::uint8_t fault_ = 0;
+};
+
+void serve_peer(UnixServer& server, firmware::LinkController& controller) {
+    FaultTeller faults;
+    while (server.has_peer()) {
+        const auto bytes = server.receive();
+        if (bytes.empty()) {
+            return;
+        }
+        local_link::OverrideBytes answer{};
+        const local_link::MessageError error = controller.on_message(bytes, answer);
+        if (error != local_link::MessageError::none) {
+            fmt::print(stderr, "millforce: a message of {} bytes is not sound ({}): the connection is ended\n",
+                       bytes.size(), name(error));
+            server.drop_peer();
+            return;
+        }
+        server.send(answer);
+        faults.follow(controller.output());
+    }
+}
+
+int serve(const ServeOptions& options) {
+    const auto parameters = read_parameters(options.machine, options.tool);
+    UnixServer server(options.socket);
+    for (const std::string& note : become_real_time()) {
+        fmt::print(stderr, "millforce: note: {}\n", note);
+    }
+    notify_service_manager("READY=1");
+    fmt::print(stderr, "millforce: {}: waiting\n", options.socket);
+    while (server.wait_for_peer()) {
+        fmt::print(stderr, "millforce: connected\n");
+        auto controller =
+            std::make_unique<firmware::LinkController>(parameters, static_cast<float>(options.override_max));
+        serve_peer(server, *controller);
+        server.drop_peer();
+        fmt::print(stderr, "millforce: disconnected after {} samples\n", controller->output().heartbeat);
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<ServeOptions>();
+    CLI::App* command =
+        app.add_subcommand("serve", "The live controller behind a Unix socket, for a CNC on the same computer");
+    command->footer(
+        "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
+        "One connection at a time; each begins anew. Runs until SIGINT or SIGTERM.");
+    command->add_option("socket", options->socket, "Path of the socket to make")->required()->type_name("SOCKET");
+    command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
+    command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
+    command
+        ->add_option("--override-max", options->override_max,
+                     "Largest override that the CNC's input takes; 1: LinuxCNC's adaptive feed")
+        ->check(number_from(0.0, 10.0))
+        ->capture_default_str();
+    command->callback([options, &exit_code] { exit_code = serve(*options); });
+}
+
+}  // namespace millforce::host

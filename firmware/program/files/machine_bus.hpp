@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cia402/drive_settings.hpp"
+#include "files/local_io.hpp"
+#include "override_frame/override_sender.hpp"
+#include "program_status/program_status_receiver.hpp"
+
+namespace millforce::host {
+
+/// The PDO of a drive that the values of this computer's own converters and counters go out with: its TPDO 4.
+inline constexpr std::size_t local_pdo = 3;
+
+/// Who is on a machine's CAN bus, and how they speak: the [bus] tables of machine.toml; and the inputs and outputs of
+/// this computer that belong to it.
+struct MachineBus {
+    cia402::BusSettings drives{};
+    override_frame::OverrideSenderSettings feed_override{};
+    program_status::ProgramStatusReceiverSettings program{};
+    LocalIoKeys local{};
+};
+
+}  // namespace millforce::host

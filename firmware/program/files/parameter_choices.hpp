@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace millforce::host {
+
+/// The words of a parameter row's choices, "down|up" → {"down", "up"}.
+std::vector<std::string> words_of(const char* choices);
+
+/// The double that a table's float was written as: 0.1F → 0.1, not 0.10000000149.
+double decimal(float value);
+
+}  // namespace millforce::host

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "files/local_io.hpp"
+#include "files/parameter_choices.hpp"
+#include "files/parameter_files.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+std::string joined_words(const char* choices) {
+    std::string list;
+    for (const std::string& word : words_of(choices)) {
+        list += (list.empty() ? "" : ", ") + word;
+    }
+    return list;
+}
+
+std::string default_of(const firmware::ParameterRow<float>& row) {
+    if (std::isnan(row.default_value)) {
+        return "required";
+    }
+    return row.choices != nullptr ? words_of(row.choices)[static_cast<std::size_t>(row.default_value)]
+                                  : fmt::format("{:g}", row.default_value);
+}
+
+std::string heading_of(const std::string& table) {
+    if (table == "axis") {
+        return "[x], [y], [z]";
+    }
+    return table == "bus.drive" ? "[bus.spindle], [bus.x], [bus.y], [bus.z]" : "[" + table + "]";
+}
+
+/// Writes the heading of a table where another one begins.
+class Headings {
+  public:
+    explicit Headings(std::string& text) : text_(text) {}
+
+    void enter(const char* table) {
+        if (table_ == table) {
+            return;
+        }
+        table_ = table;
+        text_ += fmt::format("\n### {}\n\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n",
+                             heading_of(table_));
+    }
+
+  private:
+    std::string& text_;
+    std::string table_;
+};
+
+void document_file(firmware::ParameterFile file, std::string& text) {
+    Headings headings(text);
+    for (const auto& row : firmware::parameter_table<float>) {
+        if (row.file == file) {
+            headings.enter(row.table);
+            text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, default_of(row),
+                                row.choices != nullptr ? joined_words(row.choices)
+                                                       : fmt::format("{:g} … {:g}", row.minimum, row.maximum),
+                                row.sentence);
+        }
+    }
+}
+
+void document_objects(std::string& text) {
+    text +=
+        "\n### Objects of [bus.spindle], [bus.x], [bus.y], [bus.z]\n\n| key | form | default | meaning "
+        "|\n|---|---|---|---|\n";
+    for (const auto& row : firmware::text_table) {
+        text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.key, row.form, row.default_text, row.sentence);
+    }
+}
+
+std::string heading_of_local(const std::string& table) {
+    return table == "iio.drive" ? "[iio.spindle], [iio.x], [iio.y], [iio.z]" : "[" + table + "]";
+}
+
+std::string default_of(const LocalNumberRow& row) {
+    if (std::isnan(row.default_value)) {
+        return "required";
+    }
+    return row.choices != nullptr ? words_of(row.choices)[static_cast<std::size_t>(row.default_value)]
+                                  : fmt::format("{:g}", row.default_value);
+}
+
+void document_local_io(std::string& text) {
+    text += "\n### Inputs and outputs of this computer, for `millforce run` on Linux\n";
+    for (const char* table : {"iio", "iio.drive", "override_voltage", "feed_hold_line"}) {
+        text += fmt::format("\n### {}\n\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n",
+                            heading_of_local(table));
+        for (const LocalTextRow& row : local_texts) {
+            if (std::string_view(row.table) == table) {
+                text += fmt::format("| `{}` |  | none | `{}` | {} |\n", row.key, row.form, row.sentence);
+            }
+        }
+        for (const LocalNumberRow& row : local_numbers) {
+            if (std::string_view(row.table) == table) {
+                text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, default_of(row),
+                                    row.choices != nullptr ? joined_words(row.choices)
+                                                           : fmt::format("{:g} … {:g}", row.minimum, row.maximum),
+                                    row.sentence);
+            }
+        }
+    }
+}
+
+void document_information(std::string& text) {
+    text +=
+        "\n## Keys for information\n\nA calibration writes them for the reader of its file; the controller does not "
+        "use "
+        "them. Each key with a\nnumber, here or above, may have a companion `KEY_se`: the standard error of its "
+        "fit.\n\n"
+        "| table | key | unit | meaning |\n|---|---|---|---|\n";
+    for (const auto& row : firmware::information_table) {
+        const std::string_view table = row.table;
+        const std::string range = row.choices != nullptr ? fmt::format(" ({})", joined_words(row.choices)) : "";
+        text += fmt::format("| {} | `{}` | {} | {}{} |\n", heading_of(std::string(table)), row.key, row.unit,
+                            row.sentence, range);
+    }
+}
+
+}  // namespace
+
+std::string parameter_documentation() {
+    std::string text =
+        "# Parameters\n\nMade by `millforce parameters`. Free text keys `name` and `description` may stand at the top "
+        "of "
+        "either file.\n\n## machine.toml\n";
+    document_file(firmware::ParameterFile::machine, text);
+    document_objects(text);
+    document_local_io(text);
+    text += "\n## tool.toml\n";
+    document_file(firmware::ParameterFile::tool, text);
+    document_information(text);
+    return text;
+}
+
+}  // namespace millforce::host

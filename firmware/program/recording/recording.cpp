@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "files/input_error.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+constexpr double revolution = 2.0 * std::numbers::pi;
+constexpr std::array<std::string_view, hal::axis_count> axis_names{"x", "y", "z"};
+
+constexpr std::string_view header =
+    "time_s,spindle_angle_rad,spindle_current_A,x_current_A,y_current_A,z_current_A,x_velocity_mm_s,y_velocity_mm_s,"
+    "z_velocity_mm_s,override,spindle_index_angle_rad,programmed_feed_mm_s,rapid";
+
+bool has(const hal::DriveSample& sample, std::uint8_t mask) {
+    return (sample.present & mask) != 0;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev,
+                                 bool has_force_sensor)
+    : file_(file), counts_per_rev_(static_cast<double>(encoder_counts_per_rev)), has_force_sensor_(has_force_sensor) {
+    file_.stream() << header << (has_force_sensor_ ? ",fx_N,fy_N\n" : "\n");
+}
+
+double RecordingWriter::angle_rad(std::int64_t count) const {
+    return static_cast<double>(count) / counts_per_rev_ * revolution;
+}
+
+/// Time and count of the sample wrap at 2³²; those of the file go on.
+void RecordingWriter::follow(const hal::DriveSample& sample) {
+    time_us_ += static_cast<std::int32_t>(sample.time_us - last_time_us_);
+    last_time_us_ = sample.time_us;
+    if (has(sample, hal::mask(hal::Present::spindle_count))) {
+        count_ += static_cast<std::int32_t>(sample.spindle_count - last_count_);
+        last_count_ = sample.spindle_count;
+    }
+}
+
+template <typename Value>
+void RecordingWriter::cell(Value value, bool present) {
+    line_ += ',';
+    if (present) {
+        line_ += CsvWriter::cell(value);
+    }
+}
+
+void RecordingWriter::add(const RecordedStep& step) {
+    const hal::DriveSample& s = step.sample;
+    follow(s);
+    const bool has_count = has(s, hal::mask(hal::Present::spindle_count));
+    line_ = CsvWriter::cell(static_cast<double>(time_us_) / 1e6);
+    cell(angle_rad(count_), has_count);
+    cell(s.spindle_current_A, has(s, hal::mask(hal::Present::spindle_current)));
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        cell(s.axis_current_A[k], has(s, hal::axis_mask(k)));
+    }
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        cell(s.axis_velocity_mm_s[k], has(s, hal::axis_mask(k)));
+    }
+    cell(step.override_ratio);
+    cell(angle_rad(count_ + static_cast<std::int32_t>(s.spindle_index_count - s.spindle_count)),
+         has_count && s.spindle_index_number != 0);
+    cell(step.program.programmed_feed_mm_s);
+    line_ += step.program.rapid ? ",1" : ",0";
+    for (std::size_t k = 0; has_force_sensor_ && k < s.force_N.size(); ++k) {
+        cell(s.force_N[k], has(s, hal::mask(hal::Present::force_sensor)));
+    }
+    line_ += '\n';
+    file_.stream() << line_;
+}
+
+RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev)
+    : csv_(file),
+      counts_per_rev_(encoder_counts_per_rev),
+      time_(csv_.require("time_s")),
+      angle_(csv_.require("spindle_angle_rad", "averages are taken over the spindle's angle")),
+      spindle_current_(csv_.find("spindle_current_A")),
+      fx_(csv_.find("fx_N")),
+      fy_(csv_.find("fy_N")),
+      index_angle_(csv_.find("spindle_index_angle_rad")),
+      programmed_feed_(csv_.find("programmed_feed_mm_s")),
+      rapid_(csv_.find("rapid")) {
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        axes_[k].current = csv_.find(fmt::format("{}_current_A", axis_names[k]));
+        axes_[k].velocity = csv_.find(fmt::format("{}_velocity_mm_s", axis_names[k]));
+    }
+    require_drives();
+}
+
+/// A force sensor stands in for the currents, but not for the velocities.
+void RecordingReader::require_drives() const {
+    if (!has_force_sensor()) {
+        csv_.require("spindle_current_A", "the tangential force comes from it");
+    }
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        const bool gives_feed = has_force_sensor() ? k < 2 : axes_[k].current.has_value();
+        if (gives_feed && axes_[k].velocity) {
+            return;
+        }
+    }
+    const char* expected = has_force_sensor()
+                               ? "expected the column x_velocity_mm_s or y_velocity_mm_s: the feed per tooth and its "
+                                 "direction come from the velocities"
+                               : "expected the columns x_current_A and x_velocity_mm_s, or those of y or z: the feed "
+                                 "per tooth comes from the velocities";
+    throw InputError(fmt::format("{}:1: {}", csv_.file_name(), expected));
+}
+
+bool RecordingReader::next() {
+    if (!csv_.next_row()) {
+        return false;
+    }
+    const double time_s = csv_.required_number(time_, -1e9, 1e9);
+    if (time_s <= time_s_) {
+        csv_.fail(time_, fmt::format("{} after {}, expected a time that grows", time_s, time_s_));
+    }
+    time_s_ = time_s;
+    sample_ = {};
+    sample_.time_us = static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::llround((time_s + 1e9) * 1e6)));
+    read_spindle();
+    read_axes();
+    read_force_sensor();
+    read_program();
+    return true;
+}
+
+/// The encoder's count at an angle; the tolerance is for the angle's last digit.
+std::optional<std::uint32_t> RecordingReader::count_at(std::optional<CsvColumn> column) const {
+    const double angle = csv_.number(column);
+    if (std::isnan(angle)) {
+        return std::nullopt;
+    }
+    if (std::abs(angle) > 1e7) {
+        csv_.fail(*column, fmt::format("{}, expected an angle within ±1e7 rad", angle));
+    }
+    return static_cast<std::uint32_t>(
+        static_cast<std::int64_t>(std::floor(angle / revolution * static_cast<double>(counts_per_rev_) + 1e-6)));
+}
+
+/// An angle that begins again after each turn goes on.
+void RecordingReader::follow_turns(double angle_rad) {
+    const bool within_a_turn = std::max(std::abs(angle_rad), std::abs(last_angle_rad_)) < 1.05 * revolution;
+    if (within_a_turn && angle_rad < last_angle_rad_ - 0.5 * revolution) {
+        ++whole_turns_;
+    }
+    last_angle_rad_ = angle_rad;
+}
+
+/// Without a column for the index pulses the angle's zero is where they come: at the last whole turn.
+std::optional<std::uint32_t> RecordingReader::index_of_zero() const {
+    if ((sample_.present & hal::mask(hal::Present::spindle_count)) == 0) {
+        return std::nullopt;
+    }
+    const double turns = std::floor(csv_.number(angle_) / revolution + 1e-9) + whole_turns_;
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(turns) * static_cast<std::int64_t>(counts_per_rev_));
+}
+
+void RecordingReader::read_spindle() {
+    if (const auto count = count_at(angle_)) {
+        if (!index_angle_) {
+            follow_turns(csv_.number(angle_));
+        }
+        sample_.spindle_count = *count + static_cast<std::uint32_t>(whole_turns_) * counts_per_rev_;
+        sample_.present |= hal::mask(hal::Present::spindle_count);
+    }
+    if (const auto index = index_angle_ ? count_at(index_angle_) : index_of_zero();
+        index && (index_number_ == 0 || *index != index_count_)) {
+        index_count_ = *index;
+        index_number_ = static_cast<std::uint8_t>(index_number_ == 255 ? 1 : index_number_ + 1);
+    }
+    sample_.spindle_index_count = index_count_;
+    sample_.spindle_index_number = index_number_;
+    const double current = csv_.number(spindle_current_);
+    if (std::isfinite(current)) {
+        sample_.spindle_current_A = static_cast<float>(current);
+        sample_.present |= hal::mask(hal::Present::spindle_current);
+    }
+}
+
+void RecordingReader::read_axes() {
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        const double current = csv_.number(axes_[k].current);
+        const double velocity = csv_.number(axes_[k].velocity);
+        if (std::isfinite(current) && std::isfinite(velocity)) {
+            sample_.axis_current_A[k] = static_cast<float>(current);
+            sample_.axis_velocity_mm_s[k] = static_cast<float>(velocity);
+            sample_.present |= hal::axis_mask(k);
+        }
+    }
+}
+
+void RecordingReader::read_force_sensor() {
+    if (!has_force_sensor()) {
+        return;
+    }
+    const std::array<double, 2> force_N{csv_.number(fx_), csv_.number(fy_)};
+    bool is_there = true;
+    for (std::size_t k = 0; k < force_N.size(); ++k) {
+        const double velocity_mm_s = axes_[k].velocity ? csv_.number(axes_[k].velocity) : 0.0;
+        is_there = is_there && std::isfinite(force_N[k]) && std::isfinite(velocity_mm_s);
+        sample_.force_N[k] = static_cast<float>(force_N[k]);
+        sample_.axis_velocity_mm_s[k] = static_cast<float>(velocity_mm_s);
+    }
+    sample_.present |= is_there ? hal::mask(hal::Present::force_sensor) : std::uint8_t{0};
+}
+
+void RecordingReader::read_program() {
+    const double feed_mm_s = csv_.number(programmed_feed_);
+    if (feed_mm_s < 0.0 || feed_mm_s > 1e5) {
+        csv_.fail(*programmed_feed_, fmt::format("{}, expected a feed from 0 to 1e5 mm/s", feed_mm_s));
+    }
+    program_.programmed_feed_mm_s = std::isnan(feed_mm_s) ? 0.0F : static_cast<float>(feed_mm_s);
+    program_.rapid = csv_.number(rapid_) > 0.5;
+}
+
+}  // namespace millforce::host

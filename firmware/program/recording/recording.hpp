@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "files/atomic_file.hpp"
+#include "files/csv.hpp"
+#include "hal/drive_sample.hpp"
+#include "hal/feed_override.hpp"
+
+namespace millforce::host {
+
+/// One step at the controller's border: what went in, and the override that came out.
+struct RecordedStep {
+    hal::DriveSample sample;
+    hal::ProgramStatus program;
+    float override_ratio = 1.0F;
+};
+
+/// Writes a recording step by step: time_s, spindle_angle_rad, spindle_current_A, x_current_A … z_velocity_mm_s,
+/// override, and three columns that make a replay exact: spindle_index_angle_rad (where the encoder's last index pulse
+/// came; empty before the first), programmed_feed_mm_s and rapid (0 or 1). The angles are the encoder's whole counts.
+/// With a force sensor, fx_N and fy_N stand at the end.
+/// What is not present is an empty cell. Appears as a whole with commit(). Steps must be less than 2³¹ µs and 2³¹
+/// counts apart.
+class RecordingWriter {
+  public:
+    RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev, bool has_force_sensor);
+    void add(const RecordedStep& step);
+    void commit() { file_.commit(); }
+
+  private:
+    void follow(const hal::DriveSample& sample);
+    [[nodiscard]] double angle_rad(std::int64_t count) const;
+    template <typename Value>
+    void cell(Value value, bool present = true);
+
+    AtomicFile file_;
+    double counts_per_rev_;
+    bool has_force_sensor_;
+    std::string line_;
+    std::int64_t time_us_ = 0;
+    std::int64_t count_ = 0;
+    std::uint32_t last_time_us_ = 0;
+    std::uint32_t last_count_ = 0;
+};
+
+/// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as
+/// a column or in a row, is "not present" in the sample. Required: time_s, spindle_angle_rad, spindle_current_A, and
+/// one axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError:
+/// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
+///
+/// A recording with a force sensor (fx_N and fy_N, on the workpiece in the machine's axes) needs no currents, and of
+/// the axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that begins again
+/// after each turn goes on. An axis whose velocity is not recorded stands.
+class RecordingReader {
+  public:
+    RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
+
+    bool next();
+    [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
+    [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
+    [[nodiscard]] double time_s() const { return time_s_; }
+    [[nodiscard]] bool has_force_sensor() const { return fx_ && fy_; }
+    [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
+    [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
+
+  private:
+    struct Axis {
+        std::optional<CsvColumn> current;
+        std::optional<CsvColumn> velocity;
+    };
+    void require_drives() const;
+    void read_spindle();
+    void read_axes();
+    void read_force_sensor();
+    void read_program();
+    void follow_turns(double angle_rad);
+    [[nodiscard]] std::optional<std::uint32_t> index_of_zero() const;
+    [[nodiscard]] std::optional<std::uint32_t> count_at(std::optional<CsvColumn> angle) const;
+
+    CsvReader csv_;
+    std::uint32_t counts_per_rev_;
+    CsvColumn time_;
+    CsvColumn angle_;
+    std::optional<CsvColumn> spindle_current_;
+    std::array<Axis, hal::axis_count> axes_;
+    std::optional<CsvColumn> fx_;
+    std::optional<CsvColumn> fy_;
+    std::optional<CsvColumn> index_angle_;
+    std::optional<CsvColumn> programmed_feed_;
+    std::optional<CsvColumn> rapid_;
+    hal::DriveSample sample_{};
+    hal::ProgramStatus program_{};
+    double time_s_ = no_estimate;
+    double last_angle_rad_ = 0.0;
+    std::uint32_t whole_turns_ = 0;
+    std::uint32_t index_count_ = 0;
+    std::uint8_t index_number_ = 0;
+};
+
+}  // namespace millforce::host

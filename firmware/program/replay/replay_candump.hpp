@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "commands/command_line.hpp"
+
+namespace millforce::host {
+
+struct ReplayCandumpOptions {
+    std::string log;
+    std::string machine;
+    std::string tool;
+    std::string output;
+    std::string interface;  ///< empty: the only one of the log
+    double interval_s = 0.02;
+    std::string run_log;  ///< of `millforce run --log`, to compare with; empty: none
+    BusPace pace{};
+};
+
+/// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.
+bool is_candump_log(const std::string& file);
+
+/// 1 where the run's log has other estimates.
+int replay_candump(const ReplayCandumpOptions& options);
+
+}  // namespace millforce::host

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "bus/plant_on_can.hpp"
+#include "bus/plant_wiring.hpp"
+#include "commands/command_line.hpp"
+#include "commands/plant_commands.hpp"
+#include "commands/results_folder.hpp"
+#include "commands/scenario_info.hpp"
+#include "daemon/service.hpp"
+#include "files/input_error.hpp"
+#include "files/progress.hpp"
+#include "loop/bounds.hpp"
+#include "loop/recorder.hpp"
+#include "loop/simulation.hpp"
+#include "recording/recording.hpp"
+#include "report/report.hpp"
+#include "report/summary.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+struct SimulateOptions {
+    std::string scenario;
+    std::string controller = "millforce";
+    std::optional<std::uint64_t> seed;
+    std::string out = "out";
+    bool record = false;
+    std::optional<double> cutting_force_scale;
+    std::optional<double> friction_scale;
+    std::optional<double> current_noise_share;
+    double hardest = hardest_material;
+    std::string interface;
+    host::BusPace pace{};
+};
+
+constexpr const char* baseline = "constant";
+
+Scenario scenario_of(const SimulateOptions& options) {
+    Scenario scenario = read_scenario(options.scenario);
+    scenario.seed = options.seed.value_or(scenario.seed);
+    PlantDeviation& deviation = scenario.deviation;
+    deviation.cutting_force_scale = options.cutting_force_scale.value_or(deviation.cutting_force_scale);
+    deviation.friction_scale = options.friction_scale.value_or(deviation.friction_scale);
+    deviation.current_noise_share = options.current_noise_share.value_or(deviation.current_noise_share);
+    return scenario;
+}
+
+std::unique_ptr<OverrideSource> controller_named(const std::string& name, const Scenario& scenario,
+                                                 double constant_ratio) {
+    if (name == baseline) {
+        return std::make_unique<ConstantFeed>(scenario.parameters, constant_ratio);
+    }
+    if (name == "constant_load") {
+        return std::make_unique<ConstantLoad>(scenario.parameters, constant_load_reference_N(scenario.parameters));
+    }
+    if (name == "millforce_fixed") {
+        return std::make_unique<FixedPointController>(scenario.parameters);
+    }
+    return std::make_unique<MillforceController>(scenario.parameters);
+}
+
+SimulationSettings settings_with(host::Progress& progress) {
+    SimulationSettings settings;
+    settings.progress = [&progress](double share) {
+        progress.update(share);
+        return true;
+    };
+    return settings;
+}
+
+/// Runs the scenario; with a name for it, every step at the controller's border goes into a recording.
+RunResult run(const Scenario& scenario, const std::string& name, OverrideSource& controller,
+              const std::optional<std::filesystem::path>& recording) {
+    host::Progress progress(fmt::format("simulating {}", name), 1);
+    if (!recording) {
+        return simulate(scenario, controller, name, settings_with(progress)).result;
+    }
+    host::RecordingWriter writer(*recording, scenario.machine.encoder_counts_per_rev,
+                                 scenario.machine.force_sensor.is_there());
+    Recorder recorder(controller, [&](const host::RecordedStep& step) { writer.add(step); });
+    Simulated simulated = simulate(scenario, recorder, name, settings_with(progress));
+    writer.commit();
+    return std::move(simulated.result);
+}
+
+double safe_override_of(const Scenario& scenario, double hardest) {
+    host::Progress progress("finding the constant feed that is safe everywhere", 1);
+    return safe_constant_override(scenario, hardest, settings_with(progress));
+}
+
+void print_broken_bound(const RunFigures& figures) {
+    fmt::print(stderr,
+               "millforce: the bound does not hold: peak {:.1f} % of the tooth's limit (at most {:.0f} %), "
+               "{:.3f} s of it later than the reaction time after the engagement grew (none), {} teeth broken, {}\n",
+               100.0 * figures.peak_over_limit, 100.0 * largest_peak_over_limit, figures.late_over_limit_s,
+               figures.teeth_broken,
+               figures.finished ? "program finished" : "program not finished: fault " + figures.fault);
+}
+
+/// The controller is another process, behind the bus.
+std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, const host::BusPace& pace,
+                                                  const Scenario& scenario) {
+    PlantOnCanSettings settings = plant_on_bus(scenario, interface);
+    socketcan::CanSocketSettings socket;
+    if (!socket.set_interface(interface)) {
+        throw host::InputError(
+            fmt::format("--bus: '{}', expected a CAN interface of at most 15 characters, e.g. vcan0", interface));
+    }
+    settings.time.slowness = pace.slow_motion;
+    settings.time.in_lock_step = pace.lock_step;
+    return std::make_unique<PlantOnCan>(settings, std::make_unique<host::SocketPort>(socket));
+}
+
+int simulate_scenario(const SimulateOptions& options) {
+    const Scenario scenario = scenario_of(options);
+    const std::filesystem::path out = host::results_folder(options.out, "summary.json");
+    const auto recording = options.record ? std::optional(out / "recording.csv") : std::nullopt;
+    const bool is_baseline = options.controller == baseline;
+    std::vector<RunResult> results;
+    if (!options.interface.empty()) {
+        const auto controller = controller_behind(options.interface, options.pace, scenario);
+        if (!options.pace.lock_step) {
+            host::become_real_time();  // what is not allowed costs samples, and the controller tells how many
+        }
+        results.push_back(run(scenario, "millforce", *controller, recording));
+        host::leave_real_time();
+    } else if (!is_baseline) {
+        results.push_back(
+            run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
+    }
+    double ratio = 0.0;
+    if (options.interface.empty()) {
+        ratio = safe_override_of(scenario, options.hardest);
+        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
+                              is_baseline ? recording : std::nullopt));
+    }
+    const ScenarioInfo info = info_of(scenario, ratio);
+    fmt::print("{}", summary_table(info, results));
+    write_report(out, info, results);
+    fmt::print("\nreport: {}\n", (out / "report.html").string());
+    const RunFigures& figures = results.front().figures;
+    if (!bounds_hold(figures)) {
+        print_broken_bound(figures);
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<SimulateOptions>();
+    CLI::App* command =
+        app.add_subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
+    command->footer(
+        "The baseline beside it is the largest constant feed with which no tooth exceeds its limit, though the "
+        "material\n"
+        "be harder (--hardest).\n"
+        "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
+        "the\n"
+        "reaction time after the engagement grew, or the program did not finish.");
+    command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
+    command->add_option("--controller", options->controller, "Who sets the override")
+        ->check(CLI::IsMember(controller_names()))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of all noise; default: the scenario's")
+        ->check(host::number_from(0.0, 4e9));
+    command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command->add_flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
+    command->add_option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
+        ->check(host::number_from(0.1, 10.0));
+    command->add_option("--friction-scale", options->friction_scale, "True friction over the machine's")
+        ->check(host::number_from(0.0, 10.0));
+    command->add_option("--current-noise", options->current_noise_share, "Noise of a current sample over rated current")
+        ->check(host::number_from(0.0, 0.5));
+    command
+        ->add_option("--hardest", options->hardest,
+                     "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
+        ->check(host::number_from(1.0, 10.0))
+        ->capture_default_str();
+    command
+        ->add_option("--bus", options->interface,
+                     "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
+        ->type_name("IFACE")
+        ->excludes("--controller");
+    host::add_bus_pace(*command, options->pace);
+    command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
+}
+
+}  // namespace millforce::sim

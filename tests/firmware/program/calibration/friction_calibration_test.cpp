@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/friction_calibration.hpp"
+#include "calibration/axis_motion.hpp"
+#include "estimation_calibration/friction_fit.hpp"
+#include "files/input_error.hpp"
+#include "firmware/program/files/temporary_folder.hpp"
+
+#include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+#include <random>
+#include <sstream>
+
+using namespace millforce::host;
+using namespace millforce::test;
+
+namespace {
+
+const std::filesystem::path measured_axis = MILLFORCE_TEST_DATA "/ball_screw_axis_200hz.csv";
+
+struct Run {
+    int code = -1;
+    std::string text;
+    std::string error;
+    toml::table toml;
+};
+
+Run calibrate(const std::vector<std::filesystem::path>& data) {
+    const TemporaryFolder folder;
+    FrictionCalibrationOptions options;
+    options.data = data;
+    options.output = folder.path("out.toml");
+    Run run;
+    std::ostringstream out;
+    run.error = message_of<InputError>([&] { run.code = calibrate_friction(options, out); });
+    run.text = out.str();
+    if (run.error.empty()) {
+        run.toml = toml::parse(folder.read("out.toml"));
+    } else {
+        LONGS_EQUAL(0, folder.file_count());
+    }
+    return run;
+}
+
+double value(const Run& run, const char* axis, const char* key) {
+    return run.toml[axis][key].value_or(std::nan(""));
+}
+
+/// A recording of air cuts: each feed of `feeds_mm_s` for half a second, with ramps between, at 200 Hz.
+std::string recording(std::initializer_list<double> feeds_mm_s, double noise_A) {
+    std::mt19937 generator(9);
+    std::normal_distribution<double> normal;
+    std::ostringstream text;
+    text << "x_current_A,time_s,x_velocity_mm_s,y_velocity_mm_s,y_current_A\n";
+    double time_s = 0.0;
+    const auto row = [&](double v, double acceleration) {
+        const double w = 0.06 * v;
+        const double size = std::abs(w);
+        const double friction = v == 0.0 ? 0.0 : 0.012 * w * w + 0.09 * size + 1.9;
+        const double current =
+            -0.4 + (w > 0.0 ? friction : -friction) + 0.01 * acceleration + noise_A * normal(generator);
+        text << current << ',' << time_s << ',' << v + 0.02 * normal(generator) << ",0,0.3\n";
+        time_s += 0.005;
+    };
+    double last = 0.0;
+    for (const double feed : feeds_mm_s) {
+        for (int k = 0; k < 40; ++k) {
+            row(last + (feed - last) * k / 40.0, (feed - last) / 0.2);
+        }
+        for (int k = 0; k < 100; ++k) {
+            row(feed, 0.0);
+        }
+        last = feed;
+    }
+    return text.str();
+}
+
+}  // namespace
+
+TEST_GROUP(FrictionCalibration){};
+
+TEST(FrictionCalibration, of_the_measured_axis_gives_the_published_mass_and_friction) {
+    const Run run = calibrate({measured_axis});
+    LONGS_EQUAL(0, run.code);
+    DOUBLES_EQUAL(95.11, value(run, "x", "mass_kg"), 0.01 * 95.11);
+    DOUBLES_EQUAL(203.5, value(run, "x", "viscous_N_s_per_m"), 0.03 * 203.5);
+    DOUBLES_EQUAL(20.39, value(run, "x", "coulomb_N"), 0.03 * 20.39);
+    DOUBLES_EQUAL(-3.16, value(run, "x", "offset_N"), 0.03 * 3.16);
+    CHECK(value(run, "x", "residual_rms_N") < 3.0);
+    CHECK(value(run, "x", "residual_rms_N") > 1.0);  // an axis that is too quiet was not measured
+    CHECK(contains(run.text, "phantom force in the second"));
+}
+
+TEST(FrictionCalibration, sees_that_viscous_friction_of_the_measured_axis_differs_by_direction) {
+    const Run run = calibrate({measured_axis});
+    const double difference =
+        value(run, "x", "negative_viscous_N_s_per_m") - value(run, "x", "positive_viscous_N_s_per_m");
+    const double error =
+        std::hypot(value(run, "x", "negative_viscous_N_s_per_m_se"), value(run, "x", "positive_viscous_N_s_per_m_se"));
+    CHECK(difference > 5.0 * error);
+}
+
+TEST(FrictionCalibration, on_the_first_half_of_the_measured_axis_sees_no_cutting_force_in_the_second) {
+    const AxisMotion motion = read_axis_motion(measured_axis, 20.0);
+    const std::size_t n = motion.velocity_m_s.size();
+    millforce::estimation::MechanicalFrictionFit<double> fit(0.002);
+    for (std::size_t k = 0; k < n / 2; ++k) {
+        fit.add(motion.velocity_m_s[k], motion.acceleration_m_s2[k], motion.motor_force_N[k]);
+    }
+    const auto friction = millforce::estimation::directional_friction(fit.directional());
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t k = n / 2; k < n; ++k) {
+        if (std::abs(motion.velocity_m_s[k]) > 0.002) {
+            const double phantom =
+                motion.motor_force_N[k] - friction.force_N(motion.velocity_m_s[k], motion.acceleration_m_s2[k]);
+            sum += phantom * phantom;
+            ++count;
+        }
+    }
+    const double rms = std::sqrt(sum / count);
+    CHECK(rms < 3.5);
+    CHECK(rms > 0.5);
+    CHECK(count > 2000);
+}
+
+TEST(FrictionCalibration, of_a_recording_in_air_gives_the_quadratic_current_by_direction_and_gravity) {
+    const TemporaryFolder folder;
+    const Run run = calibrate({folder.write(
+        "air.csv", recording({10, 30, 60, 100, 150, -10, -30, -60, -100, -150, 10, -10, 30, -30, 60, -60}, 0.05))});
+    STRCMP_EQUAL("", run.error.c_str());
+    LONGS_EQUAL(0, run.code);
+    const auto within = [&](const char* key, double truth) {
+        const double error = value(run, "x", (std::string(key) + "_se").c_str());
+        DOUBLES_EQUAL(truth, value(run, "x", key), 3.0 * error);
+        CHECK(error < 0.05 * std::abs(truth) + 0.01);
+    };
+    within("K_x1_positive_A_min2_per_m2", 0.012);
+    within("K_x2_positive_A_min_per_m", 0.09);
+    within("K_x1_negative_A_min2_per_m2", 0.012);
+    within("K_x2_negative_A_min_per_m", 0.09);
+    within("K_x3_A", 1.9);
+    within("gravity_A", -0.4);
+    CHECK(!run.toml.contains("y"));  // it stood still
+}
+
+TEST(FrictionCalibration, refuses_a_recording_that_lacks_feeds_or_a_direction_and_says_which) {
+    const TemporaryFolder folder;
+    const auto error = [&](std::initializer_list<double> feeds) {
+        return calibrate({folder.write("air.csv", recording(feeds, 0.05))}).error;
+    };
+    CHECK(contains(error({20, -20, 20, -20, 20, -20, 20, -20}),
+                   "'x.K_x1_positive_A_min2_per_m2' cannot be determined: 1 steady feed(s) in air in +x"));
+    CHECK(contains(error({20, 40, 60, 80, -20, -20, -40}), "K_x1_negative_A_min2_per_m2"));
+    CHECK(contains(error({20, 40, 60, 80, 100, 120, 140}),
+                   "'x.gravity_A' cannot be told from K_x3_A: no steady "
+                   "travel in air in -x"));
+    CHECK(contains(error({0, 0, 0}), "'K_x1' to 'K_x3' cannot be determined"));
+}
+
+TEST(FrictionCalibration, refuses_a_motion_at_rest_in_one_direction_or_without_acceleration) {
+    const TemporaryFolder folder;
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    const auto error = [&](auto position) {
+        std::ostringstream text;
+        text.precision(12);
+        text << "time_s,position_m,motor_force_N\n";
+        for (int k = 0; k < 2000; ++k) {
+            const double t = 0.005 * k;
+            text << t << ',' << position(t) << ',' << 20.0 + normal(generator) << '\n';
+        }
+        return calibrate({folder.write("axis.csv", text.str())}).error;
+    };
+    CHECK(contains(error([](double) { return 0.1; }), "'coulomb_N' cannot be determined: the axis is never faster"));
+    CHECK(contains(error([](double t) { return 0.1 * t + 0.01 * std::sin(3.0 * t); }), "'negative_coulomb_N' cannot"));
+    CHECK(contains(error([](double t) { return 0.1 * std::abs(std::fmod(t, 4.0) - 2.0); }), "cannot be determined"));
+}
+
+TEST(FrictionCalibration, names_the_line_of_an_uneven_step_and_of_a_bad_cell) {
+    const TemporaryFolder folder;
+    std::string text = "time_s,position_m,motor_force_N\n";
+    for (int k = 0; k < 30; ++k) {
+        text += std::to_string(0.005 * (k + (k > 20 ? 1 : 0))) + ",0,0\n";
+    }
+    CHECK(contains(calibrate({folder.write("a.csv", text)}).error, "a.csv:3: column 'time_s'"));
+    CHECK(contains(calibrate({folder.write("b.csv", "time_s,position_m\n0,0\n")}).error,
+                   "b.csv:1: no column 'motor_force_N'"));
+    CHECK(contains(calibrate({folder.write("c.csv", "time_s,position_m,motor_force_N\n0,,1\n")}).error,
+                   "c.csv:2: column 'position_m': the cell is empty"));
+    CHECK(contains(calibrate({measured_axis, folder.write("d.csv", recording({10}, 0.0))}).error, "of another kind"));
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/warm_up_calibration.hpp"
+#include "files/input_error.hpp"
+#include "firmware/program/files/temporary_folder.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
+
+#include <CppUTest/TestHarness.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+using namespace millforce::host;
+using namespace millforce::test;
+
+namespace {
+
+/// 20 Hz; K_t1 0.5 N·m/A, 0.9 N·m warm, 0.3 N·m more when cold, 200 s; the spindle runs up in the first 2 s.
+std::string idle_recording(double duration_s, double second_speed_rad_s = 400.0, double excess_Nm = 0.3) {
+    std::mt19937 generator(6);
+    std::normal_distribution<double> noise(0.0, 0.05);
+    std::string text = "time_s,spindle_angle_rad,spindle_current_A\n";
+    double angle = 0.0;
+    for (double t = 0.0; t < duration_s; t += 0.05) {
+        const double speed = t < 2.0 ? 200.0 * t : (t < 0.5 * duration_s ? 400.0 : second_speed_rad_s);
+        angle += speed * 0.05;
+        const double torque = 0.9 + excess_Nm * std::exp(-t / 200.0) + (t < 2.0 ? 5.0 : 0.0);
+        text += fmt::format("{:.2f},{:.4f},{:.5f}\n", t, angle, torque / 0.5 + noise(generator));
+    }
+    return text;
+}
+
+struct WarmUpRun {
+    std::string error;
+    toml::table toml;
+};
+
+WarmUpRun calibrate_warm_up_of(const std::string& data) {
+    const TemporaryFolder folder;
+    WarmUpCalibrationOptions options;
+    options.data = folder.write("idle.csv", data);
+    options.machine = folder.write("machine.toml", "[spindle]\nK_t1_Nm_per_A = 0.5\n");
+    options.output = folder.path("out.toml");
+    std::ostringstream out;
+    WarmUpRun run;
+    run.error = message_of<InputError>([&] { calibrate_warm_up(options, out); });
+    if (run.error.empty()) {
+        run.toml = toml::parse(folder.read("out.toml"));
+    } else {
+        LONGS_EQUAL(2, folder.file_count());
+    }
+    return run;
+}
+
+void refuses_warm_up(const std::string& data, const std::string& part) {
+    const std::string error = calibrate_warm_up_of(data).error;
+    CHECK_TEXT(error.find(part) != std::string::npos, error.c_str());
+    LONGS_EQUAL(0, std::count(error.begin(), error.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_GROUP(WarmUpCalibration){};
+
+TEST(WarmUpCalibration, finds_torque_and_time_with_their_standard_errors) {
+    const WarmUpRun run = calibrate_warm_up_of(idle_recording(700.0));
+    STRCMP_EQUAL("", run.error.c_str());
+    const auto within = [&](const std::string& key, double truth) {
+        const double error = run.toml["spindle"][key + "_se"].value_or(std::nan(""));
+        DOUBLES_EQUAL(truth, run.toml["spindle"][key].value_or(std::nan("")), 4.0 * error);
+        CHECK(error < 0.1 * truth);
+    };
+    within("warm_up_time_s", 200.0);
+    within("warm_up_torque_Nm", 0.3);
+}
+
+TEST(WarmUpCalibration, refuses_what_does_not_show_the_curve) {
+    refuses_warm_up(idle_recording(120.0), "expected a record of");
+    refuses_warm_up(idle_recording(700.0, 400.0, 0.0), "does not fall");
+    refuses_warm_up(idle_recording(700.0, 300.0), "one speed");
+    refuses_warm_up(idle_recording(0.5), "ten minutes");
+    refuses_warm_up("time_s,spindle_angle_rad\n0,0\n", "spindle_current_A");
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/parameter_block_file.hpp"
+
+#include <sstream>
+
+#include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
+#include "temporary_folder.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::host;
+
+namespace {
+
+const char* const machine_file = MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml";
+const char* const tool_file = MILLFORCE_SOURCE_DIR "/sim/scenarios/tools/endmill_10mm.toml";
+
+void check_equal(firmware::Parameters<float> a, firmware::Parameters<float> b) {
+    for (const auto& row : firmware::parameter_table<float>) {
+        for (std::size_t axis = 0; axis < firmware::axes_of(row.table); ++axis) {
+            CHECK_EQUAL_TEXT(row.field(a, axis), row.field(b, axis), row.key);
+        }
+    }
+}
+
+/// The part of a text from one mark to another, or to its end.
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+    const std::size_t begin = text.find(from);
+    const std::size_t end = to.empty() ? std::string::npos : text.find(to);
+    return text.substr(begin, end - begin);
+}
+
+}  // namespace
+
+TEST_GROUP(ParameterBlockFile) {
+    test::TemporaryFolder folder;
+};
+
+TEST(ParameterBlockFile, holds_the_parameters_of_both_files) {
+    const auto parameters = read_parameters(machine_file, tool_file);
+    const std::string path = folder.path("parameters.bin").string();
+    write_parameter_block(path, parameters);
+    check_equal(parameters, read_parameter_block(path));
+}
+
+TEST(ParameterBlockFile, is_printed_as_the_files_that_it_was_made_of) {
+    const auto parameters = read_parameters(machine_file, tool_file);
+    std::ostringstream text;
+    write_parameters_as_toml(text, parameters);
+    const auto machine = folder.write("machine.toml", between(text.str(), "# machine.toml", "# tool.toml"));
+    const auto tool = folder.write("tool.toml", between(text.str(), "# tool.toml", ""));
+    check_equal(parameters, read_parameters(machine.string(), tool.string()));
+}
+
+TEST(ParameterBlockFile, what_is_no_block_is_refused_with_the_reason) {
+    const std::string path = folder.path("parameters.bin").string();
+    const auto refusal = [&path] { return test::message_of<InputError>([&path] { read_parameter_block(path); }); };
+    CHECK_TRUE(test::contains(refusal(), "no such file"));
+    folder.write("parameters.bin", "");
+    CHECK_TRUE(test::contains(refusal(), "no block"));
+    write_parameter_block(path, read_parameters(machine_file, tool_file));
+    std::string bytes = folder.read("parameters.bin");
+    bytes[100] = static_cast<char>(bytes[100] ^ 1);
+    folder.write("parameters.bin", bytes);
+    CHECK_TRUE(test::contains(refusal(), "value CRC"));
+}
