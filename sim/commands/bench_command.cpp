@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <linux/perf_event.h>
@@ -145,11 +143,11 @@ int bench(const std::string& path) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, int& exit_code) {
+void add_bench(host::Command& program) {
     auto scenario = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("bench", "The performance tables");
-    command->add_option("scenario", *scenario, "Scenario to run")->required()->type_name("SCENARIO.toml");
-    command->callback([scenario, &exit_code] { exit_code = bench(*scenario); });
+    host::Command command = program.subcommand("bench", "The performance tables");
+    command.option("scenario", *scenario, "Scenario to run").required().value_name("SCENARIO.toml");
+    command.on_run([scenario] { return bench(*scenario); });
 }
 
 }  // namespace millforce::sim

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <array>
@@ -90,30 +88,26 @@ int cut_table(const CutTableOptions& options) {
 
 }  // namespace
 
-void add_cut_table(CLI::App& app, int& exit_code) {
+void add_cut_table(host::Command& program) {
     auto options = std::make_shared<CutTableOptions>();
-    CLI::App* command = app.add_subcommand(
+    host::Command command = program.subcommand(
         "cut-table", "Straight cuts with torque and normal force, as a dynamometer on the plant would measure them");
-    command->footer(
+    command.footer(
         "The cuts: feeds per tooth of 1/8, 1/4, 1/2 and 1 of the tool's max_feed_per_tooth_mm, six widths from 8 to\n"
         "80 % of its diameter, depths of 10 and 25 % of its flute length. The table is what 'millforce calibrate\n"
         "cutting' takes.");
-    command->add_option("scenario", options->scenario, "Scenario with tool and material")
-        ->required()
-        ->type_name("SCENARIO.toml");
-    command->add_option("-o,--output", options->output, "Conditions and measured values")
-        ->required()
-        ->type_name("CONDITIONS.csv");
-    command->add_option("--spindle-speed", options->spindle_speed_rpm, "In 1/min")
-        ->check(host::number_from(1.0, 1e5))
-        ->capture_default_str();
-    command->add_option("--noise", options->noise_share, "Standard deviation of a measured value, relative")
-        ->check(host::number_from(0.0, 0.5))
-        ->capture_default_str();
-    command->add_option("--seed", options->seed, "Seed of the noise")
-        ->check(host::number_from(0.0, 4e9))
-        ->capture_default_str();
-    command->callback([options, &exit_code] { exit_code = cut_table(*options); });
+    command.option("scenario", options->scenario, "Scenario with tool and material")
+        .required()
+        .value_name("SCENARIO.toml");
+    command.option("-o,--output", options->output, "Conditions and measured values")
+        .required()
+        .value_name("CONDITIONS.csv");
+    command.option("--spindle-speed", options->spindle_speed_rpm, "In 1/min").within(1.0, 1e5).shows_default();
+    command.option("--noise", options->noise_share, "Standard deviation of a measured value, relative")
+        .within(0.0, 0.5)
+        .shows_default();
+    command.option("--seed", options->seed, "Seed of the noise").within(0.0, 4e9).shows_default();
+    command.on_run([options] { return cut_table(*options); });
 }
 
 }  // namespace millforce::sim

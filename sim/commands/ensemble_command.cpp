@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,19 +58,18 @@ int ensemble(const EnsembleOptions& options) {
 
 }  // namespace
 
-void add_ensemble(CLI::App& app, int& exit_code) {
+void add_ensemble(host::Command& program) {
     auto options = std::make_shared<EnsembleOptions>();
-    CLI::App* command = app.add_subcommand("ensemble", "The same scenario with many plants: how sure the figures are");
-    command->footer(
+    host::Command command =
+        program.subcommand("ensemble", "The same scenario with many plants: how sure the figures are");
+    command.footer(
         "K_s, friction, torque and force constants of each plant are drawn from the deviations that the machine and\n"
         "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit or above the "
         "limit\n"
         "later than the reaction time after the engagement grew, or a program did not finish.");
-    command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
-    command->add_option("--runs", options->runs, "Number of plants")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command->callback([options, &exit_code] { exit_code = ensemble(*options); });
+    command.option("scenario", options->scenario, "What to mill").required().value_name("SCENARIO.toml");
+    command.option("--runs", options->runs, "Number of plants").within(1, 10000).shows_default();
+    command.on_run([options] { return ensemble(*options); });
 }
 
 }  // namespace millforce::sim

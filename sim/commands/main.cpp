@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <exception>
 
@@ -13,45 +9,32 @@
 
 namespace {
 
-using namespace millforce;
-using namespace millforce::sim;
-
 int run(int argc, char** argv) {
-    CLI::App app{"Sensorless force control for milling", "millforce"};
-    app.require_subcommand(1);
-    app.footer(
+    using namespace millforce;
+    host::CommandLine line("millforce", "Sensorless force control for milling", "millforce " MILLFORCE_VERSION);
+    host::Command program = line.root();
+    program.footer(
         "Exit codes: 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input.\n"
-        "'millforce COMMAND --help' tells more about a command.");
-    int exit_code = 0;
-    add_simulate(app, exit_code);
-    add_ensemble(app, exit_code);
-    host::add_replay(app, exit_code);
-    host::add_run(app, exit_code);
-    host::add_calibrate(app, exit_code);
-    host::add_estimate(app, exit_code);
-    add_reproduce(app, exit_code);
-    add_cut_table(app, exit_code);
-    add_bench(app, exit_code);
-    host::add_serve(app, exit_code);
-    add_plant(app, exit_code);
-    host::add_parameters(app, exit_code);
-    host::set_common_rules(app, "millforce " MILLFORCE_VERSION);
-    try {
-        app.parse(argc, argv);
-        return exit_code;
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) {
-            return app.exit(error);
-        }
-        fmt::print(stderr, "millforce: {}\n", host::usage_error(app, argc, argv, error.what()));
-        return 2;
-    }
+        "'millforce COMMAND --help' describes a command.");
+    sim::add_simulate(program);
+    sim::add_ensemble(program);
+    host::add_replay(program);
+    host::add_run(program);
+    host::add_calibrate(program);
+    host::add_estimate(program);
+    sim::add_reproduce(program);
+    sim::add_cut_table(program);
+    sim::add_bench(program);
+    host::add_serve(program);
+    sim::add_plant(program);
+    host::add_parameters(program);
+    return line.run(argc, argv);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    host::remove_unfinished_files_on_interrupt();
+    millforce::host::remove_unfinished_files_on_interrupt();
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {

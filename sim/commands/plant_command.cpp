@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <cstring>
@@ -97,23 +95,23 @@ int run_plant(const PlantOptions& options) {
 
 }  // namespace
 
-void add_plant(CLI::App& app, int& exit_code) {
+void add_plant(host::Command& program) {
     auto options = std::make_shared<PlantOptions>();
-    CLI::App* command = app.add_subcommand("plant", "A simulated machine and workpiece behind a real LinuxCNC");
-    command->footer(
+    host::Command command = program.subcommand("plant", "A simulated machine and workpiece behind a real LinuxCNC");
+    command.footer(
         "LinuxCNC's component millforce_plant connects and tells the commanded positions (sim/linuxcnc/run starts all "
         "of\n"
         "it). Each run from spindle start to spindle stop gives a summary and a report.\n"
         "Exit code 1: the last run broke a bound, as with 'simulate'.");
-    command->add_option("scenario", options->scenario, "Machine, tool, material and stock; the moves are LinuxCNC's")
-        ->required()
-        ->type_name("SCENARIO.toml");
-    command->add_option("socket", options->socket, "Path of the socket to make")->required()->type_name("SOCKET");
-    command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command->add_flag("--once", options->once, "End when LinuxCNC has gone");
-    command->callback([options, &exit_code] { exit_code = run_plant(*options); });
+    command.option("scenario", options->scenario, "Machine, tool, material and stock; the moves are LinuxCNC's")
+        .required()
+        .value_name("SCENARIO.toml");
+    command.option("socket", options->socket, "Path of the socket to make").required().value_name("SOCKET");
+    command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
+        .value_name("DIR")
+        .shows_default();
+    command.flag("--once", options->once, "End when LinuxCNC has gone");
+    command.on_run([options] { return run_plant(*options); });
 }
 
 }  // namespace millforce::sim

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -94,20 +92,20 @@ int reproduce_papers(const ReproduceOptions& options) {
 
 }  // namespace
 
-void add_reproduce(CLI::App& app, int& exit_code) {
+void add_reproduce(host::Command& program) {
     auto options = std::make_shared<ReproduceOptions>();
-    CLI::App* command = app.add_subcommand("reproduce", "Published figures beside ours: value, difference, bound");
-    command->footer(
+    host::Command command = program.subcommand("reproduce", "Published figures beside ours: value, difference, bound");
+    command.footer(
         "Each paper's system runs on simulated cuts; every random number is seeded. A figure without a bound is shown\n"
         "for comparison. DIR gets reproduce.html, with all figures, plots and deviations from print, and\n"
         "reproduce.json.\n"
         "Exit code 1: a bound is broken.");
-    command->add_option("paper", options->paper, joined_names(" | "))->type_name("PAPER")->capture_default_str();
-    command->add_option("--out", options->out, "Folder for reproduce.html and reproduce.json")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command->add_flag("--verbose", options->verbose, "Every row of the long tables");
-    command->callback([options, &exit_code] { exit_code = reproduce_papers(*options); });
+    command.option("paper", options->paper, joined_names(" | ")).value_name("PAPER").shows_default();
+    command.option("--out", options->out, "Folder for reproduce.html and reproduce.json")
+        .value_name("DIR")
+        .shows_default();
+    command.flag("--verbose", options->verbose, "Every row of the long tables");
+    command.on_run([options] { return reproduce_papers(*options); });
 }
 
 }  // namespace millforce::sim

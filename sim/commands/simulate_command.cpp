@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -157,45 +155,43 @@ int simulate_scenario(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, int& exit_code) {
+void add_simulate(host::Command& program) {
     auto options = std::make_shared<SimulateOptions>();
-    CLI::App* command =
-        app.add_subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
-    command->footer(
+    host::Command command =
+        program.subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
+    command.footer(
         "The baseline beside it is the largest constant feed with which no tooth exceeds its limit, though the "
         "material\n"
         "be harder (--hardest).\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
         "the\n"
         "reaction time after the engagement grew, or the program did not finish.");
-    command->add_option("scenario", options->scenario, "What to mill")->required()->type_name("SCENARIO.toml");
-    command->add_option("--controller", options->controller, "Who sets the override")
-        ->check(CLI::IsMember(controller_names()))
-        ->capture_default_str();
-    command->add_option("--seed", options->seed, "Seed of all noise; default: the scenario's")
-        ->check(host::number_from(0.0, 4e9));
-    command->add_option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command->add_flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
-    command->add_option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
-        ->check(host::number_from(0.1, 10.0));
-    command->add_option("--friction-scale", options->friction_scale, "True friction over the machine's")
-        ->check(host::number_from(0.0, 10.0));
-    command->add_option("--current-noise", options->current_noise_share, "Noise of a current sample over rated current")
-        ->check(host::number_from(0.0, 0.5));
+    command.option("scenario", options->scenario, "What to mill").required().value_name("SCENARIO.toml");
+    host::Option controller = command.option("--controller", options->controller, "Who sets the override")
+                                  .one_of(controller_names())
+                                  .shows_default();
+    command.option("--seed", options->seed, "Seed of all noise; default: the scenario's").within(0.0, 4e9);
+    command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
+        .value_name("DIR")
+        .shows_default();
+    command.flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
+    command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
+        .within(0.1, 10.0);
+    command.option("--friction-scale", options->friction_scale, "True friction over the machine's").within(0.0, 10.0);
+    command.option("--current-noise", options->current_noise_share, "Noise of a current sample over rated current")
+        .within(0.0, 0.5);
     command
-        ->add_option("--hardest", options->hardest,
-                     "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
-        ->check(host::number_from(1.0, 10.0))
-        ->capture_default_str();
+        .option("--hardest", options->hardest,
+                "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
+        .within(1.0, 10.0)
+        .shows_default();
     command
-        ->add_option("--bus", options->interface,
-                     "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
-        ->type_name("IFACE")
-        ->excludes("--controller");
-    host::add_bus_pace(*command, options->pace);
-    command->callback([options, &exit_code] { exit_code = simulate_scenario(*options); });
+        .option("--bus", options->interface,
+                "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
+        .value_name("IFACE")
+        .excludes(controller);
+    host::add_bus_pace(command, options->pace);
+    command.on_run([options] { return simulate_scenario(*options); });
 }
 
 }  // namespace millforce::sim

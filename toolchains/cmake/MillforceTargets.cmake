@@ -4,6 +4,9 @@
 # An include path is a permission: a target sees its own folder and what it links, nothing else.
 
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+if(NOT CMAKE_CROSSCOMPILING)
+    find_package(fmt REQUIRED)
+endif()
 
 set(MILLFORCE_WARNINGS
     -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Wold-style-cast
@@ -57,14 +60,42 @@ function(millforce_core target)
     endif()
 endfunction()
 
-# millforce_host_library(<prefix> <folder> LINKS ...): all sources of a folder beside the caller, as <prefix>_<folder>.
+# What most host sources and tests include from outside, parsed once per optimisation level.
+function(millforce_precompiled_headers target level)
+    set(shared millforce_precompiled_${level})
+    if(NOT TARGET ${shared})
+        add_library(${shared} OBJECT ${CMAKE_SOURCE_DIR}/toolchains/cmake/precompiled.cpp)
+        target_compile_options(${shared} PRIVATE -${level})
+        millforce_target_warnings(${shared})
+        target_link_libraries(${shared} PRIVATE fmt::fmt Eigen3::Eigen)
+        target_precompile_headers(${shared} PRIVATE
+            <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <ostream> <span> <string> <vector>
+            <fmt/format.h> <Eigen/Core>)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM ${shared})
+endfunction()
+
+# millforce_host_library(<prefix> <folder> [HOT] LINKS ...): all sources of a folder beside the caller, as
+# <prefix>_<folder>. HOT: the simulation's inner loops; -O3 pays for its compile time there, elsewhere -O1 is enough.
 function(millforce_host_library prefix folder)
-    cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
-    find_package(fmt REQUIRED)
+    cmake_parse_arguments(ARG "HOT" "" "LINKS" ${ARGN})
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
     set(target ${prefix}_${folder})
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${target} PUBLIC fmt::fmt ${ARG_LINKS})
     millforce_target_warnings(${target})
+    millforce_host_optimisation(${target} ${ARG_HOT})
+endfunction()
+
+function(millforce_host_optimisation target hot)
+    if(hot)
+        set(level O3)
+    else()
+        set(level O1)
+    endif()
+    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+        target_compile_options(${target} PRIVATE -${level})
+        millforce_precompiled_headers(${target} ${level})
+    endif()
 endfunction()

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "commands/command_line.hpp"
 
 namespace millforce::host {
 
-/// The subcommands that a machine needs. Each adds itself to the program and, when chosen, runs and sets the exit code:
-/// 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input (by throwing InputError).
-void add_run(CLI::App& app, int& exit_code);
-void add_serve(CLI::App& app, int& exit_code);
-void add_replay(CLI::App& app, int& exit_code);
-void add_calibrate(CLI::App& app, int& exit_code);
-void add_estimate(CLI::App& app, int& exit_code);
-void add_parameters(CLI::App& app, int& exit_code);
+/// The subcommands that a machine needs. Each adds itself to the program.
+void add_run(Command& program);
+void add_serve(Command& program);
+void add_replay(Command& program);
+void add_calibrate(Command& program);
+void add_estimate(Command& program);
+void add_parameters(Command& program);
 
 }  // namespace millforce::host

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <iostream>
@@ -30,20 +28,20 @@ void write_block(const ParametersOptions& options) {
 
 }  // namespace
 
-void add_parameters(CLI::App& app, int& exit_code) {
+void add_parameters(Command& program) {
     auto options = std::make_shared<ParametersOptions>();
-    CLI::App* command = app.add_subcommand(
+    Command command = program.subcommand(
         "parameters", "Every key of machine.toml and tool.toml, as Markdown; the block that a target keeps in flash");
-    auto* write = command->add_option("--write-block", options->block_to_write, "Make a target's block of two files")
-                      ->type_name("FILE");
-    auto* machine = command->add_option("--machine", options->machine, "For --write-block")->type_name("M.toml");
-    auto* tool = command->add_option("--tool", options->tool, "For --write-block")->type_name("T.toml");
-    auto* read = command->add_option("--read-block", options->block_to_read, "Print a target's block as TOML")
-                     ->type_name("FILE");
-    write->needs(machine)->needs(tool)->excludes(read);
-    machine->needs(write);
-    tool->needs(write);
-    command->callback([options, &exit_code] {
+    Option write = command.option("--write-block", options->block_to_write, "Make a target's block of two files")
+                       .value_name("FILE");
+    Option machine = command.option("--machine", options->machine, "For --write-block").value_name("M.toml");
+    Option tool = command.option("--tool", options->tool, "For --write-block").value_name("T.toml");
+    Option read =
+        command.option("--read-block", options->block_to_read, "Print a target's block as TOML").value_name("FILE");
+    write.needs(machine).needs(tool).excludes(read);
+    machine.needs(write);
+    tool.needs(write);
+    command.on_run([options] {
         if (!options->block_to_write.empty()) {
             write_block(*options);
         } else if (!options->block_to_read.empty()) {
@@ -51,7 +49,7 @@ void add_parameters(CLI::App& app, int& exit_code) {
         } else {
             fmt::print("{}", parameter_documentation());
         }
-        exit_code = 0;
+        return 0;
     });
 }
 

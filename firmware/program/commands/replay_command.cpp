@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -205,10 +203,10 @@ int replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay(CLI::App& app, int& exit_code) {
+void add_replay(Command& program) {
     auto options = std::make_shared<ReplayOptions>();
-    CLI::App* command = app.add_subcommand("replay", "Estimation and control (open loop) on a recording");
-    command->footer(
+    Command command = program.subcommand("replay", "Estimation and control (open loop) on a recording");
+    command.footer(
         "Columns of the recording: time_s, spindle_angle_rad, spindle_current_A, and AXIS_current_A and\n"
         "AXIS_velocity_mm_s for x, y, z as they are there. A recording of 'simulate --record' holds besides the index\n"
         "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
@@ -221,25 +219,25 @@ void add_replay(CLI::App& app, int& exit_code) {
         "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables.\n"
         "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for "
         "digit.");
-    command->add_option("log", options->log, "Recording: CSV, or a candump log")->required()->type_name("LOG");
-    command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
-    command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
-    command->add_option("-o,--output", options->output, "Estimates; default: standard output")->type_name("OUT.csv");
+    command.option("log", options->log, "Recording: CSV, or a candump log").required().value_name("LOG");
+    command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
+    command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
+    command.option("-o,--output", options->output, "Estimates; default: standard output").value_name("OUT.csv");
     command
-        ->add_option("--programmed-feed", options->programmed_feed_mm_min,
-                     "F of the program in mm/min, for the override; default: the recording's, else not known")
-        ->check(number_from(0.0, 1e6));
-    command->add_option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
-        ->check(number_from(0.0, 1e6))
-        ->capture_default_str();
-    command->add_option("--interface", options->interface, "Of a candump log with several: the one to replay")
-        ->type_name("IFACE");
+        .option("--programmed-feed", options->programmed_feed_mm_min,
+                "F of the program in mm/min, for the override; default: the recording's, else not known")
+        .within(0.0, 1e6);
+    command.option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
+        .within(0.0, 1e6)
+        .shows_default();
+    command.option("--interface", options->interface, "Of a candump log with several: the one to replay")
+        .value_name("IFACE");
     command
-        ->add_option("--verify", options->run_log,
-                     "Compare with the log of 'millforce run --log'; exit code 1 where one bit of one tick differs")
-        ->type_name("RUN.jsonl");
-    add_bus_pace(*command, options->pace);
-    command->callback([options, &exit_code] { exit_code = replay(*options); });
+        .option("--verify", options->run_log,
+                "Compare with the log of 'millforce run --log'; exit code 1 where one bit of one tick differs")
+        .value_name("RUN.jsonl");
+    add_bus_pace(command, options->pace);
+    command.on_run([options] { return replay(*options); });
 }
 
 }  // namespace millforce::host

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -107,25 +105,23 @@ int run_on_bus(const RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& exit_code) {
+void add_run(Command& program) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = app.add_subcommand("run", "The live controller on a CAN interface");
-    command->footer(
+    Command command = program.subcommand("run", "The live controller on a CAN interface");
+    command.footer(
         "Runs until SIGINT or SIGTERM; then the override says hold and the heartbeat 'stopped'. An interface that is "
         "not\n"
         "there, or goes down, is waited for. Conditions that come and go are told on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");
-    command->add_option("interface", options->interface, "CAN interface, e.g. can0")->required()->type_name("IFACE");
-    command->add_option("--machine", options->machine, "Machine parameters, with [bus]")
-        ->required()
-        ->type_name("M.toml");
-    command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
-    command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
-    command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
-        ->type_name("FILE.log");
-    add_bus_pace(*command, options->pace);
-    command->callback([options, &exit_code] { exit_code = run_on_bus(*options); });
+    command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
+    command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");
+    command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
+    command.option("--log", options->log, "Estimates and states as JSON lines").value_name("FILE.jsonl");
+    command.option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
+        .value_name("FILE.log");
+    add_bus_pace(command, options->pace);
+    command.on_run([options] { return run_on_bus(*options); });
 }
 
 }  // namespace millforce::host

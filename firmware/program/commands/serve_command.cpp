@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include <memory>
@@ -80,22 +78,22 @@ int serve(const ServeOptions& options) {
 
 }  // namespace
 
-void add_serve(CLI::App& app, int& exit_code) {
+void add_serve(Command& program) {
     auto options = std::make_shared<ServeOptions>();
-    CLI::App* command =
-        app.add_subcommand("serve", "The live controller behind a Unix socket, for a CNC on the same computer");
-    command->footer(
+    Command command =
+        program.subcommand("serve", "The live controller behind a Unix socket, for a CNC on the same computer");
+    command.footer(
         "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
         "One connection at a time; each begins anew. Runs until SIGINT or SIGTERM.");
-    command->add_option("socket", options->socket, "Path of the socket to make")->required()->type_name("SOCKET");
-    command->add_option("--machine", options->machine, "Machine parameters")->required()->type_name("M.toml");
-    command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
+    command.option("socket", options->socket, "Path of the socket to make").required().value_name("SOCKET");
+    command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
+    command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
     command
-        ->add_option("--override-max", options->override_max,
-                     "Largest override that the CNC's input takes; 1: LinuxCNC's adaptive feed")
-        ->check(number_from(0.0, 10.0))
-        ->capture_default_str();
-    command->callback([options, &exit_code] { exit_code = serve(*options); });
+        .option("--override-max", options->override_max,
+                "Largest override that the CNC's input takes; 1: LinuxCNC's adaptive feed")
+        .within(0.0, 10.0)
+        .shows_default();
+    command.on_run([options] { return serve(*options); });
 }
 
 }  // namespace millforce::host

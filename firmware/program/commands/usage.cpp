@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/command_line.hpp"
-#include "daemon/bus_clock.hpp"
+#include "commands/usage.hpp"
 #include "files/nearest_name.hpp"
 
 namespace millforce::host {
@@ -82,38 +81,6 @@ std::string one_line(std::string text) {
 }
 
 }  // namespace
-
-void set_common_rules(CLI::App& app, const std::string& version) {
-    app.set_version_flag("--version", version, "Print the version and end");
-    app.get_formatter()->column_width(36);
-    for (CLI::App* command : app.get_subcommands(nullptr)) {
-        set_common_rules(*command, version);
-    }
-}
-
-CLI::Validator number_from(double low, double high) {
-    const auto check = [low, high](const std::string& text) {
-        double value = 0.0;
-        const bool is_number = CLI::detail::lexical_cast(text, value);
-        return is_number && value >= low && value <= high
-                   ? std::string()
-                   : fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
-    };
-    return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
-}
-
-void add_bus_pace(CLI::App& command, BusPace& pace) {
-    CLI::Option* slow_motion =
-        command
-            .add_option("--slow-motion", pace.slow_motion,
-                        "The bus's time passes N times slower; the same for controller, plant and replay")
-            ->type_name("N")
-            ->check(number_from(1.0, largest_slowness));
-    command
-        .add_flag("--lock-step", pace.lock_step,
-                  "The bus's time passes with SYNC, which waits for the drives; the same for all three")
-        ->excludes(slow_motion);
-}
 
 std::string usage_error(const CLI::App& app, int argc, const char* const* argv, const std::string& message) {
     std::string command_path = app.get_name();

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "commands/usage.hpp"
+#include "daemon/bus_clock.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+/// CLI::Range lets NaN pass.
+CLI::Validator number_from(double low, double high) {
+    const auto check = [low, high](const std::string& text) {
+        double value = 0.0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        return is_number && value >= low && value <= high
+                   ? std::string()
+                   : fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
+    };
+    return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
+}
+
+std::size_t place_of(const std::vector<std::string>& words, const std::string& text) {
+    const std::string lower = CLI::detail::to_lower(text);
+    return static_cast<std::size_t>(std::find(words.begin(), words.end(), lower) - words.begin());
+}
+
+void set_common_rules(CLI::App& app, const std::string& version) {
+    app.set_version_flag("--version", version, "Print the version and end");
+    app.get_formatter()->column_width(36);
+    for (CLI::App* command : app.get_subcommands(nullptr)) {
+        set_common_rules(*command, version);
+    }
+}
+
+}  // namespace
+
+Option& Option::required() {
+    option_->required();
+    return *this;
+}
+
+Option& Option::value_name(const std::string& name) {
+    option_->type_name(name);
+    return *this;
+}
+
+Option& Option::within(double low, double high) {
+    option_->check(number_from(low, high));
+    return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& names) {
+    option_->check(CLI::IsMember(names));
+    return *this;
+}
+
+Option& Option::shows_default() {
+    option_->capture_default_str();
+    return *this;
+}
+
+Option& Option::needs(const Option& other) {
+    option_->needs(other.option_);
+    return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Command Command::subcommand(const std::string& name, const std::string& description) {
+    return {app_->add_subcommand(name, description), exit_code_};
+}
+
+Command& Command::footer(const std::string& text) {
+    app_->footer(text);
+    return *this;
+}
+
+Command& Command::requires_subcommand() {
+    app_->require_subcommand(1);
+    return *this;
+}
+
+template <typename T>
+Option Command::option(const std::string& names, T& value, const std::string& help) {
+    return Option(app_->add_option(names, value, help));
+}
+
+template Option Command::option(const std::string&, std::string&, const std::string&);
+template Option Command::option(const std::string&, std::filesystem::path&, const std::string&);
+template Option Command::option(const std::string&, double&, const std::string&);
+template Option Command::option(const std::string&, int&, const std::string&);
+template Option Command::option(const std::string&, std::uint32_t&, const std::string&);
+template Option Command::option(const std::string&, std::uint64_t&, const std::string&);
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
+
+Option Command::flag(const std::string& names, bool& value, const std::string& help) {
+    return Option(app_->add_flag(names, value, help));
+}
+
+Option Command::named_choice(const std::string& names, const std::string& help, std::vector<std::string> words,
+                             std::function<void(std::size_t)> chosen) {
+    const std::string list = fmt::format("{{{}}}", fmt::join(words, ","));
+    const auto check = [words, list](const std::string& text) {
+        return place_of(words, text) < words.size() ? std::string() : fmt::format("{}: expected one of {}", text, list);
+    };
+    const auto take = [words, chosen](const std::string& text) { chosen(place_of(words, text)); };
+    return Option(app_->add_option_function<std::string>(names, take, help)->type_name(list)->check(check));
+}
+
+void Command::on_run(std::function<int()> run) {
+    app_->callback([run = std::move(run), exit_code = exit_code_] { *exit_code = run(); });
+}
+
+void add_bus_pace(Command& command, BusPace& pace) {
+    const Option slow_motion =
+        command
+            .option("--slow-motion", pace.slow_motion,
+                    "The bus's time passes N times slower; the same for controller, plant and replay")
+            .value_name("N")
+            .within(1.0, largest_slowness);
+    command
+        .flag("--lock-step", pace.lock_step,
+              "The bus's time passes with SYNC, which waits for the drives; the same for all three")
+        .excludes(slow_motion);
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
+    : app_(std::make_unique<CLI::App>(description, name)), version_(version) {
+    app_->require_subcommand(1);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::root() {
+    return {app_.get(), &exit_code_};
+}
+
+int CommandLine::run(int argc, const char* const* argv) {
+    set_common_rules(*app_, version_);
+    try {
+        app_->parse(argc, argv);
+        return exit_code_;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {
+            return app_->exit(error);
+        }
+        fmt::print(stderr, "{}: {}\n", app_->get_name(), usage_error(*app_, argc, argv, error.what()));
+        return 2;
+    }
+}
+
+}  // namespace millforce::host
