@@ -60,7 +60,8 @@ function(millforce_core target)
     endif()
 endfunction()
 
-# What most host sources and tests include from outside, parsed once per optimisation level.
+# What most host sources include from outside, parsed once per optimisation level.
+# GCC takes precompiled headers only where options and definitions agree: so all of them link fmt.
 function(millforce_precompiled_headers target level)
     set(shared millforce_precompiled_${level})
     if(NOT TARGET ${shared})
@@ -72,6 +73,7 @@ function(millforce_precompiled_headers target level)
             <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <ostream> <span> <string> <vector>
             <fmt/format.h> <Eigen/Core>)
     endif()
+    target_link_libraries(${target} PRIVATE fmt::fmt)
     target_precompile_headers(${target} REUSE_FROM ${shared})
 endfunction()
 
@@ -85,17 +87,27 @@ function(millforce_host_library prefix folder)
     target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${target} PUBLIC fmt::fmt ${ARG_LINKS})
     millforce_target_warnings(${target})
-    millforce_host_optimisation(${target} ${ARG_HOT})
+    set(hot)
+    if(ARG_HOT)
+        set(hot HOT)
+    endif()
+    millforce_host_optimisation(${target} ${hot})
 endfunction()
 
-function(millforce_host_optimisation target hot)
-    if(hot)
+# millforce_host_optimisation(<target> [HOT])
+function(millforce_host_optimisation target)
+    cmake_parse_arguments(ARG "HOT" "" "" ${ARGN})
+    set(level O1)
+    if(ARG_HOT)
         set(level O3)
-    else()
-        set(level O1)
     endif()
     if(CMAKE_BUILD_TYPE STREQUAL "Release")
-        target_compile_options(${target} PRIVATE -${level})
+        target_compile_options(${target} PRIVATE -${level}
+            # At -O1 GCC 12 sees copies beyond the small buffer of std::string that are never made (GCC bug 105651).
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
+    endif()
+    if(NOT MILLFORCE_TIDY)
         millforce_precompiled_headers(${target} ${level})
     endif()
 endfunction()
