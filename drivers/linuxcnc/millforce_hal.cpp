@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // millforce-hal: the bridge between LinuxCNC's HAL and the force controller. Takes the samples of the real-time
 // component millforce_sample, sends them to `millforce serve` over a Unix socket (drivers/local_link), and writes the
-// answers to its pins. It decides nothing: where it, or the controller behind it, stops, the pin `heartbeat` stands
-// still, and millforce_guard in the servo thread sees to the rest.
+// answers to its pins. It decides nothing: if it or the controller stops, the pin `heartbeat` stops counting, and
+// millforce_guard in the servo thread does the rest.
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -28,7 +28,7 @@ namespace {
 using namespace millforce::local_link;
 
 constexpr const char* component_name = "millforce";
-constexpr long wait_ns = 250'000;  // the HAL stream wakes nobody: it is looked at four times per millisecond
+constexpr long wait_ns = 250'000;  // the HAL stream cannot wake a reader: it is polled four times per millisecond
 constexpr std::uint64_t connect_every_us = 100'000;
 constexpr int most_unanswered = 128;  // half of what a socket holds: neither side ever finds it full
 
@@ -112,7 +112,7 @@ SampleMessage message_of(const std::array<hal_stream_data, MILLFORCE_FIELDS>& ro
     return m;
 }
 
-/// Other HAL components take what stands on a pin for a number: what is no estimate is 0, and its valid pin is false.
+/// Other HAL components use a pin's value as a number: without an estimate it is 0, and its valid pin is false.
 void set_estimate(float value, hal_float_t* pin, hal_bit_t* valid) {
     const bool is_there = value - value == 0.0F;
     *pin = is_there ? static_cast<real_t>(value) : 0;
@@ -176,8 +176,8 @@ class Bridge {
         *pins_.connected = false;
     }
 
-    /// What the controller is late with stays in the stream, and what the stream does not hold millforce_sample counts:
-    /// this program never waits. Without a controller samples are dropped.
+    /// This program never waits. Samples that the controller has not taken yet stay in the stream; millforce_sample
+    /// counts those that do not fit. Without a controller samples are dropped.
     void forward_samples() {
         std::array<hal_stream_data, MILLFORCE_FIELDS> row{};
         unsigned number = 0;

@@ -77,7 +77,7 @@ void CanopenDrive::build_dictionary() {
     for (std::size_t k = 0; k < settings_.first_pdo.size(); ++k) {
         set(0x1A00, static_cast<std::uint8_t>(k + 1), settings_.first_pdo[k]);
     }
-    // The motor stands where it stood.
+    // The motor has not moved.
     for (const auto& [where, entry] : before) {
         if (entry.mappable) {
             dictionary_[where].value = entry.value;

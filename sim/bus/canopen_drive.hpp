@@ -43,7 +43,7 @@ class CanopenDrive {
     void raise_emergency(std::uint16_t error_code, std::uint8_t error_register);
 
     [[nodiscard]] std::uint8_t nmt_state() const { return nmt_state_; }
-    /// An object's value, 0 where there is none.
+    /// An object's value, 0 if it does not exist.
     [[nodiscard]] std::uint32_t object(std::uint16_t index, std::uint8_t subindex) const;
     [[nodiscard]] std::uint64_t aborts() const { return aborts_; }
 

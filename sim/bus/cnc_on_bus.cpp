@@ -7,7 +7,7 @@ namespace millforce::sim {
 
 namespace {
 
-/// F in the frame's own steps: the CNC's rounding of one and the same F is no change.
+/// F in the steps of the frame: rounding of the same F is not a change.
 bool differ(const hal::ProgramStatus& a, const hal::ProgramStatus& b) {
     return a.rapid != b.rapid || a.feed_hold != b.feed_hold || a.programmed_feed_mm_s != b.programmed_feed_mm_s ||
            a.operator_override != b.operator_override;

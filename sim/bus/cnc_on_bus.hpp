@@ -13,11 +13,11 @@ namespace millforce::sim {
 
 struct CncOnBusSettings {
     override_frame::OverrideReceiverSettings feed_override{};
-    std::uint32_t program_status_id = program_status::default_id;  ///< 0: it tells nothing
+    std::uint32_t program_status_id = program_status::default_id;  ///< 0: it reports nothing
     std::uint32_t program_status_period_us = 10'000;
 };
 
-/// A CNC's side of the bus: it takes the feed override and tells F, rapid and hold, at once where one of them changes.
+/// A CNC's side of the bus: it takes the feed override and reports F, rapid and hold, at once when one of them changes.
 class CncOnBus {
   public:
     explicit CncOnBus(const CncOnBusSettings& settings) : settings_(settings), receiver_(settings.feed_override) {}

@@ -15,7 +15,7 @@ class LoopbackBus {
   public:
     using Receiver = std::function<void(const hal::CanFrame& frame, std::uint64_t time_us)>;
 
-    /// What becomes of a frame on its way. `copies` 0: lost.
+    /// What happens to a frame on its way. `copies` 0: lost.
     struct Fate {
         int copies = 1;
         std::uint64_t delay_us = 0;

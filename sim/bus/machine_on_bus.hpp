@@ -14,10 +14,10 @@ namespace millforce::sim {
 /// How one drive of a simulated machine is wired.
 struct DriveOnBus {
     std::uint8_t node_id = 1;
-    double rated_current_A = 12.0;  ///< in the drive's own meaning, rms or peak
+    double rated_current_A = 12.0;  ///< as the drive defines it, rms or peak
     double drive_A_per_A = 1.0;     ///< what the drive calls current over A rms: √2 for peak, negative where reversed
     double rated_torque_Nm = 8.0;
-    double torque_Nm_per_A = 0.0;       ///< over the drive's own ampere
+    double torque_Nm_per_A = 0.0;       ///< per ampere as the drive defines it
     double velocity_unit_mm_s = 0.001;  ///< of 0x606C
     double position_unit_mm = 0.0001;   ///< of 0x6064
     bool count_reversed = false;
@@ -29,14 +29,15 @@ struct MachineOnBusSettings {
     std::uint16_t heartbeat_ms = 50;
 };
 
-/// A machine's four drives as one participant of a bus: what its sensors tell goes in, frames go in and out. As
-/// delivered each sends TPDO 1 with position, current and statusword; velocity (0x606C) and the spindle's index pulse
-/// (0x60BA, 0x60D5) are there to be mapped.
+/// A machine's four drives as one participant of a bus: sensor values go in, frames go in and out. By default each
+/// sends TPDO 1 with position, current and statusword; velocity (0x606C) and the spindle's index pulse (0x60BA, 0x60D5)
+/// can be mapped.
 class MachineOnBus {
   public:
     explicit MachineOnBus(const MachineOnBusSettings& settings);
 
-    /// What is not present in the sample stays as it was. The positions of the axes are the sum of their velocities.
+    /// Values that are not present in the sample keep their last value. The positions of the axes are the sum of their
+    /// velocities.
     void set(const hal::DriveSample& sample);
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
     void poll(std::uint64_t time_us);

@@ -19,9 +19,10 @@ struct PlantOnCanSettings {
     CncOnBusSettings cnc{};
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
     host::BusTime time{};
-    /// The sample that answers a SYNC was computed before it: a plant whose computing takes a good part of a period
-    /// does not answer late. Each SYNC is one period then, as drives latch on clocks of their own that follow it: when
-    /// it is heard tells more of the computing than of the SYNC. Else it is computed when the SYNC has told its time.
+    /// The sample that answers a SYNC was computed before it: so a plant that computes for a good part of a period does
+    /// not answer late. Each SYNC then counts as exactly one period, as for drives whose own clocks follow it, because
+    /// the time at which it is received depends more on the computing than on the SYNC. Otherwise the sample is
+    /// computed once the SYNC's time is known.
     bool computes_ahead = false;
 };
 
@@ -36,7 +37,7 @@ class PlantOnCan : public OverrideSource {
     PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<host::CanPort> port);
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
-    void describe(TracePoint&) const override {}  // the estimates are the controller's own
+    void describe(TracePoint&) const override {}  // the controller keeps its own estimates
     [[nodiscard]] bool is_ready() const override { return is_ready_; }
     [[nodiscard]] PlantSteps plant_steps(const PlantSteps& usual) override;
 
@@ -60,8 +61,8 @@ class PlantOnCan : public OverrideSource {
     hal::CanFrame sync_{};
     bool sync_is_pending_ = false;
     std::uint64_t heard_us_;  ///< by the port's clock: the last SYNC, or the start
-    std::uint64_t plant_us_;  ///< where the plant stands, on the bus's clock
-    std::uint64_t due_us_;    ///< where it is to stand at the next sample
+    std::uint64_t plant_us_;  ///< how far the plant has got, on the bus's clock
+    std::uint64_t due_us_;    ///< how far it must get for the next sample
     bool is_ready_ = false;
     std::uint64_t syncs_ = 0;
     std::uint64_t stepped_syncs_ = 0;

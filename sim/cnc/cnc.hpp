@@ -27,19 +27,19 @@ struct CncSettings {
 ///  - does not exceed F × override (rapids: never more than the rapid feed), nor √(a r) on an arc,
 ///  - lets full braking meet each limit v_l at the distance d ahead: v² + 2 a dt v ≤ v_l² + 2 a d, which is
 ///    v² ≤ v_l² + 2 a d at the end of this period. So a limit that begins at a block's end is kept from its first
-///    micrometre on: the overshoot is none. See PathLimits for the corners.
+///    micrometre on, without overshoot. See PathLimits for the corners.
 /// Only one thing cannot be foreseen: an override that falls. Then v exceeds F × override for as long as full braking
 /// takes, and that may reach into the next block. Corners and arcs do not depend on it and hold even then.
 ///
 /// An override that is not finite, or negative, counts as 0; so does a feed hold. A dwell and a spindle's wait run on
 /// during a hold. Moves end exactly where they should; with an override that stays above 0 every program ends.
 ///
-/// Cost: one pass over the moves at the start (40 bytes each beside the moves themselves); a step looks at the blocks
-/// that it passes and at most 256 changes of the programmed feed within the braking distance (beyond them it is ready
-/// to stop). Not for several threads at once.
+/// Cost: one pass over the moves at the start (40 bytes each in addition to the moves); a step looks at the blocks that
+/// it passes and at most 256 changes of the programmed feed within the braking distance (beyond them it is ready to
+/// stop). Not for several threads at once.
 class Cnc {
   public:
-    /// Throws InputError where there is no move, one that no machine can run, or a setting out of its range.
+    /// Throws InputError if there is no move, a move that no machine can run, or a setting out of its range.
     Cnc(const CncSettings& settings, std::vector<Move> moves);
 
     /// Advances by one servo period.

@@ -22,7 +22,7 @@ namespace millforce::sim {
 /// | G20 G21                  | inch, mm (initial); act on the whole block that contains them                    |
 /// | G90 G91                  | absolute (initial), relative                                                     |
 /// | G40 G49 G54 G80 G94      | accepted, without effect                                                         |
-/// | G61 G64, G64 P           | accepted, without effect: the tolerance is CncSettings' own                       |
+/// | G61 G64, G64 P           | accepted, without effect: the tolerance is in CncSettings                         |
 /// | M52 P1, M52              | accepted: the override always acts                                               |
 /// | F S                      | feed in mm/min or inch/min, spindle speed in rev/min; modal                      |
 /// | M3 M5                    | spindle on clockwise, off. M4 is rejected: the plant's cutters are right-handed  |
@@ -38,7 +38,7 @@ namespace millforce::sim {
 /// 5 µm, coordinates beyond 100 m, and a program without M2, M30 or closing % (a truncated file). Moves without length
 /// are checked and then left out.
 struct GcodeSettings {
-    /// Where the tip stands before the first move.
+    /// Position of the tip before the first move.
     Eigen::Vector3d start_mm = Eigen::Vector3d(0.0, 0.0, 50.0);
     std::size_t max_moves = 4'000'000;
 };

@@ -48,8 +48,8 @@ inline double offset_circle_chip_mm(const EdgePass& pass, double sin_phi, double
 ///   r' sin v = ρ (gap − v) cos φ,  d = r' cos v − ρ (gap − v) sin φ,  h = r − d.
 /// v is of the order f/r'. It is solved with the slope at v = 0, which takes a factor v²/2 off the error with each
 /// step; the steps end where less than 1e-10 rad remains. To first order h − f sin φ = f²/r [½ cos²φ − sin φ cos φ /
-/// gap]. Where f exceeds 0.4 of the radius, or ρ a quarter of it (a ball's tip: the feed is no longer slow beside the
-/// edge), the path is no wall any more, and the offset circle stands in.
+/// gap]. Where f exceeds 0.4 of the radius, or ρ a quarter of it (a ball's tip: the feed is no longer slow compared
+/// with the edge), the path is no longer a wall, and the offset circle is used instead.
 inline double trochoidal_chip_mm(const EdgePass& pass, double sin_phi, double cos_phi) {
     constexpr double largest_advance_in_radii = 0.4;
     constexpr double largest_rho_in_radii = 0.25;

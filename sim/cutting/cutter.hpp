@@ -15,8 +15,8 @@ enum class CutterType : unsigned char {
 
 /// A milling cutter's geometry. Right-hand rotation (clockwise seen from the spindle), right-hand helix.
 ///
-/// Tooth 0 stands at the spindle's angle; tooth k follows it at `tooth_position_rad`. At height z an edge lags its own
-/// tip by ψ(z) = z tan β / R (Guan et al., section 3), on a ball end as well (constant lead).
+/// Tooth 0 is at the spindle's angle; tooth k follows it at `tooth_position_rad`. At height z an edge lags its own tip
+/// by ψ(z) = z tan β / R (Guan et al., section 3), on a ball end as well (constant lead).
 struct Cutter {
     static constexpr std::size_t max_teeth = 12;
 
@@ -27,7 +27,7 @@ struct Cutter {
     double helix_rad = 0.0;         ///< β, 0…70°; for a face mill the insert's axial inclination
     double rake_rad = 0.0;  ///< normal rake, −60°…60°; data for `oblique_cutting`, the force does not use it
     double lead_angle_rad = std::numbers::pi / 2.0;  ///< κ of face-mill inserts, 10°…90°; 90° for the others
-    double runout_mm = 0.0;         ///< e ≥ 0, the cutter's axis beside the spindle's (parallel eccentricity); < R/2
+    double runout_mm = 0.0;  ///< e ≥ 0, distance of the cutter's axis from the spindle's (parallel eccentricity); < R/2
     double runout_angle_rad = 0.0;  ///< from tooth 0's tip to the eccentricity, towards tooth 1 (against the rotation)
     /// Angle from tooth k to tooth k + 1, the last one back to tooth 0; together 2π. All zero: equal pitch 2π/N.
     std::array<double, max_teeth> tooth_pitch_rad{};
@@ -39,7 +39,7 @@ void validate(const Cutter& cutter);
 /// Whether all teeth have the pitch 2π/N.
 bool has_equal_pitch(const Cutter& cutter);
 
-/// How far tooth k stands behind tooth 0, 0…2π.
+/// Angle by which tooth k follows tooth 0, 0…2π.
 double tooth_position_rad(const Cutter& cutter, std::size_t tooth);
 
 /// ψ(z) = z tan β / R.

@@ -28,7 +28,7 @@ bool equal(const EngagementMap::Bin& a, const EngagementMap::Bin& b) {
     return ((left.word[0] ^ right.word[0]) | (left.word[1] ^ right.word[1]) | (left.word[2] ^ right.word[2])) == 0;
 }
 
-/// No material stands higher than this. Several maxima side by side, so that one need not wait for the other.
+/// No material is higher than this. Several maxima in parallel, so that none waits for another.
 double highest_top_mm(const EngagementMap& map) {
     constexpr std::size_t lanes = 8;
     static_assert(EngagementMap::bin_count % lanes == 0);

@@ -41,11 +41,11 @@ struct CuttingLoad {
     std::array<double, Cutter::max_teeth> tooth_force_N{};  ///< √(F_x² + F_y²) of each tooth alone
 };
 
-/// The plant's cutting force: the edges of all teeth, cut into axial slices, each an oblique cut of its own (Guan et
-/// al., section 3.1). Everything is summed; no closed form of an average enters.
+/// The plant's cutting force: the edges of all teeth, cut into axial slices, each a separate oblique cut (Guan et al.,
+/// section 3.1). Everything is summed; no closed form of an average enters.
 ///
-/// A slice cuts where its own angle φ = θ − position of the tooth − ψ(z) and its own height lie in material: one rule
-/// for the paper's cases 3.1.2–3.1.3, whose print slips (climb milling (1)b mixes π with θ_st). The part of a slice in
+/// A slice cuts where its angle φ = θ − position of the tooth − ψ(z) and its height are in material: one rule for the
+/// paper's cases 3.1.2–3.1.3, which contain a misprint (climb milling (1)b mixes π with θ_st). The part of a slice in
 /// material is found bin by bin, so it comes and goes smoothly; chip thickness and pressure are taken at that part's
 /// centre. On that part of width b (axial), with κ = 90° but for inserts and balls:
 ///   h = h_plan sin κ,  F_t = K_tc h b/sin κ + K_te b/sin κ, and so on; then

@@ -7,7 +7,7 @@
 
 namespace millforce::sim {
 
-/// Where around the cutter there is material, and how high it stands: what the workpiece tells the cutting force.
+/// Where around the cutter there is material, and how high: the workpiece as the cutting force sees it.
 ///
 /// Bin k covers angles φ in [k, k + 1)·2π/bin_count, φ from the normal to the feed (+y), clockwise, x = feed
 /// direction: a point of the periphery at φ lies at (x, y) = R (sin φ, cos φ). An edge element at angle φ and height z
@@ -32,16 +32,16 @@ inline bool holds_material(const EngagementMap::Bin& bin) {
     return bin.covered > 0.0F && bin.top_mm > bin.bottom_mm;
 }
 
-/// Where in a bin its material stands: from `low` to `high`, both 0…1 of the bin's angle, with `weight` of it filled.
+/// Where in a bin its material is: from `low` to `high`, both 0…1 of the bin's angle, with `weight` of it filled.
 struct CoveredPart {
     double low = 0.0;
     double high = 1.0;
     double weight = 1.0;
 };
 
-/// The part of bin `index` (< bin_count) that `covered` stands for. A bin in part covered that has material on one side
-/// only is the end of an interval, and its material stands on that side: so the entry and exit angles of a cut are
-/// known far better than to one bin. Where the neighbours do not tell (both or none), the material is spread evenly.
+/// The part of bin `index` (< bin_count) that `covered` stands for. A partly covered bin with material on one side only
+/// is the end of an interval, and its material is on that side. So the entry and exit angles of a cut are known far
+/// better than to one bin. If the neighbours do not decide (both or none), the material is spread evenly.
 inline CoveredPart covered_part(const EngagementMap& map, std::size_t index) {
     constexpr std::size_t count = EngagementMap::bin_count;
     const double covered = static_cast<double>(map.bins[index].covered);

@@ -5,7 +5,7 @@
 
 namespace millforce::sim {
 
-/// What oblique cutting needs to know of material and edge. Angles in rad, all in the plane normal to the edge where
+/// What oblique cutting needs to know about material and edge. Angles in rad, all in the plane normal to the edge where
 /// the field measures them there (shear, rake); friction on the rake face; inclination i = helix angle.
 /// Valid: shear stress > 0, 0 < φ_n < 90°, 0 ≤ β_a < 85°, |α_n| < 60°, 0 ≤ i ≤ 70°, φ_n + β_n − α_n < 90°.
 struct ObliqueCut {

@@ -84,7 +84,7 @@ RevolutionLoad revolution_load(const CuttingForce& force, double feed_per_tooth_
     const bool equal_teeth = has_equal_pitch(cutter) && cutter.runout_mm == 0.0;
     const double range_rad = equal_teeth ? turn / static_cast<double>(cutter.teeth) : turn;
     const std::vector<double> parts = crossings(cutter, material_edges(map), range_rad);
-    constexpr double inside_rad = 1e-8;  // beside a crossing, on either side of a jump
+    constexpr double inside_rad = 1e-8;  // distance from a crossing, on either side of a jump
     RevolutionLoad result;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         const double length_rad = parts[i + 1] - parts[i];

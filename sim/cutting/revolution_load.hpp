@@ -7,7 +7,7 @@
 
 namespace millforce::sim {
 
-/// One revolution of the spindle over a workpiece that does not change meanwhile.
+/// One revolution of the spindle over a workpiece that does not change.
 struct RevolutionLoad {
     double mean_fx_N = 0.0;
     double mean_fy_N = 0.0;
@@ -24,9 +24,9 @@ struct RevolutionLoad {
 ///
 /// The revolution is divided where any tooth's lower or upper end crosses an edge of the material, so that the jumps of
 /// straight teeth fall between samples; within each part the midpoint rule with steps of at most `step_rad`, and peaks
-/// looked for at both ends as well. A step of the material's height inside an engagement is resolved to one step.
-/// With equal teeth one pitch stands for all. Throws as `CuttingForce::load`, and InputError for a step outside
-/// 1e-4…0.1. Cost: about 2π/step calls of load, N times fewer with equal teeth.
+/// looked for at both ends as well. A step of the material's height inside an engagement is resolved to one step. With
+/// equal teeth one pitch represents all. Throws as `CuttingForce::load`, and InputError for a step outside 1e-4…0.1.
+/// Cost: about 2π/step calls of load, N times fewer with equal teeth.
 RevolutionLoad revolution_load(const CuttingForce& force, double feed_per_tooth_mm, const EngagementMap& map,
                                double step_rad = EngagementMap::bin_rad);
 

@@ -135,7 +135,7 @@ class CurrentSensor {
 };
 
 /// Incremental encoder with index: whole counts only. The index is latched as it is passed, in either direction, at the
-/// count of its own place. Its number is 0 until the first one and skips 0 when it wraps.
+/// count of the pulse itself. Its number is 0 until the first one and skips 0 when it wraps.
 class EncoderSensor {
   public:
     EncoderSensor(std::uint32_t counts_per_rev, double index_offset_rad)

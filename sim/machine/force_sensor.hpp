@@ -33,7 +33,7 @@ class ForceChannel {
         filtered_N_ = filter_.filter(force_N + white_N_ * normal_(random_));
         return filtered_N_;
     }
-    /// What the converter makes of the last step.
+    /// The converter's value after the last step.
     [[nodiscard]] double reading_N() const {
         const double in_N = filtered_N_ + zero_N_;
         return resolution_N_ > 0.0 ? std::round(in_N / resolution_N_) * resolution_N_ : in_N;

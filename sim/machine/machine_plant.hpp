@@ -12,7 +12,7 @@
 
 namespace millforce::sim {
 
-/// The machine as a whole: one spindle, three feed axes, and what their sensors tell.
+/// The machine as a whole: one spindle, three feed axes, and their sensors.
 struct MachinePlantSettings {
     SpindlePlantSettings spindle{};
     std::array<FeedPlantSettings, 3> axes = standard_axes();
@@ -20,7 +20,7 @@ struct MachinePlantSettings {
     double current_noise_share = 0.01;        ///< of rated current, per sample
     double velocity_resolution_mm_s = 0.001;  ///< of the drive's velocity object
     std::uint32_t encoder_counts_per_rev = 8192;
-    double index_offset_rad = 1.0;       ///< the index stands anywhere beside tooth 0
+    double index_offset_rad = 1.0;       ///< the index may be anywhere relative to tooth 0
     ForceSensorSettings force_sensor{};  ///< under the workpiece
     std::uint64_t seed = 1;
 
@@ -46,7 +46,7 @@ class MachinePlant {
     };
     void advance(double dt_s, const Command& command, const Load& load);
 
-    /// What the drives report now. The time is the machine's own, in µs.
+    /// What the drives report now. The time is the machine's, in µs.
     [[nodiscard]] hal::DriveSample sample();
 
     [[nodiscard]] Eigen::Vector3d position_mm() const;
@@ -64,7 +64,7 @@ class MachinePlant {
     CurrentSensor spindle_sensor_;
     std::array<CurrentSensor, 3> axis_sensors_;
     EncoderSensor encoder_;
-    std::vector<ForceChannel> force_channels_;  ///< x and y; made with the first step, which tells their rate
+    std::vector<ForceChannel> force_channels_;  ///< x and y; made with the first step, which sets their rate
     double time_s_ = 0.0;
 };
 

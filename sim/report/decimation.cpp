@@ -8,7 +8,7 @@ namespace millforce::sim {
 
 namespace {
 
-/// The extremes of the finite values of a bucket; nullptr where there is none.
+/// The extremes of the finite values of a bucket; nullptr if there is none.
 struct Extremes {
     const TracePoint* lowest = nullptr;
     const TracePoint* highest = nullptr;

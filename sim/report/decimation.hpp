@@ -45,11 +45,11 @@ class BucketedRun {
 
 using TraceValue = std::function<double(const TracePoint&)>;
 
-/// Two values per bucket: minimum and maximum of the finite ones, in the order of their occurrence; NaN where there is
+/// Two values per bucket: minimum and maximum of the finite ones, in the order of their occurrence; NaN if there is
 /// none. The series' maximum and minimum are therefore among the results, exactly.
 std::vector<double> min_max_decimated(const BucketedRun& run, const TraceValue& value);
 
-/// One value per bucket: the smallest or the largest finite one, NaN where there is none.
+/// One value per bucket: the smallest or the largest finite one, NaN if there is none.
 std::vector<double> bucket_minima(const BucketedRun& run, const TraceValue& value);
 std::vector<double> bucket_maxima(const BucketedRun& run, const TraceValue& value);
 

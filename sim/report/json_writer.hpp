@@ -11,7 +11,7 @@ namespace millforce::sim {
 /// Writes JSON (RFC 8259) that is valid whatever the values are:
 /// - a number that is NaN or infinite becomes null;
 /// - strings are escaped, bytes that are not UTF-8 become U+FFFD;
-/// - `<`, `>`, `&` and U+2028/2029 are escaped as \uXXXX, so that the text may stand inside a <script> element.
+/// - `<`, `>`, `&` and U+2028/2029 are escaped as \uXXXX, so that the text can be put inside a <script> element.
 ///
 /// The caller keeps the order begin, key, value, end; commas and line breaks are the writer's. Cost: linear, one
 /// growing string.

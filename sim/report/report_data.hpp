@@ -14,7 +14,7 @@ inline constexpr std::size_t chart_bucket_count = 1250;
 /// Points of one run's path in the top view; longer traces are joined in groups that keep the group's largest force.
 inline constexpr std::size_t top_view_point_count = 8000;
 
-/// What report.js draws, as compact JSON that may stand inside a <script> element. Forces to 0.1 N, times to 1 ms,
+/// What report.js draws, as compact JSON that can be put inside a <script> element. Forces to 0.1 N, times to 1 ms,
 /// lengths to 0.01 mm, ratios to 0.001; null is "no value". For a run of 5 minutes less than 1 MB.
 ///
 /// - `scenario`: title, limit, cutter diameter, stock rectangle or null

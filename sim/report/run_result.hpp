@@ -63,7 +63,7 @@ struct RunFigures {
     double mean_force_use = 0.0;        ///< mean of true tooth force / limit over cutting time
 
     double immersion_rms = host::no_estimate;       ///< error of the estimate over samples with an estimate
-    double immersion_coverage = host::no_estimate;  ///< share of them within the estimate's own 95 % band
+    double immersion_coverage = host::no_estimate;  ///< share of them within the estimate's 95 % band
     double depth_rms_mm = host::no_estimate;
     double depth_coverage = host::no_estimate;
     double estimate_share = 0.0;    ///< share of cutting samples that had an immersion estimate

@@ -12,15 +12,15 @@
 
 namespace millforce::sim {
 
-/// Time saved in % against the run named "constant": 100 (T_constant − T) / T_constant. Nothing for that run itself,
-/// where there is none, and where one of the two did not reach the end of the part program: a run that stops early has
-/// saved nothing.
+/// Time saved in % against the run named "constant": 100 (T_constant − T) / T_constant. No value for that run itself,
+/// if it is missing, or if one of the two did not reach the end of the part program: a run that stops early has saved
+/// nothing.
 std::optional<double> time_saved_percent(const RunResult& run, std::span<const RunResult> runs);
 
-/// The run named "constant", nullptr where there is none.
+/// The run named "constant", nullptr if there is none.
 const RunResult* constant_feed_run(std::span<const RunResult> runs);
 
-/// One figure of every run, ready to print. A cell is "-" where there is no value. ASCII only.
+/// One figure of every run, ready to print. A cell without a value is "-". ASCII only.
 struct FigureRow {
     std::string label;
     std::string explanation;  ///< one sentence: what the figure is
@@ -33,7 +33,7 @@ std::vector<FigureRow> figure_rows(std::span<const RunResult> runs);
 /// controllers than fit go into further blocks below. Ends with a line break. Empty for no runs.
 std::string summary_table(const ScenarioInfo& info, std::span<const RunResult> runs);
 
-/// summary.json: `scenario` and `runs`, keys as in ScenarioInfo and RunFigures plus `time_saved_percent`. What has no
+/// summary.json: `scenario` and `runs`, keys as in ScenarioInfo and RunFigures plus `time_saved_percent`. A missing
 /// value is null.
 std::string summary_json(const ScenarioInfo& info, std::span<const RunResult> runs);
 

@@ -50,7 +50,7 @@ void code_name(std::string& line, const TracePoint& point) {
     line += control::name(static_cast<Enumeration>(point.*Code));
 }
 
-/// In the order of the file. The column `controller` stands between the two lists: it belongs to the run.
+/// In the order of the file. The column `controller` is between the two lists: it belongs to the run.
 constexpr TraceColumn estimate_columns[] = {
     {"time_s", number<&TracePoint::time_s>},
     {"state", code_name<control::CutState, &TracePoint::state>},

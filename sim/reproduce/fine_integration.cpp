@@ -59,7 +59,7 @@ void add(FineForce& total, const Vector3d& force_N, double phi, double arm_mm) {
     total.torque_Nm += 1e-3 * arm_mm * force_N.dot(motion(phi));
 }
 
-/// One tooth whose tip stands at `tip`.
+/// One tooth with its tip at `tip`.
 void add_tooth(const FineCut& cut, double tip, int axial_steps, FineForce& total) {
     const double lag_per_mm = std::tan(cut.helix_rad) / cut.radius_mm;
     double low_mm = 0.0;
@@ -99,7 +99,7 @@ double fine_chip_mm(const FineCut& cut, double phi_rad) {
     const double pitch = brute_force::full_turn / cut.teeth;
     const double R = cut.radius_mm;
     const double advance_per_rad = cut.feed_per_tooth_mm / pitch;
-    // Where the tooth before stood, in the frame of the present axis, when it was at `angle`.
+    // Position of the previous tooth, in the frame of the present axis, when it was at `angle`.
     const auto earlier = [&](double angle) {
         const double turned_since = pitch + phi_rad - angle;
         return Eigen::Vector2d(R * std::sin(angle) - advance_per_rad * turned_since, R * std::cos(angle));

@@ -32,7 +32,7 @@ struct ForceSensor {
     std::uint64_t seed = 1;
 };
 
-/// One sample, and what no sensor tells: the sum of the single flutes' forces as if they added as scalars.
+/// One sample, and what no sensor measures: the sum of the single flutes' forces as if they added as scalars.
 struct ForceSample {
     double fx_N = 0.0;
     double fy_N = 0.0;

@@ -18,7 +18,7 @@
 #include <vector>
 
 /// Guan et al.: the plant's force model. What the paper prints, the five cases of its Fig. 6, flank and bottom edge
-/// apart, three models of the chip, and the plant against the brute force of fine_integration.hpp.
+/// separately, three models of the chip, and the plant against the fine integration of fine_integration.hpp.
 
 namespace millforce::sim {
 namespace guan_reproduction {
@@ -410,7 +410,7 @@ void add_chip_models(Reproduction& result) {
                               "%", not_printed, 100.0 * worst_trochoid, Judged::at_most, 0.1});
 }
 
-/// The paper's law of cosines with the lost "+" and "cos" put back is the plant's two circles.
+/// The paper's law of cosines, with the missing "+" and "cos" restored, equals the plant's two circles.
 void add_law_of_cosines(Reproduction& result) {
     double largest = 0.0;
     for (int k = 0; k <= 180; ++k) {

@@ -167,7 +167,7 @@ void add_other_seeds(const std::vector<TableRow>& rows, const HwangLaws& laws, R
                            tally_of(results).largest(), Judged::shown});
 }
 
-/// Table 1's steel rows by another force law or with another runout: nothing of the method hangs on the bench's own.
+/// Table 1's steel rows with another force law or another runout: the method does not depend on those of the bench.
 void add_other_plant(const char* name, const BenchMaterial& material, double runout_mm, Reproduction& out) {
     const FloatForceDropLaw law = calibration_cuts(material, true, hwang_seed + 2U).solve().law;
     std::vector<TableResult> results;
@@ -192,7 +192,7 @@ void add_other_plants(Reproduction& out) {
     add_other_plant("Runout 20 µm", steel_SM45C(), 0.020, out);
 }
 
-/// The paper's own equations (direction alone, e = 0) on the same samples, and ours with the edge taken out.
+/// The paper's equations (direction alone, e = 0) on the same samples, and ours with the edge taken out.
 void add_edge_figures(const std::vector<TableResult>& ours, const std::vector<TableResult>& without,
                       Reproduction& out) {
     const auto by_direction = [](const std::vector<TableResult>& results) {
@@ -338,8 +338,8 @@ void add_drives(const DriveResult& drives, Reproduction& out) {
                            static_cast<double>(drives.along_x.estimates), Judged::at_most, 0.0});
 }
 
-/// At immersion 0.5 the next tooth's edge force comes in at once: the threshold has a step there, and an estimate a
-/// hundredth too large stands on its other side. That point is judged by the cautious threshold alone.
+/// At immersion 0.5 the next tooth's edge force comes in at once: the threshold has a step there, and an estimate that
+/// is 0.01 too large is on its other side. That point is judged by the cautious threshold alone.
 void add_thresholds(const std::vector<ThresholdPoint>& points, Reproduction& out) {
     using Judged = Figure::Judged;
     constexpr double step_at = 0.5;

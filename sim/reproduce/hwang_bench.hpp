@@ -36,7 +36,7 @@ struct BenchCut {
     double runout_angle_rad = 0.7;
 };
 
-/// What stands between the force and the sample. Pressure varies along the cut like an inhomogeneous workpiece, with
+/// What happens between the force and the sample. Pressure varies along the cut like an inhomogeneous workpiece, with
 /// the correlation length of a tooth pitch.
 struct BenchChain {
     ForceSensorSettings sensor{.low_pass_hz = 300.0};

@@ -54,7 +54,7 @@ class DriveForces {
     }
 
   private:
-    /// Force constant and moved mass as the drive's data sheet and the machine's commissioning tell them.
+    /// Force constant and moved mass from the drive's data sheet and the machine's commissioning.
     static estimation::FeedForceObserverSettings<float> settings_of(std::size_t axis) {
         const FeedPlantSettings plant = MachinePlantSettings::standard_axes()[axis];
         return {static_cast<float>(plant.force_constant_N_per_A), static_cast<float>(plant.mass_kg)};

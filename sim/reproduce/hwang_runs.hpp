@@ -23,7 +23,7 @@ using FloatForceDropCalibration = estimation::ForceDropCalibration<float>;
 [[nodiscard]] FloatForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling,
                                                          std::uint64_t seed);
 
-/// One estimate beside the truth.
+/// One estimate and the truth.
 struct ForceDropRun {
     double immersion = 0.0;  ///< true
     FloatForceDropEstimate estimate{};

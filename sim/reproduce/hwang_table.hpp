@@ -12,7 +12,7 @@
 
 namespace millforce::sim {
 
-/// A row with one immersion per cut. The seventeenth, with the immersion varying along the part, stands apart.
+/// A row with one immersion per cut. The seventeenth, with the immersion varying along the part, is separate.
 struct TableRow {
     const char* group = "";  ///< the figure that shows it
     BenchCut cut{};

@@ -9,8 +9,8 @@
 
 namespace millforce::sim {
 
-/// What the total force may be, per what one tooth may bear (the paper's introduction): from the model at the
-/// estimated immersion, and from the plant at the true one, without runout.
+/// The allowed total force per allowed force on one tooth (the paper's introduction): from the model at the estimated
+/// immersion, and from the plant at the true one, without runout.
 struct ThresholdPoint {
     double immersion = 0.0;
     double estimated = 0.0;

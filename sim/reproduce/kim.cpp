@@ -68,7 +68,7 @@ estimation::CutConditions<double> conditions(double radial_immersion, CutSide si
             static_cast<double>(KimStandardCut::flutes)};
 }
 
-/// Eq. 4 in the paper's own symbols, with R_a where it prints R_r, φ_r where it prints φ_N.
+/// Eq. 4 in the paper's symbols, with R_a where it prints R_r, φ_r where it prints φ_N.
 estimation::AverageForces<double> by_equation_4(const AverageChipLaw& law, double R_r, double t_c) {
     constexpr double tan_beta = 0.5;  // cancels
     const double R = radius_mm;
@@ -146,7 +146,7 @@ void add_average_forces(Reproduction& result) {
          "N", 1000.0, widest.tangential_N, Judged::shown});
 }
 
-/// Eq. 6: the ratio that tells the immersion, and where it does not.
+/// Eq. 6: where the ratio determines the immersion, and where it does not.
 void add_force_ratio(Reproduction& result) {
     const AverageChipLaw& law = tools()[0].law;
     const auto ratio = [&](CutSide side, double R_r) {
@@ -178,7 +178,7 @@ void add_force_ratio(Reproduction& result) {
          "", not_printed, change(CutSide::up) / change(CutSide::down), Judged::at_most, 0.1});
 }
 
-/// Values worked out beside the program, by disc integration of Eqs. 2 and 3 at f_z 0.0496 mm.
+/// Values calculated outside the program, by disc integration of Eqs. 2 and 3 at f_z 0.0496 mm.
 void add_check_values(Reproduction& result) {
     struct Forces {
         double R_r, F_at, F_ax, F_ay;
@@ -344,7 +344,7 @@ estimation::AverageForceMeasurement<double> measured_forces(const host::CutRow& 
                                                             const host::RecordedStretch& stretch,
                                                             const KimCampaign& campaign) {
     const auto& gains = campaign.gains;
-    const double per_root_s = std::sqrt(1.5 / stretch.duration_s);  // the cut's own and half of each air's
+    const double per_root_s = std::sqrt(1.5 / stretch.duration_s);  // that of the cut and half of each air stretch
     const double torque_sd = gains.spindle.gain * gains.spindle.residual_A * per_root_s;
     const double force_sd = gains.axes[0]->gain * gains.axes[0]->residual_A * per_root_s;
     const double F_at = row.spindle_torque_Nm * 1000.0 / radius_mm;

@@ -229,7 +229,7 @@ KimCampaign calibrate_machine(const KimMachine& machine, const AverageChipLaw& d
     campaign.air_cuts = simulate_air_cuts(machine);
     host::MachineParameters& calibrated = campaign.calibrated;
     calibrated.spindle.K_t1_Nm_per_A = 0.7F;     // the data sheets'
-    calibrated.spindle.warm_up_time_s = 240.0F;  // of its own calibration: see warm_up_fit.hpp
+    calibrated.spindle.warm_up_time_s = 240.0F;  // from a separate calibration: see warm_up_fit.hpp
     calibrated.axes[0].K_x4_N_per_A = 120.0F;
     fill_friction(campaign.air_cuts, calibrated);
     campaign.standard_cuts = simulate_cuts(machine, database, kim_standard_cuts(), 2);

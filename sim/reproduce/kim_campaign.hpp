@@ -15,7 +15,7 @@
 
 namespace millforce::sim {
 
-/// Table 1 and the text beside it.
+/// Table 1 and the text next to it.
 struct KimStandardCut {
     static constexpr double diameter_mm = 8.0;
     static constexpr int flutes = 4;
@@ -44,7 +44,7 @@ struct KimMachine {
     static KimMachine numbered(std::uint64_t number);
 };
 
-/// All cuts in one recording, each after running in air at its own feed: 2 mm for the drives to settle, then as many
+/// All cuts in one recording, each after running in air at the same feed: 2 mm for the drives to settle, then as many
 /// turns of the screw as take 6 s. Air once more at the end.
 std::vector<host::RecordedStretch> simulate_cuts(const KimMachine& machine, const AverageChipLaw& law,
                                                  const std::vector<KimCut>& cuts, std::uint64_t noise);

@@ -19,7 +19,7 @@ constexpr std::array all_papers{
     Paper{"guan", reproduce_guan, 3.0},
 };
 
-/// What the workers share: which paper is next, which ones run, and what came of them.
+/// Shared by the workers: which paper is next, which ones run, and their results.
 class Work {
   public:
     explicit Work(std::span<const Paper> chosen) : chosen_(chosen), order_(chosen.size()), results_(chosen.size()) {

@@ -20,9 +20,9 @@ struct Paper {
 /// All of them, in the order in which they are printed. A new one needs its line in papers.cpp and nothing else.
 [[nodiscard]] std::span<const Paper> papers();
 
-/// Runs the papers, as many at once as there are cores, the longest first; the results stand in the order of `chosen`.
-/// `watch` is called now and then from this thread with the names of those that run. What a paper throws is thrown
-/// here.
+/// Runs the papers, as many at once as there are cores, the longest first; the results are in the order of `chosen`.
+/// `watch` is called from time to time, from this thread, with the names of those that run. An exception of a paper is
+/// thrown here.
 [[nodiscard]] std::vector<Reproduction> reproduce(
     std::span<const Paper> chosen, const std::function<void(const std::vector<std::string_view>& running)>& watch);
 

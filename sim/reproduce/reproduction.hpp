@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// What a paper's system gives here, beside what the paper prints. A reproduction is plain data: the command prints it,
+/// What a paper's system gives here, and what the paper prints. A reproduction is plain data: the command prints it,
 /// the report page draws it, the tests judge it.
 
 namespace millforce::sim {

@@ -30,7 +30,7 @@ using Judged = Figure::Judged;
 
 constexpr double not_printed = std::numeric_limits<double>::quiet_NaN();
 constexpr double assumed_ln_scatter = 0.15;
-constexpr double smallest_ratio = 0.5;  // assumed: Fig. 2 shows the ratio, the text does not tell its range
+constexpr double smallest_ratio = 0.5;  // assumed: Fig. 2 shows the ratio, the text does not give its range
 constexpr double largest_ratio = 1.5;
 constexpr std::array<double, 3> speeds_rpm{8000.0, 10000.0, 12000.0};  // Table 1
 constexpr std::array<double, 2> feeds_mm_rev{0.01, 0.03};

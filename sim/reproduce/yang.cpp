@@ -65,7 +65,7 @@ std::string table_name(std::size_t type) {
     return fmt::format("Table {} (type {})", type + 5, std::array{"I", "II", "III"}[type]);
 }
 
-/// Every published number beside the profile fit's: absolute error, percent of nominal.
+/// Every published number and the profile fit's: absolute error, percent of nominal.
 void add_rows(const std::vector<Series>& all, Reproduction& r) {
     constexpr double row_bound_percent = 4.0;
     for (const Series& series : all) {
@@ -178,7 +178,7 @@ double degrees(float angle_rad) {
 
 /// PT_doc of a simulated force against Table 1, where the two agree and where they cannot.
 void add_angles(const std::vector<Series>& all, Reproduction& r) {
-    constexpr double corner_bound_deg = 1.5;  // filter and vector sum shift a corner by the slopes beside it
+    constexpr double corner_bound_deg = 1.5;  // filter and vector sum shift a corner by the slopes on its sides
     for (const Series& series : all) {
         const double formula_deg = series.nominal_formula_rad / degree;
         const auto add = [&](const char* what, double force_deg, double bound_deg) {

@@ -48,7 +48,7 @@ IndexProfile flute_average(const std::vector<ForceSample>& record, const ForceSe
     return profile.average();
 }
 
-/// Starts the monitor anew with this record's plane forces.
+/// Restarts the monitor with this record's plane forces.
 inline void feed(const std::vector<ForceSample>& record, const ForceSensor& sensor,
                  estimation::DepthMonitor<float>& monitor) {
     monitor.restart();

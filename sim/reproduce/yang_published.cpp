@@ -77,7 +77,7 @@ Measured measure(const SteadyCut& cut, const ForceSensor& sensor) {
     return measured;
 }
 
-/// What the nominal cut teaches, for all methods.
+/// What all methods learn from the nominal cut.
 class Methods {
   public:
     Methods(const SteadyCut& nominal, const Measured& measured, const ForceSensor& sensor)
@@ -124,7 +124,7 @@ SteadyCut published_cut(std::size_t mill_index, std::size_t type, const Variatio
     cut.cutter.teeth = mill.flutes;
     cut.cutter.diameter_mm = mill.diameter_mm;
     cut.cutter.helix_rad = mill.helix_deg * degree;
-    cut.cutter.runout_mm = 0.005;  // 10 µm on a dial gauge; the paper does not give its own
+    cut.cutter.runout_mm = 0.005;  // 10 µm on a dial gauge; the paper gives none
     cut.cutter.runout_angle_rad = 0.7;
     cut.coefficients = steel_1018(hardness);
     cut.feed_per_tooth_mm = mill.feed_per_tooth_mm;

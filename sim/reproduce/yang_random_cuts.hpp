@@ -28,8 +28,8 @@ struct RandomCutOutcome {
 
 [[nodiscard]] std::vector<RandomCutOutcome> random_cuts(const RandomCutOptions& options);
 
-/// What the outcomes say. An error is the larger one of a cut's two; a cut without estimate counts as infinitely wrong
-/// in the percentile, and is left out of mean and coverage.
+/// Statistics of the outcomes. A cut's error is the larger of its two; a cut without estimate counts as infinitely
+/// wrong in the percentile, and is left out of mean and coverage.
 struct RandomCutSummary {
     double mean_error_percent;  ///< over both depths of the cuts with estimate
     double percentile_95_percent;

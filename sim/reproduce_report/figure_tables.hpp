@@ -9,7 +9,7 @@
 
 namespace millforce::sim {
 
-/// Figures that stand together.
+/// Figures that belong together.
 struct FigureTable {
     std::string title;  ///< of a long table, what its rows have in common: "Table 1"; else empty
     std::span<const Figure> figures;
@@ -20,7 +20,7 @@ struct FigureTable {
 inline constexpr std::size_t long_table_rows = 15;
 
 /// Cuts the figures, in their order, into long tables – at least `long_table_rows` in a row whose names are alike up to
-/// the first comma or colon – and what stands between them.
+/// the first comma or colon – and what is between them.
 [[nodiscard]] std::vector<FigureTable> figure_tables(std::span<const Figure> figures);
 
 /// The figure's name without what the table's title says already.
@@ -39,7 +39,7 @@ struct FigureCount {
 /// "24 figures, all 20 that have a bound within it", "24 figures, 2 of 20 beyond their bound".
 [[nodiscard]] std::string verdict(const FigureCount& count);
 
-/// A figure's value as printed: four digits, whole numbers in full, "–" where there is none.
+/// A figure's value as printed: four digits, whole numbers in full, "–" if there is none.
 [[nodiscard]] std::string value_text(double value);
 
 }  // namespace millforce::sim

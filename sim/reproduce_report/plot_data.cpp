@@ -24,7 +24,7 @@ constexpr const char* style_name(Style style) {
     return "line";
 }
 
-/// Places of the smallest and the largest finite value of points first … end − 1; `end` where there is none.
+/// Places of the smallest and the largest finite value of points first … end − 1; `end` if there is none.
 struct GroupExtremes {
     std::size_t lowest;
     std::size_t highest;

@@ -22,7 +22,7 @@ std::size_t width_of(std::string_view text) {
         text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
 }
 
-/// Lines of at most `width` columns; those after the first stand two columns further in.
+/// Lines of at most `width` columns; those after the first are indented by two more columns.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t indent) {
     std::vector<std::string> lines{std::string(indent, ' ')};
     bool line_is_empty = true;

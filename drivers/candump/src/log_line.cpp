@@ -41,7 +41,7 @@ class Cursor {
         place_ += is_there ? 1U : 0U;
         return is_there;
     }
-    /// -1, and no step, where there is no hexadecimal digit.
+    /// -1, without moving on, if the next character is not a hexadecimal digit.
     int take_hex() {
         const int digit = is_at_end() ? -1 : hex_digit(text_[place_]);
         place_ += digit >= 0 ? 1U : 0U;
@@ -107,8 +107,8 @@ bool read_id(Cursor& cursor, std::uint32_t& id, bool& has_eight_digits) {
     return (digits == 3 || digits == 8) && id <= largest && cursor.at() == '#';
 }
 
-/// Pairs of digits, with or without dots between them; returns how many, or more than `capacity` where there are too
-/// many or half a pair.
+/// Pairs of digits, with or without dots between them; returns how many, or more than `capacity` if there are too many
+/// or half a pair.
 unsigned read_data(Cursor& cursor, unsigned capacity, hal::CanFrame& frame) {
     unsigned count = 0;
     for (;; ++count) {

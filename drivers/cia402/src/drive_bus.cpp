@@ -49,7 +49,7 @@ void DriveBus::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
         if (nodes_[k].node_id() == 0) {
             continue;
         }
-        // What comes when the sample is handed over already belongs to no sample: it would be the next one's.
+        // What arrives after the sample was handed over belongs to no sample: it would be taken for the next one's.
         const bool is_synchronous = is_sync_pdo(k, frame.id);
         if (is_synchronous && !cycle_open_ && nodes_[k].health().state == NodeState::operational) {
             rejects_.add(Reject::pdo_late);

@@ -155,7 +155,7 @@ void DriveNode::read_index(std::uint64_t now_us, std::uint32_t raw_count, DriveR
     reading.index_number = index_number_;
 }
 
-/// The way since the position before, where there is one.
+/// The distance from the previous position, if there is one.
 bool DriveNode::moved_mm(std::uint64_t now_us, float& way_mm, float& elapsed_s) {
     if (settings_.position_mm_per_unit == 0.0F || !is_fresh(Signal::position, now_us)) {
         return false;

@@ -9,8 +9,8 @@
 namespace millforce::cia402 {
 
 /// The `step`-th SDO transfer that prepares a drive: rated values read, heartbeat time and PDO mapping written, as far
-/// as the settings ask for it. False: there is no such step. CiA 301: a PDO is switched off (bit 31 of its id) while
-/// its mapping changes, and the number of mapped objects is 0 meanwhile.
+/// as the settings ask for it. False: there is no such step. CiA 301: while its mapping changes, a PDO is switched off
+/// (bit 31 of its id) and its number of mapped objects is 0.
 [[nodiscard]] bool preparation_step(const DriveSettings& settings, std::uint8_t step, SdoRequest& request);
 
 }  // namespace millforce::cia402

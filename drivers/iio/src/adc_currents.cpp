@@ -11,7 +11,7 @@ namespace millforce::iio {
 
 namespace {
 
-/// A device that is faster than its reader ends a call after so many reads.
+/// Most reads in one call: a device may be faster than its reader.
 constexpr int most_reads_per_call = 64;
 constexpr std::int64_t longest_age_ns = 1'000'000'000;
 
@@ -56,7 +56,7 @@ void AdcCurrents::fetch_scans(std::uint64_t now_us) {
             continue;
         }
         if (got < 0 && errno != EAGAIN) {
-            // Of a device that was unplugged; a look that fails tells why.
+            // The device may have been unplugged; the failed access says why.
             fail({IioError::file_missing, errno, settings_.buffer});
             return;
         }

@@ -64,7 +64,7 @@ std::int64_t AnalogueOverride::raw_of(float V) const {
     const float raw = V / scale_V_ - offset_;
     const auto lowest = static_cast<float>(settings_.lowest_raw);
     const auto highest = static_cast<float>(settings_.highest_raw);
-    if (!(raw > lowest)) {  // a raw value that is no number, too
+    if (!(raw > lowest)) {  // also for a raw value that is NaN
         return settings_.lowest_raw;
     }
     return raw >= highest ? settings_.highest_raw : static_cast<std::int64_t>(raw + (raw >= 0.0F ? 0.5F : -0.5F));

@@ -17,7 +17,7 @@ constexpr std::string_view enable_suffix = "_en";
 constexpr std::string_view element_prefix = "in_";
 constexpr std::size_t channel_capacity = 64;  // of a device, enabled or not
 
-/// Names of the channels that have a scan element, by the kernel's own call: opendir() takes heap.
+/// Names of the channels that have a scan element, by the system call itself: opendir() uses the heap.
 struct ChannelNames {
     std::array<ChannelName, channel_capacity> names{};
     std::size_t count = 0;

@@ -15,7 +15,7 @@ constexpr std::uint8_t feed_hold_bit = 2;
 constexpr std::uint8_t reset_bit = 4;
 constexpr std::uint8_t all_present_bits = 0x1F;
 
-/// Writes one value after the other; the array is as long as the layout.
+/// Writes values in sequence; the array is as long as the layout.
 class Writer {
   public:
     explicit Writer(std::span<std::uint8_t> bytes) : bytes_(bytes) {}

@@ -31,7 +31,7 @@ bool ProgramStatusReceiver::on_frame(const hal::CanFrame& frame, std::uint64_t t
     if (source(time_us) == ProgramSource::fresh && step == 0) {
         return reject(ReceiveError::counter_repeated);
     }
-    // After a silence the CNC may have started anew.
+    // After a silence the CNC may have restarted.
     if (source(time_us) == ProgramSource::fresh && step >= half_of_the_counter) {
         return reject(ReceiveError::counter_backwards);
     }

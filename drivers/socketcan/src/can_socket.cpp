@@ -19,7 +19,7 @@ namespace millforce::socketcan {
 
 namespace {
 
-/// A flood of frames that are not handed over ends a call after so many of them.
+/// Most frames that one call drops: a flood of them must not keep it busy.
 constexpr int most_skipped_per_call = 256;
 
 template <typename Value>

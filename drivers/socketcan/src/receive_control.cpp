@@ -71,8 +71,8 @@ std::int64_t StampClock::unix_offset_us() {
     return offset_us_;
 }
 
-/// A stamp that does not fit tells that the clock was set, or that this program did not run for long, before it read
-/// the time or after: only a measurement tells which, and a kept offset is better than one that is a few µs off.
+/// A stamp that does not fit means that the clock was set, or that this program was suspended for long, before it read
+/// the time or after. Only a measurement shows which; and the old offset is better than a new one that is a few µs off.
 std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t now_us) {
     auto near_us = static_cast<std::int64_t>(now_us);
     const auto is_plausible = [&](std::int64_t time_us) {

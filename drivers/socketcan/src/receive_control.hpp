@@ -8,7 +8,7 @@
 
 namespace millforce::socketcan {
 
-/// What the kernel says beside a received frame.
+/// What the kernel reports with a received frame.
 struct ReceiveControl {
     bool has_time = false;
     timespec time{};  ///< CLOCK_REALTIME

@@ -90,8 +90,8 @@ void CanController::poll(std::uint32_t patience) {
         state_ = CanState::running;
         watch_errors();
     } else if (state_ == CanState::entering_setup && ++polls_ >= patience) {
-        // A bus that is stuck dominant keeps a controller `joining`, for as long as it is: only a setup that is not
-        // acknowledged means that there is none.
+        // A bus that is stuck dominant keeps a controller `joining`. Only a setup that is not acknowledged means that
+        // there is no controller.
         state_ = CanState::absent;
     }
 }

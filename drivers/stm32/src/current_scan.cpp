@@ -100,7 +100,7 @@ float CurrentScan::volts(std::uint32_t sum, std::uint32_t count) const {
 ScanReading CurrentScan::take() {
     ScanReading reading;
     if (failed()) {
-        // What an overrun has shifted belongs to other channels: all of it is thrown away.
+        // After an overrun the values are shifted to other channels: all of them are discarded.
         ++health_.restarts;
         adc_.cr2 = 0;
         start_dma();

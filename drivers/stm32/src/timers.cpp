@@ -58,7 +58,7 @@ EncoderReading Encoder::read() {
     reading_.count = widened(timer_.cnt);
     const std::uint32_t status = timer_.sr;
     if (settings_.has_index && (status & captured_3) != 0) {
-        // Flags are cleared by a zero; a one leaves what comes meanwhile.
+        // Writing a zero clears a flag; writing a one leaves flags that were set meanwhile.
         timer_.sr = ~(captured_3 | captured_3_again);
         reading_.index_count = widened(timer_.ccr[2]);
         reading_.index_number = static_cast<std::uint8_t>(reading_.index_number + 1U);

@@ -29,7 +29,7 @@ bool has_bits(std::uint32_t value, std::uint32_t bits) {
     return (value & bits) == bits;
 }
 
-/// The upper 11 bits of an extended id stand where a standard id does; SRR is recessive then.
+/// The upper 11 bits of an extended id are in the place of a standard id; SRR is then recessive.
 std::uint32_t identifier_word(const hal::CanFrame& frame) {
     if (!frame.extended) {
         return (frame.id & hal::largest_standard_can_id) << 21U | (frame.remote ? standard_remote : 0U);
@@ -46,7 +46,7 @@ void take_identifier(hal::CanFrame& frame, std::uint32_t word) {
     frame.id = frame.extended ? (word >> 21U) << extended_low_bits | low : word >> 21U;
 }
 
-/// Byte 0 stands in the highest place.
+/// Byte 0 is the most significant.
 std::uint32_t word_of(const hal::CanFrame& frame, std::size_t first) {
     std::uint32_t word = 0;
     for (std::size_t k = 0; k < 4U; ++k) {

@@ -9,7 +9,7 @@
 /// Lines of the log that `candump -L` writes and `canplayer` reads:
 ///
 ///     (1436509052.249713) can0 181#1122334455667788        11-bit id: three digits, data
-///     (1436509052.249713) can0 0000018A#1122 R             29-bit id: eight digits; at the end R or T may stand
+///     (1436509052.249713) can0 0000018A#1122 R             29-bit id: eight digits; may end in R or T
 ///     (1436509052.249713) can0 181#R8                      remote frame, with or without its length
 ///     (1436509052.249713) can0 123##5112233                CAN FD: a digit of flags, up to 64 bytes
 ///     (1436509052.249713) can0 20000004#0001000000000000   error frame: bit 29 of the id
@@ -19,7 +19,7 @@ namespace millforce::candump {
 
 enum class LineKind : std::uint8_t {
     frame,        ///< `frame` holds a data or remote frame
-    fd_frame,     ///< sound, and not classical CAN: only its time and interface are given
+    fd_frame,     ///< valid, but not classical CAN: only its time and interface are given
     error_frame,  ///< the same
     blank,        ///< empty, or a comment: `#` at its begin
     malformed,    ///< nothing is given; `error` and `column` say what and where
@@ -41,7 +41,7 @@ inline constexpr std::size_t longest_line = 256;
 /// Any bytes may come in. No heap; one pass.
 [[nodiscard]] LogLine read_line(std::string_view line);
 
-/// What a message says was expected there.
+/// What was expected there, for a message.
 [[nodiscard]] std::string_view expectation(LineError error);
 
 }  // namespace millforce::candump

@@ -26,8 +26,8 @@
 /// run backwards. Cost per frame: a search over at most 4 drives × 4 PDOs; 0.8 µs for a whole SYNC
 /// period of four drives on a desktop processor. 3.2 KB of RAM. One thread.
 ///
-/// PDOs carry no number of their SYNC: what arrives belongs to the last SYNC. A PDO that is late by more than its
-/// period can therefore not be told from a timely one; it shows as a repeated PDO in the same period, and the next
+/// PDOs do not say which SYNC they belong to: what arrives belongs to the last one. So a PDO that is late by more than
+/// its period cannot be distinguished from a timely one; it shows as a repeated PDO in the same period, and the next
 /// period is right again. The collection time keeps anything less late out.
 
 namespace millforce::cia402 {

@@ -27,8 +27,8 @@ enum class NodeState : std::uint8_t {
     lost,         ///< the heartbeat stayed away; left by the next heartbeat
 };
 
-/// For the supervisor. Nothing here latches but the counters and `emergency`. A drive with a fault still tells its
-/// current, and the sample carries it: what a fault means for the cut is the supervisor's to judge.
+/// For the supervisor. Nothing here latches but the counters and `emergency`. A drive with a fault still reports its
+/// current, and the sample carries it: the supervisor decides what a fault means for the cut.
 struct NodeHealth {
     NodeState state = NodeState::unused;
     PowerState power = PowerState::unknown;
@@ -40,7 +40,7 @@ struct NodeHealth {
     std::uint32_t times_lost = 0;
 };
 
-/// What a drive told in one SYNC period.
+/// What a drive reported in one SYNC period.
 struct DriveReading {
     bool has_current = false;
     bool has_velocity = false;
@@ -65,7 +65,7 @@ class DriveNode {
 
     void begin_cycle();
     void end_cycle();
-    /// All PDOs that come at every SYNC are there, or none is expected.
+    /// All PDOs that come at every SYNC have arrived, or none is expected.
     [[nodiscard]] bool is_complete() const;
     /// Values of this SYNC period; what is missing or rejected is absent. Once per period.
     [[nodiscard]] DriveReading read(std::uint64_t sync_time_us, RejectCounters& rejects);

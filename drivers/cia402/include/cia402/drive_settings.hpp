@@ -80,7 +80,7 @@ struct BusSettings {
     bool produces_sync = false;
     std::uint32_t sync_id = cob_id::sync;
     std::uint32_t sync_period_us = 1000;
-    /// A sample is handed over when all PDOs of its SYNC are there, at the latest after this time.
+    /// A sample is handed over when all PDOs of its SYNC have arrived, at the latest after this time.
     std::uint32_t collect_us = 800;
 };
 

@@ -8,7 +8,7 @@
 
 #include "hal/can_frame.hpp"
 
-/// Which objects a transmit PDO of a drive carries, in which order and width: what stands in 0x1800 + n (CAN id,
+/// Which objects a transmit PDO of a drive carries, in which order and width: the contents of 0x1800 + n (CAN id,
 /// transmission type) and 0x1A00 + n (objects). CiA 301: the first object begins at bit 0 of byte 0, the next follows
 /// without a gap, little endian; any width of 1…64 bits, 64 bits in all.
 

@@ -20,7 +20,7 @@ enum class Reject : std::uint8_t {
     current_range,        ///< beyond the largest share of the rated current
     velocity_range,       ///< beyond the largest velocity of the axis
     position_step,        ///< a position or count moved more than the drive can
-    units_disagree,       ///< position and velocity tell different speeds: one of the units is wrong
+    units_disagree,       ///< position and velocity give different speeds: one of the units is wrong
     sync_length,          ///< SYNC carries 0 or 1 bytes
     sync_foreign,         ///< SYNC by another while this driver produces it
     sync_early,           ///< less than half a period after the last: a duplicate

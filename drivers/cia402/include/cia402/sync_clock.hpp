@@ -6,11 +6,11 @@
 /// When the drives latched their values, in the time of the SYNCs' stamps.
 ///
 /// A stamp is not on time in two ways. The SYNC itself is late (arbitration, a busy producer) and the drives latch late
-/// with it: w. Or only the stamp is late (interrupt latency), or the drives have a clock of their own that is locked to
-/// the SYNC: v. The first must be believed and the second must not: 20 µs in 1 ms look like 2 % of spindle speed. The
-/// spindle helps, since its inertia keeps its speed for some periods: what it turned tells the time, but for what
-/// forces and the counts' step make of it: u. Stamps and counts are followed alike (position gain 1/4); what each is
-/// off by
+/// with it: w. Or only the stamp is late (interrupt latency), or the drives have their own clock, locked to the SYNC:
+/// v. The first must be believed and the second must not: 20 µs in 1 ms look like 2 % of spindle speed. The spindle
+/// helps, since its inertia keeps its speed for some periods: the angle that it turned gives the time, except for the
+/// error that forces and the step of the counts add: u. Stamps and counts are followed alike (position gain 1/4); what
+/// each is off by
 ///
 ///     s = stamp - expected stamp = w + v,    c = (count - expected count) / speed = w + u
 ///
@@ -37,7 +37,7 @@ class SyncClock {
     void on_sync(std::uint64_t stamp_us);
     /// The spindle's count that was latched at the newest SYNC. Not called where it did not come.
     void on_count(std::uint32_t count);
-    /// When the drives latched at the newest SYNC, by what has been told of it up to now.
+    /// When the drives latched at the newest SYNC, by what is known so far.
     [[nodiscard]] std::uint64_t latched_us() const;
 
   private:

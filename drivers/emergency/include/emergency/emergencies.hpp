@@ -12,8 +12,8 @@
 ///
 /// | bytes | what |
 /// |---|---|
-/// | 0, 1 | error code of CiA 301, U16; 0: no error, or the one that `reason` names is over |
-/// | 2 | error register: bit 0 while any error is there |
+/// | 0, 1 | error code of CiA 301, U16; 0: no error, or the one named by `reason` has ended |
+/// | 2 | error register: bit 0 while there is any error |
 /// | 3 | Reason |
 /// | 4…7 | detail, U32 |
 
@@ -21,16 +21,16 @@ namespace millforce::emergency {
 
 enum class Reason : std::uint8_t {
     started = 0,          ///< detail: hal::ResetCause. An error after a watchdog, a brown-out or an unknown cause
-    processor_fault = 1,  ///< detail: program counter; told at the fault and after the reset that it causes
+    processor_fault = 1,  ///< detail: program counter; sent at the fault and after the reset that it causes
     no_parameters = 2,    ///< detail: firmware::BlockError
     supply_low = 3,       ///< below the voltage that the board watches for
-    inputs_missing = 4,   ///< detail: hal::Present of what is there
+    inputs_missing = 4,   ///< detail: hal::Present of the inputs that are present
     tick_fault = 5,       ///< detail: control::Fault
-    bus_was_off = 6,      ///< detail: how many times since the start; told when it is back
+    bus_was_off = 6,      ///< detail: how many times since the start; sent when the bus is back
 };
 inline constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::bus_was_off) + 1;
 
-/// What is wrong, and what of it the bus does not know yet. One thread.
+/// What is wrong, and which of it has not been sent yet. One thread.
 class Emergencies {
   public:
     explicit Emergencies(std::uint8_t node_id) : node_id_(node_id) {}

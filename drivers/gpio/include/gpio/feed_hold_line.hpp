@@ -13,13 +13,13 @@ namespace millforce::gpio {
 ///
 /// | line | level |
 /// |---|---|
-/// | 0, release | 1: the feed may run; 0: hold, any fault, no override yet, ticks stay away |
-/// | 1, pulse | changes every `pulse_half_period_us` while ticks come, hold or not; stands still otherwise |
+/// | 0, release | 1: the feed may run; 0: hold, any fault, no override yet, no ticks |
+/// | 1, pulse | changes every `pulse_half_period_us` while ticks come, hold or not; constant otherwise |
 ///
-/// The release alone is no safe stop: when this program is killed, most GPIO chips keep their lines' levels. The pulse
-/// is: a watchdog relay or charge pump on it drops within its own time (e.g. three half-periods, 15 ms) whatever died,
-/// program, kernel or processor, at either level. Put its contact in series with the release; wire the release so that
-/// a broken wire is a hold.
+/// The release alone is not a safe stop: when this program is killed, most GPIO chips keep the levels of their lines.
+/// The pulse makes it safe: a watchdog relay or charge pump on it drops within its own time (e.g. three half-periods,
+/// 15 ms) whatever died, program, kernel or processor, at either level. Put its contact in series with the release;
+/// wire the release so that a broken wire is a hold.
 struct FeedHoldSettings {
     std::uint32_t tick_timeout_us = 20'000;
     std::uint32_t pulse_half_period_us = 5'000;  ///< in steps of the tick's period

@@ -16,7 +16,7 @@ class LinePort {
 
   protected:
     LinePort() = default;
-    ~LinePort() = default;  // never deleted through this face: that would need a heap
+    ~LinePort() = default;  // never deleted through this interface: that would need a heap
     LinePort(const LinePort&) = default;
     LinePort& operator=(const LinePort&) = default;
 };

@@ -55,14 +55,14 @@ struct AdcSettings {
     bool configures = true;
     std::uint32_t buffer_scans = 1024;
     std::array<AdcChannel, drive_capacity> channels{};  ///< spindle, x, y, z
-    std::uint32_t sample_period_us = 0;                 ///< of the device, to tell gaps; 0: gaps are not told
+    std::uint32_t sample_period_us = 0;                 ///< of the device, to detect gaps; 0: gaps are not detected
     std::uint32_t stale_us = 20'000;                    ///< without a value for so long the state is `silent`
     std::uint32_t look_period_us = 100'000;             ///< between tries to open
 };
 
 enum class AdcState : std::uint8_t {
-    absent,   ///< a file is missing, or the device went away; opened again as soon as it is there
-    refused,  ///< the device is there and its files do not fit: `fault` says which; tried again
+    absent,   ///< a file is missing, or the device was removed; opened again as soon as it is back
+    refused,  ///< the device is present but a file is not understood: `fault` says which; tried again
     silent,   ///< open, and nothing came for stale_us; left by the next value
     running,
 };

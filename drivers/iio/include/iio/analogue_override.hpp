@@ -14,11 +14,10 @@ namespace millforce::iio {
 ///
 ///     V = zero_V + ratio · V_per_ratio,    raw = V / scale − offset
 ///
-/// clamped to lowest_V…highest_V and lowest_raw…highest_raw. safe_V is out from the start, at hold, at any fault, where
-/// the ratio is no number, where ticks stay away, and after the object's end.
+/// clamped to lowest_V…highest_V and lowest_raw…highest_raw. The output is safe_V from the start, on hold, on any
+/// fault, when the ratio is not finite, when no ticks come, and after this object's end.
 /// A converter keeps its last value when this program is killed or its processor stops: a voltage proves nothing.
-/// A CNC that follows it must watch something that lives as well: the pulse of gpio::FeedHoldLine, or the CAN
-/// heartbeat.
+/// A CNC that follows it must also watch a sign of life: the pulse of gpio::FeedHoldLine, or the CAN heartbeat.
 struct AnalogueOverrideSettings {
     Path device{};          ///< folder in sysfs
     ChannelName channel{};  ///< `voltage0`

@@ -19,7 +19,7 @@ enum class IioError : std::uint8_t {
     file_missing,      ///< no such file: the device is not there, or has no such channel
     file_unreadable,   ///< not allowed, a folder, in use by another, or failing
     file_unwritable,   ///< the same, for what is written at start
-    not_a_number,      ///< empty, longer than 63 characters, not finite, or no number
+    not_a_number,      ///< empty, longer than 63 characters, not finite, or not a number
     scan_format,       ///< a `_type` that is none, or none that a channel can have
     scan_layout,       ///< two elements with one index, more than 16 of them, or more than 256 bytes
     channel_disabled,  ///< the channel's scan element is off, and `configures` is false
@@ -72,8 +72,8 @@ struct Attribute {
 [[nodiscard]] IioError write_attribute(const Path& path, std::string_view text, int& number);
 [[nodiscard]] IioError write_attribute(const Path& path, std::int64_t value, int& number);
 
-/// Reads `<prefix><name><suffix>`, e.g. in_voltage0_scale, or, where that is not there, the one that the channels of
-/// its kind share: in_voltage_scale. Where neither is there `value` stays, and the answer is file_missing.
+/// Reads `<prefix><name><suffix>`, e.g. in_voltage0_scale, or, if that is missing, the one shared by channels of its
+/// kind: in_voltage_scale. If both are missing `value` stays, and the answer is file_missing.
 [[nodiscard]] Fault read_shared(const Path& device, std::string_view prefix, std::string_view name,
                                 std::string_view suffix, float& value);
 

@@ -33,7 +33,7 @@ class CounterInput {
     CounterInput(const CounterInput&) = delete;
     CounterInput& operator=(const CounterInput&) = delete;
 
-    /// False where there is no count: `count` and `velocity_mm_s` stay.
+    /// False if there is no count; `count` and `velocity_mm_s` then stay.
     [[nodiscard]] bool read(std::uint64_t now_us);
     [[nodiscard]] std::uint32_t count() const { return count_; }
     /// False until two reads in sequence gave a count.
@@ -57,7 +57,7 @@ class CounterInput {
     float velocity_mm_s_ = 0.0F;
 };
 
-/// Reads into the spindle's part, or an axis's; absent where there is no count.
+/// Reads into the spindle's part, or an axis's; absent if there is no count.
 void read_spindle(CounterInput& counter, std::uint64_t now_us, MotionReading& motion);
 void read_axis(CounterInput& counter, std::uint64_t now_us, std::size_t axis, MotionReading& motion);
 

@@ -11,14 +11,14 @@ namespace millforce::iio {
 
 inline constexpr std::size_t drive_capacity = 1 + hal::axis_count;  ///< spindle, x, y, z
 
-/// What the converter told since the last time it was asked.
+/// What the converter reported since the last call.
 struct CurrentReading {
     std::uint64_t time_us = 0;  ///< of the newest value
     std::array<bool, drive_capacity> has{};
     std::array<float, drive_capacity> current_A{};
 };
 
-/// What counters, or a bus that carries positions alone, told.
+/// What counters reported, or a bus that carries positions alone.
 struct MotionReading {
     bool has_count = false;
     std::uint32_t spindle_count = 0;

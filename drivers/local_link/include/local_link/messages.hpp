@@ -7,10 +7,11 @@
 
 /// Drive samples in and overrides out between two programs of one machine, over a Unix socket of type SOCK_SEQPACKET.
 /// The controller listens (`millforce serve`); a bridge to a CNC's own memory connects and sends one sample message per
-/// servo cycle. Each is answered by one override message, in order. A message that is not sound ends the connection:
-/// on a local socket nothing is lost or altered, so the other side is another program than it seems.
+/// servo cycle. Each is answered by one override message, in order. An invalid message ends the connection: a local
+/// socket loses and alters nothing, so the other side must be a different program or version.
 ///
-/// A connection is a run of its own: the controller begins anew. Only the samples' own time counts, so the
+/// Each connection is a separate run: the controller starts from the beginning. Only the samples' own time counts, so
+/// the
 /// same samples give the same overrides whenever they arrive.
 ///
 /// Both messages are little endian, without padding. Numbers F32 are IEEE 754; what is "no estimate" is a NaN.
@@ -25,7 +26,7 @@
 /// | 16…19 | spindle count, U32 | wraps |
 /// | 20…23 | spindle count at the last index pulse, U32 | |
 /// | 24 | number of the last index pulse, U8 | wraps; constant: no index wired |
-/// | 25 | what is there, hal::Present | 0…31 |
+/// | 25 | what is present, hal::Present | 0…31 |
 /// | 26 | bit 0 rapid, 1 feed hold, 2 fault reset | bits 3…7 are 0 |
 /// | 27 | reserved | 0 |
 /// | 28…31 | spindle current, F32 | A rms, positive drives in the cutting direction |
@@ -109,8 +110,8 @@ enum class MessageError : std::uint8_t {
 /// For messages to the user, e.g. "length".
 [[nodiscard]] const char* name(MessageError error);
 
-/// Write `message` where the bytes are sound, and leave it as it is where not. Quantities that are not finite pass: to
-/// the tick they are "no measurement".
+/// Write `message` if the bytes are valid, else leave it unchanged. Quantities that are not finite pass: to the tick
+/// they are "no measurement".
 [[nodiscard]] MessageError decode(std::span<const std::uint8_t> bytes, SampleMessage& message);
 [[nodiscard]] MessageError decode(std::span<const std::uint8_t> bytes, OverrideMessage& message);
 

@@ -15,12 +15,12 @@
 /// | 2 | bit 0: hold, stop the feed whatever the ratio says; bits 1…7 are 0 | |
 /// | 3 | state of the controller, control::CutState | |
 /// | 4 | fault, control::Fault; 0: none | |
-/// | 5, 6 | counter, U16: the tick's own heartbeat, low 16 bits | a number that stands still is a dead tick |
+/// | 5, 6 | counter, U16: the tick's heartbeat, low 16 bits | a counter that stops means a dead tick |
 /// | 7 | CRC-8 with polynomial 0x2F (AUTOSAR E2E), initial and final XOR 0xFF, over id low, id high, bytes 0…6 | |
 ///
-/// The id stands in the checksum, so that a frame of another sender is not taken for this one. To the bus the
-/// controller is a CANopen node: the frame is its TPDO 1, and its heartbeat (0x700 + node, one byte, CiA 301) says
-/// `operational` while ticks come, `stopped` when they stay away, `pre-operational` before the first.
+/// The checksum covers the id, so that a frame of another sender is not taken for this one. To the bus the controller
+/// is a CANopen node: the frame is its TPDO 1, and its heartbeat (0x700 + node, one byte, CiA 301) says `operational`
+/// while ticks come, `stopped` when they stop, `pre-operational` before the first.
 
 namespace millforce::override_frame {
 
@@ -44,7 +44,7 @@ enum class FrameError : std::uint8_t {
     checksum,
     reserved_bits,  ///< bits 1…7 of byte 2: a later layout
 };
-/// Writes `feed_override` where the frame is sound. Its heartbeat is the counter: 16 bits.
+/// Writes `feed_override` if the frame is valid. Its heartbeat is the counter: 16 bits.
 [[nodiscard]] FrameError decode(const hal::CanFrame& frame, std::uint32_t id, hal::FeedOverride& feed_override);
 
 }  // namespace millforce::override_frame

@@ -26,8 +26,8 @@ enum class ReceiveError : std::uint8_t {
     checksum,
     reserved_bits,
     ratio_range,
-    counter_repeated,  ///< the tick stands still, or a frame was duplicated
-    counter_jump,      ///< backwards or too far: frames out of order, or a controller that started anew
+    counter_repeated,  ///< the tick has stopped, or a frame was duplicated
+    counter_jump,      ///< backwards or too far: frames out of order, or a restarted controller
     heartbeat_malformed,
 };
 inline constexpr std::size_t receive_errors = static_cast<std::size_t>(ReceiveError::heartbeat_malformed) + 1;

@@ -20,8 +20,8 @@ struct OverrideSenderSettings {
 };
 
 /// The controller's side. update() with each tick's output, poll() at least every period, then fetch what is to be
-/// sent, after both. Where ticks stay away it goes on sending with the counter standing still: only the receiver can
-/// tell whether that is too long. A frame that could not be sent is dropped; the next one is newer. One thread.
+/// sent, after both. If no ticks come it keeps sending with an unchanged counter: only the receiver can judge whether
+/// that is too long. A frame that could not be sent is dropped; the next one is newer. One thread.
 class OverrideSender final : public hal::OverrideOutput {
   public:
     explicit OverrideSender(const OverrideSenderSettings& settings) : settings_(settings) {}

@@ -6,15 +6,15 @@
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
 
-/// What the CNC tells of its program on CAN: one frame of 8 bytes, little endian. A CNC, or a small gateway beside it,
-/// sends it every 10 ms and at once where a flag changes.
+/// What the CNC reports about its program on CAN: one frame of 8 bytes, little endian. A CNC, or a small gateway next
+/// to it, sends it every 10 ms and at once where a flag changes.
 ///
 /// | bytes | what | unit and range |
 /// |---|---|---|
-/// | 0…2 | F of the block in work, U24 | 0.01 mm/min: 0…167 772 mm/min; 0: not known |
+/// | 0…2 | F of the current block, U24 | 0.01 mm/min: 0…167 772 mm/min; 0: not known |
 /// | 3 | the operator's own override, U8 | per cent |
-/// | 4 | bit 0: a rapid (G0) is in work; bit 1: the feed is held; bit 2: reset the controller's fault; bits 3…7 are 0 |
-/// | 5, 6 | counter, U16, one more with each frame | a number that stands still is a dead CNC |
+/// | 4 | bit 0: a rapid (G0) is active; bit 1: the feed is held; bit 2: reset the controller's fault; bits 3…7 are 0 |
+/// | 5, 6 | counter, U16, one more with each frame | a counter that stops means a dead CNC |
 /// | 7 | CRC-8 as in the override frame, over id low, id high, bytes 0…6 | |
 
 namespace millforce::program_status {
@@ -39,7 +39,7 @@ enum class FrameError : std::uint8_t {
     checksum,
     reserved_bits,  ///< bits 3…7 of byte 4: a later layout
 };
-/// Writes `status` where the frame is sound.
+/// Writes `status` if the frame is valid.
 [[nodiscard]] FrameError decode(const hal::CanFrame& frame, std::uint32_t id, ProgramStatusFrame& status);
 
 }  // namespace millforce::program_status

@@ -19,7 +19,7 @@ enum class ReceiveError : std::uint8_t {
     length,
     checksum,
     reserved_bits,
-    counter_repeated,  ///< a duplicate, or a sender that stands still
+    counter_repeated,  ///< a duplicate, or a sender whose program has stopped
     counter_backwards,
 };
 inline constexpr std::size_t receive_errors = static_cast<std::size_t>(ReceiveError::counter_backwards) + 1;
@@ -35,7 +35,7 @@ class ProgramStatusReceiver {
   public:
     explicit ProgramStatusReceiver(const ProgramStatusReceiverSettings& settings) : settings_(settings) {}
 
-    /// True where the frame is a sound and fresh one.
+    /// True if the frame is valid and new.
     bool on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
     [[nodiscard]] ProgramSource source(std::uint64_t now_us) const;
     /// Never heard: nothing is known. Silent: the last status with the feed held.

@@ -12,8 +12,8 @@
 #include "socketcan/interface_query.hpp"
 #include "socketcan/stamp_clock.hpp"
 
-/// One CAN interface of a Linux kernel, `can0` or `vcan0`, as a raw socket that never blocks, opens itself again, and
-/// tells the supervisor what is wrong with the bus.
+/// One CAN interface of a Linux kernel, `can0` or `vcan0`, as a raw socket that never blocks, reopens itself, and
+/// reports to the supervisor what is wrong with the bus.
 ///
 ///     CanSocket socket(settings);
 ///     while (...) {
@@ -32,8 +32,8 @@ namespace millforce::socketcan {
 
 /// The worst that is known. Each names what leads out of it.
 enum class LinkState : std::uint8_t {
-    absent,         ///< no such interface, or a kernel without CAN; opened again as soon as it is there
-    down,           ///< the interface is there and not up; left when somebody sets it up
+    absent,         ///< no such interface, or a kernel without CAN; opened as soon as it appears
+    down,           ///< the interface exists but is not up; left when it is set up
     error_active,   ///< frames flow
     error_warning,  ///< frames flow; left by an error frame that says so
     error_passive,  ///< the same
@@ -48,7 +48,7 @@ struct LinkHealth {
     std::uint32_t received = 0;    ///< frames handed over
     std::uint32_t sent = 0;
     std::uint32_t send_failures = 0;  ///< frames not sent, whatever the reason
-    std::uint32_t overruns = 0;       ///< frames that the kernel dropped because nobody fetched them (SO_RXQ_OVFL)
+    std::uint32_t overruns = 0;  ///< frames that the kernel dropped because they were not fetched in time (SO_RXQ_OVFL)
     std::uint32_t controller_overflows = 0;
     std::uint32_t fd_frames = 0;
     std::uint32_t error_frames = 0;
@@ -93,9 +93,9 @@ class CanSocket {
     [[nodiscard]] bool receive(hal::CanFrame& frame, std::uint64_t& time_us);
     /// False: not sent, see health().
     bool send(const hal::CanFrame& frame);
-    /// Added to a frame's time_us it gives µs since 1970, as candump tells them.
+    /// Added to a frame's time_us it gives µs since 1970, as candump prints them.
     [[nodiscard]] std::int64_t unix_offset_us() { return clock_.unix_offset_us(); }
-    /// Until a frame is there, or the time is over; the time alone while the interface is absent.
+    /// Until a frame arrives or the time is over; while the interface is absent, until the time is over.
     void wait(std::uint64_t timeout_us) const;
 
     [[nodiscard]] const LinkHealth& health() const { return health_; }

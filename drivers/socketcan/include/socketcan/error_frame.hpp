@@ -23,7 +23,7 @@ struct ErrorReport {
     bool restarted = false;         ///< after bus-off
     bool receive_overflow = false;  ///< the controller lost frames
     bool transmit_overflow = false;
-    bool not_acknowledged = false;  ///< nobody else is on the bus
+    bool not_acknowledged = false;  ///< no other node is on the bus
     bool transmit_timeout = false;
     bool arbitration_lost = false;
     bool protocol_violation = false;  ///< bit, stuff, form or CRC error

@@ -8,8 +8,8 @@
 
 namespace millforce::socketcan {
 
-/// What the kernel knows of a CAN interface, by rtnetlink. The interface flags would not do: they follow a lost carrier
-/// by up to a second.
+/// What the kernel knows about a CAN interface, by rtnetlink. The interface flags are not enough: they follow a lost
+/// carrier with a delay of up to a second.
 struct InterfaceReport {
     bool answered = false;  ///< else nothing of this is known
     bool found = false;

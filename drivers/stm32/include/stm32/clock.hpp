@@ -49,7 +49,7 @@ class Clock {
     ClockState state_ = ClockState::crystal_starting;
 };
 
-/// Reads the flags and clears them, so that the next start tells its own cause. RM0090 7.3.21
+/// Reads the flags and clears them, so that the next start reports its own cause. RM0090 7.3.21
 hal::ResetCause take_reset_cause(RccRegisters& rcc);
 
 /// Watches the supply: the comparator at 2.9 V, the highest level. RM0090 5.4

@@ -7,7 +7,7 @@
 
 #include "stm32/registers.hpp"
 
-/// Two sectors of the chip's own flash as the two slots of a parameter store. RM0090 3.6
+/// Two sectors of the chip's flash as the two slots of a parameter store. RM0090 3.6
 
 namespace millforce::stm32 {
 
@@ -17,16 +17,16 @@ struct FlashSlot {
     std::span<volatile std::uint32_t> words{};
 };
 
-/// Erasing a sector takes 0.25…2 s, writing a word 16 µs, and the processor stands still meanwhile, since its program
-/// lies in the same flash: only with the feed held, and with a watchdog that is not running. `Wait` is called while the
-/// flash is busy, once at least per erase or word, and returns false to give up.
+/// Erasing a sector takes 0.25…2 s, writing a word 16 µs, and the processor stalls meanwhile, because its program is in
+/// the same flash. Use it only with the feed held and the watchdog not running. `Wait` is called while the flash is
+/// busy, once at least per erase or word, and returns false to give up.
 template <typename Wait>
 class ParameterFlash {
   public:
     ParameterFlash(FlashRegisters& registers, const FlashSlot& first, const FlashSlot& second, Wait wait)
         : registers_(registers), slots_{first, second}, wait_(wait) {}
 
-    /// False where the flash tells an error, or wait gave up. The slot may be half erased then.
+    /// False if the flash reports an error, or wait gave up. The slot may then be half erased.
     bool erase(unsigned slot) {
         constexpr std::uint32_t sector_erase = 1U << 1U;
         constexpr std::uint32_t start = 1U << 16U;
@@ -101,7 +101,7 @@ class ParameterFlash {
         return (registers_.sr & errors) == 0;
     }
 
-    /// What the cache still holds of the old contents.
+    /// The old contents may still be in the cache.
     void flush_data_cache() {
         constexpr std::uint32_t data_cache = 1U << 10U;
         constexpr std::uint32_t data_cache_reset = 1U << 12U;

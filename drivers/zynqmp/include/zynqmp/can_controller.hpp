@@ -48,8 +48,8 @@ struct CanHealth {
 };
 
 /// Frames with 11 and 29 bits, data and remote, over a queue of 64 each way, in the order of send(). All frames pass:
-/// four filters are too few for a bus with drives. A controller does not hear its own frames. Nothing waits: poll() at
-/// each round, then receive() until it says no. No interrupt, no heap. One thread.
+/// four filters are too few for a bus with drives. A controller does not hear its own frames. Nothing waits: call
+/// poll() in each round, then receive() until it returns false. No interrupt, no heap. One thread.
 class CanController {
   public:
     explicit CanController(CanRegisters& registers) : registers_(registers) {}

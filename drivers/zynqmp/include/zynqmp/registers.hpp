@@ -32,8 +32,8 @@ struct WatchdogRegisters {
     Register mode, control, restart, status;
 };
 
-/// UG1087, module PMU_GLOBAL from ERROR_STATUS_1 on: what an error of the system ends in. Ones set their bits in the
-/// enable registers, and in disable registers beside them they clear them; ERROR_EN_1 is read and written.
+/// UG1087, module PMU_GLOBAL from ERROR_STATUS_1 on: what a system error leads to. Writing a one sets the bit in an
+/// enable register; in its disable register a one clears it; ERROR_EN_1 is read and written.
 struct ErrorRegisters {
     Register status_1;
     Register reserved_534[14];

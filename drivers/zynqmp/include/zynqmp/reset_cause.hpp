@@ -6,8 +6,8 @@
 
 namespace millforce::zynqmp {
 
-/// Reads RESET_REASON and clears it, so that the next start tells its own cause. A system reset by the error logic
-/// counts as the watchdog's: which error it was the register does not tell. A power-on reset by the error logic is
+/// Reads RESET_REASON and clears it, so that the next start reports its own cause. A system reset by the error logic
+/// counts as the watchdog's: the register does not say which error it was. A power-on reset by the error logic is
 /// `unknown`. UG1087 module CRL_APB
 hal::ResetCause take_reset_cause(Register& reset_reason);
 

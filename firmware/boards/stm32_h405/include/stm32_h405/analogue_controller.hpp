@@ -20,22 +20,23 @@
 
 /// The controller on one chip: currents and encoders in, the override out on CAN. No interrupt: poll() in a loop.
 ///
-/// What ends where:
+/// What each event leads to:
 ///
 /// | what happens | override | on the bus |
 /// |---|---|---|
 /// | start | hold until the first tick | boot-up, EMCY with the reset's cause |
 /// | no parameters, or refused | hold, fault `bad_configuration` | EMCY 0x6300 with the reason |
-/// | a current or an encoder is missing or implausible | not raised; after the CNC's `stale_s` hold, fault
-/// `stale_input` | EMCY 0x5000, the frame's fault | | supply below 2.9 V | hold at once; its samples are not used |
-/// EMCY 0x3200 | | fault of the tick | hold | the frame's fault, EMCY 0xFF00 | | CNC falls silent | the tick holds the
-/// feed | the frame's hold bit | | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when it is back
-/// | | fault of the processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice |
+/// | an input is missing or implausible | not raised; after `stale_s` hold, fault `stale_input` | EMCY 0x5000, fault |
+/// | supply below 2.9 V | hold at once; its samples are not used | EMCY 0x3200 |
+/// | fault of the tick | hold | the frame's fault, EMCY 0xFF00 |
+/// | CNC falls silent | the tick holds the feed | the frame's hold bit |
+/// | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when the bus is back |
+/// | fault of the processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice |
 /// | a tick that hangs, or answers nonsense | silence, then the watchdog's reset | EMCY 0x6010 after it |
 /// | supply fails | silence, reset by the brown-out circuit | EMCY 0x3200 after it |
 ///
-/// A tick is healthy where its heartbeat went on by one and its ratio is within the limits; nothing else feeds the
-/// watchdog. That an input is missing is no reason for a reset, which would not bring it back.
+/// A tick is healthy if its heartbeat went on by one and its ratio is within the limits; nothing else feeds the
+/// watchdog. A missing input is no reason for a reset, which would not bring it back.
 ///
 /// No heap. One thread. RAM: sizeof.
 
