@@ -54,7 +54,7 @@ std::string table_of_the_cut() {
     std::string table = header;
     constexpr int interval = 10;
     for (int sample = 0; sample < instructions::fast_widening_cut.samples(); ++sample) {
-        tick.step(instructions::sample_of(sample, parameters), instructions::program_at(sample));
+        firmware::step_and_work(tick, instructions::sample_of(sample, parameters), instructions::program_at(sample));
         if (sample % interval == 0) {
             table += row_of(sample, tick);
         }

@@ -113,4 +113,13 @@ void finish_work(Worker& worker) {
     }
 }
 
+/// A step and all its work, where nobody waits for the override in between: in a simulation and in tests.
+template <typename Scalar, typename WideBand>
+hal::FeedOverride step_and_work(ForceControlTick<Scalar, WideBand>& tick, const hal::DriveSample& sample,
+                                const hal::ProgramStatus& program) {
+    const hal::FeedOverride output = tick.step(sample, program);
+    finish_work(tick);
+    return output;
+}
+
 }  // namespace millforce::firmware
