@@ -30,7 +30,7 @@ char* next_word(char* text) {
 }
 
 [[gnu::noipa]] hal::FeedOverride counted_step(Tick& tick, const lock_step::Request& request) {
-    return tick.step(request.sample, request.program);
+    return firmware::step_and_work(tick, request.sample, request.program);
 }
 
 void serve(target::HostFile& requests, target::HostFile& answers) {
