@@ -72,7 +72,7 @@ TickCost tick_cost(const Scenario& scenario, const std::vector<host::RecordedSte
     for (const host::RecordedStep& recorded : recording) {
         const float before_s = static_cast<float>(tick.estimator().since_period_s());
         const std::uint64_t start = read();
-        tick.step(recorded.sample, recorded.program);
+        firmware::step_and_work(tick, recorded.sample, recorded.program);
         const std::uint64_t cost = read() - start;
         sum += cost;
         const bool new_period = static_cast<float>(tick.estimator().since_period_s()) < before_s;
@@ -134,7 +134,7 @@ int bench(const std::string& path) {
     } else {
         fmt::print(
             "instructions          not counted: this kernel gives no hardware counters; "
-            "tests/run counts them with valgrind\n");
+            "toolchains/target-figures counts those of emulated processors\n");
     }
     fmt::print("\nRAM of the tick: {} bytes\n", sizeof(firmware::ForceControlTick<float>));
     print_target_figures();

@@ -27,11 +27,7 @@ double value_or_none(const estimation::Measurement<Scalar>& measurement) {
 
 template <typename Scalar>
 hal::FeedOverride TickController<Scalar>::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    const hal::FeedOverride output = tick_.step(sample, program);
-    if (tick_.work_due()) {
-        tick_.work();
-    }
-    return output;
+    return firmware::step_and_work(tick_, sample, program);
 }
 
 template <typename Scalar>

@@ -6,7 +6,7 @@
 #include "cutting/revolution_load.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
-#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/engagement/engagement_solver_impl.hpp"
 
 #include <fmt/format.h>
 

@@ -94,6 +94,7 @@ class Controller {
         while (sender_.take_frame(frame)) {
             overrides += machine.socket.send(frame) && frame.id == override_frame::default_id ? 1U : 0U;
         }
+        firmware::finish_work(tick_);
     }
 
     override_frame::OverrideSender sender_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/engagement/engagement_solver_impl.hpp"
 
 #include "laws.hpp"
 

@@ -105,14 +105,3 @@ TEST(ForceMemory, starts_anew_from_what_is_no_number) {
     const Forces sound = blended(memory, forces_of(400.0F));
     DOUBLES_EQUAL(-400.0, static_cast<double>(sound.x_N.value), 1e-3);
 }
-
-TEST(ForceMemory, holds_a_tangential_force_within_three_deviations_of_two_revolutions) {
-    const auto off_by = [](float deviations) {
-        Measurement<float> force = forces_of(400.0F).tangential_N;
-        force.value += deviations * sd_N * std::sqrt(1.5F);
-        return force;
-    };
-    CHECK(with_revolutions(2).holds(off_by(2.9F)));
-    CHECK_FALSE(with_revolutions(2).holds(off_by(3.1F)));
-    CHECK_FALSE(with_revolutions(1).holds(off_by(0.0F)));
-}

@@ -5,9 +5,11 @@
 #include <cstdlib>
 #include <random>
 
+#include "estimation/cut_estimator_impl.hpp"
 #include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
-#include "firmware/tick.hpp"
+#include "firmware/tick_impl.hpp"
+#include "firmware/wide_band_monitor_impl.hpp"
 #include "instructions/synthetic_cut.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -234,8 +236,8 @@ void mill(Draw& draw, int points, Agreement& agreement) {
         const float feed_mm_s = override_ratio * shop.programmed_feed_mm_s;
         const hal::DriveSample sample = sample_of(shop, cut, feed_mm_s, clock, draw);
         const float before_s = in_float.estimator().since_period_s();
-        const hal::FeedOverride a = in_float.step(sample, program);
-        const hal::FeedOverride b = in_fixed.step(sample, program);
+        const hal::FeedOverride a = firmware::step_and_work(in_float, sample, program);
+        const hal::FeedOverride b = firmware::step_and_work(in_fixed, sample, program);
         ++agreement.samples;
         agreement.other_state += a.state != b.state || a.fault != b.fault ? 1 : 0;
         override_ratio = a.ratio;

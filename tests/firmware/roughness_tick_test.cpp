@@ -11,6 +11,7 @@ namespace hal = millforce::hal;
 using millforce::control::Limit;
 using millforce::estimation::RoughnessModel;
 using millforce::firmware::ForceControlTick;
+using millforce::firmware::step_and_work;
 using Parameters = millforce::firmware::Parameters<float>;
 
 namespace {
@@ -82,7 +83,7 @@ hal::ProgramStatus program() {
 
 void cut(ForceControlTick<float>& tick, const Parameters& p, int from = 0, float z_velocity_mm_s = z_mm_s) {
     for (int k = from; k < from + 800; ++k) {
-        tick.step(sample_of(k, p, z_velocity_mm_s), program());
+        step_and_work(tick, sample_of(k, p, z_velocity_mm_s), program());
     }
 }
 
@@ -111,7 +112,7 @@ TEST(RoughnessTick, predicts_R_a_with_its_interval_from_the_drives_currents) {
     const Parameters p = parameters_with(model());
     ForceControlTick<float> tick = fresh_tick();
     for (int k = 0; k < 200; ++k) {
-        tick.step(sample_of(k, p), program());
+        step_and_work(tick, sample_of(k, p), program());
         CHECK_FALSE(tick.roughness().valid);  // in air there is no ratio of forces
     }
     cut(tick, p, 200);
@@ -197,7 +198,7 @@ TEST(RoughnessTick, keeps_the_upper_bound_below_its_limit_in_a_loop_whose_surfac
         for (float& velocity : sample.axis_velocity_mm_s) {
             velocity *= speed_share;
         }
-        speed_share += 0.05F * (tick.step(sample, program()).ratio - speed_share);
+        speed_share += 0.05F * (step_and_work(tick, sample, program()).ratio - speed_share);
         const bool is_settled = (k > 2000 && k < 3000) || k > 3500;
         if (is_settled) {
             CHECK(tick.roughness().is_sure());
@@ -228,8 +229,8 @@ TEST(RoughnessTick, gives_a_sound_ratio_and_no_rise_for_the_roughness_sake_whate
         sample.axis_current_A[2] = anything(sample.axis_current_A[2]);
         sample.axis_current_A[0] = anything(sample.axis_current_A[0]);
         sample.axis_velocity_mm_s[2] = anything(sample.axis_velocity_mm_s[2]);
-        const float ratio = limited.step(sample, program()).ratio;
-        CHECK(ratio >= 0.1F && ratio <= free.step(sample, program()).ratio + 1e-6F);
+        const float ratio = step_and_work(limited, sample, program()).ratio;
+        CHECK(ratio >= 0.1F && ratio <= step_and_work(free, sample, program()).ratio + 1e-6F);
         if (limited.roughness().valid) {
             CHECK(limited.roughness().roughness_um > 0.0F && std::isfinite(limited.roughness().roughness_um));
         }

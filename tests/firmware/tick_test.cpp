@@ -13,6 +13,7 @@ namespace hal = millforce::hal;
 using millforce::control::CutState;
 using millforce::control::Fault;
 using millforce::firmware::ForceControlTick;
+using millforce::firmware::step_and_work;
 using Parameters = millforce::firmware::Parameters<float>;
 
 namespace {
@@ -59,11 +60,6 @@ hal::ProgramStatus program() {
     hal::ProgramStatus status;
     status.programmed_feed_mm_s = feed_mm_s;
     return status;
-}
-
-Parameters in_small_portions(Parameters parameters, float values_per_tick) {
-    parameters.machine.cnc.solver_values_per_tick = values_per_tick;
-    return parameters;
 }
 
 /// So well known that one solution is like the next.
@@ -125,11 +121,11 @@ TEST_GROUP(Tick){};
 TEST(Tick, finds_the_cut_in_the_drives_signals) {
     ForceControlTick<float> tick = fresh_tick();
     for (int k = 0; k < 200; ++k) {
-        CHECK(tick.step(sample_of(k), program()).state == static_cast<std::uint8_t>(CutState::air));
+        CHECK(step_and_work(tick, sample_of(k), program()).state == static_cast<std::uint8_t>(CutState::air));
     }
     double sum_N = 0.0;
     for (int k = 200; k < 800; ++k) {
-        tick.step(sample_of(k), program());
+        step_and_work(tick, sample_of(k), program());
         sum_N += k >= 500 ? static_cast<double>(tick.estimate().tangential_N.value) : 0.0;
     }
     CHECK(tick.control().state == CutState::in_cut);
@@ -140,7 +136,7 @@ TEST(Tick, finds_the_cut_in_the_drives_signals) {
 TEST(Tick, does_not_learn_a_light_cut_as_idle_torque_though_it_begins_with_the_spindle) {
     ForceControlTick<float> tick = fresh_tick_with_fine_encoder();
     for (int k = 0; k < 3000; ++k) {
-        tick.step(sample_under(0.3F, k, feed_mm_s), program());
+        step_and_work(tick, sample_under(0.3F, k, feed_mm_s), program());
     }
     DOUBLES_EQUAL(60.0, static_cast<double>(tick.estimate().tangential_N.value), 3.0);
 }
@@ -151,11 +147,11 @@ TEST(Tick, learns_the_idle_torque_while_the_axes_rest_or_in_a_rapid_and_not_in_t
         hal::ProgramStatus before_the_cut = program();
         before_the_cut.rapid = is_rapid;
         for (int k = 0; k < 200; ++k) {
-            tick.step(sample_under(0.25F, k, is_rapid ? 200.0F : 0.0F), before_the_cut);
+            step_and_work(tick, sample_under(0.25F, k, is_rapid ? 200.0F : 0.0F), before_the_cut);
         }
         DOUBLES_EQUAL(0.0, static_cast<double>(tick.estimate().tangential_N.value), 5.0);
         for (int k = 200; k < 3000; ++k) {
-            tick.step(sample_under(0.25F + 0.3F, k, feed_mm_s), program());
+            step_and_work(tick, sample_under(0.25F + 0.3F, k, feed_mm_s), program());
         }
         DOUBLES_EQUAL(60.0, static_cast<double>(tick.estimate().tangential_N.value), 6.0);
     }
@@ -169,136 +165,73 @@ TEST(Tick, does_not_take_the_first_index_pulse_for_a_force) {
             const bool has_passed = sample.spindle_count >= index_count;
             sample.spindle_index_count = has_passed ? index_count : 0;
             sample.spindle_index_number = has_passed ? 1 : 0;
-            tick.step(sample, program());
+            step_and_work(tick, sample, program());
             CHECK(tick.control().state == CutState::air);
             DOUBLES_EQUAL(0.0, static_cast<double>(tick.estimate().tangential_N.value), 3.0);
         }
     }
 }
 
-TEST(Tick, in_small_portions_finds_the_same_cut_even_where_teeth_pass_faster_than_portions) {
-    for (const float teeth : {4.0F, 12.0F}) {  // a tooth in 3.75 and in 1.25 ticks
-        Parameters one_piece = well_known_machine();
-        one_piece.tool.teeth = teeth;
-        const Parameters small = in_small_portions(one_piece, 6.0F);
-        ForceControlTick<float> at_once(one_piece);
-        ForceControlTick<float> in_portions(small);
+TEST(Tick, estimates_in_its_work_and_answers_with_the_next_step) {
+    ForceControlTick<float> tick = fresh_tick();
+    for (int k = 0; k < 500; ++k) {
+        step_and_work(tick, sample_of(k), program());
+    }
+    const float before_N = tick.estimate().tangential_N.value;
+    for (int k = 500; !tick.work_due(); ++k) {  // until a tooth period ends
+        tick.step(sample_of(k), program());
+    }
+    CHECK(tick.estimate().tangential_N.value == before_N);
+    millforce::firmware::finish_work(tick);
+    CHECK(tick.estimate().tangential_N.value != before_N);
+    CHECK_FALSE(tick.work_due());
+}
+
+TEST(Tick, finds_the_same_cut_one_slice_a_step_even_where_teeth_pass_faster_than_slices) {
+    for (const float teeth : {4.0F, 12.0F}) {  // a tooth in 3.75 and in 1.25 steps
+        Parameters parameters = well_known_machine();
+        parameters.tool.teeth = teeth;
+        ForceControlTick<float> at_once(parameters);
+        ForceControlTick<float> in_slices(parameters);
         constexpr int settled = 1200;
         constexpr int compared = 300;  // 20 revolutions: the encoder's grain shows in a single one
         double immersion_more = 0.0;
         double at_once_N = 0.0;
-        double in_portions_N = 0.0;
+        double in_slices_N = 0.0;
         for (int k = 0; k < settled + compared; ++k) {
-            at_once.step(sample_of(k), program());
-            in_portions.step(sample_of(k), program());
+            step_and_work(at_once, sample_of(k), program());
+            in_slices.step(sample_of(k), program());
+            in_slices.work();
             if (k >= settled) {
                 const auto& a = at_once.estimate();
-                const auto& b = in_portions.estimate();
+                const auto& b = in_slices.estimate();
                 CHECK(a.engagement.immersion_valid && b.engagement.immersion_valid);
                 immersion_more += static_cast<double>(b.engagement.radial_immersion - a.engagement.radial_immersion);
                 at_once_N += static_cast<double>(a.tooth_force_N.value);
-                in_portions_N += static_cast<double>(b.tooth_force_N.value);
+                in_slices_N += static_cast<double>(b.tooth_force_N.value);
             }
         }
-        CHECK(in_portions.control().state == CutState::in_cut);
-        DOUBLES_EQUAL(0.0, immersion_more / compared, 0.02);  // in portions a fiftieth of a force asks nothing new
-        DOUBLES_EQUAL(1.0, in_portions_N / at_once_N, 0.03);
+        CHECK(in_slices.control().state == CutState::in_cut);
+        DOUBLES_EQUAL(0.0, immersion_more / compared, 0.01);
+        DOUBLES_EQUAL(1.0, in_slices_N / at_once_N, 0.02);
     }
 }
 
-TEST(Tick, in_small_portions_solves_even_where_the_law_runs_in_every_tick) {
-    ForceControlTick<float> tick(in_small_portions(well_known_machine(), 1.0F));
-    hal::ProgramStatus restless = program();
-    for (int k = 0; k < 600; ++k) {
-        restless.operator_override = k % 2 == 0 ? 1.0F : 0.99F;
-        tick.step(sample_of(k), restless);
+TEST(Tick, finds_the_same_cut_again_after_a_gap_in_the_samples_with_work_left) {
+    ForceControlTick<float> tick = fresh_tick();
+    for (int k = 0; k < 900; ++k) {
+        step_and_work(tick, sample_of(k), program());
     }
     CHECK(tick.estimate().engagement.immersion_valid);
-}
-
-TEST(Tick, in_small_portions_learns_as_much_in_air) {
-    const Parameters small = in_small_portions(machine_and_tool(), 6.0F);
-    ForceControlTick<float> at_once(machine_and_tool());
-    ForceControlTick<float> in_portions(small);
-    hal::ProgramStatus rapid = program();
-    rapid.rapid = true;
-    for (int k = 0; k < 600; ++k) {
-        at_once.step(sample_of(k), k < 200 ? rapid : program());
-        in_portions.step(sample_of(k), k < 200 ? rapid : program());
-    }
-    const auto& a = at_once.estimate().engagement;
-    const auto& b = in_portions.estimate().engagement;
-    CHECK(a.depth_valid && b.depth_valid);
-    DOUBLES_EQUAL(1.0, static_cast<double>(b.radial_immersion_sd / a.radial_immersion_sd), 0.25);
-}
-
-TEST(Tick, in_small_portions_shows_whole_estimates_and_counts_every_tooth_period) {
-    const Parameters small = in_small_portions(machine_and_tool(), 1.0F);
-    ForceControlTick<float> tick(small);
-    for (int k = 0; k < 700; ++k) {
+    for (int k = 900; !tick.work_due(); ++k) {
         tick.step(sample_of(k), program());
     }
-    int tooth_periods = 0;
-    int first = 0;
-    int last = 0;
-    const float* last_shown = &tick.estimate().window_s;
-    for (int k = 700; k < 1450; ++k) {  // 50 revolutions
-        tick.step(sample_of(k), program());
-        const auto& e = tick.estimate();
-        CHECK(e.tangential_N.valid && e.x_N.valid && e.tooth_force_N.valid && e.engagement.immersion_valid);
-        const bool is_new = &e.window_s != last_shown;
-        last_shown = &e.window_s;
-        if (!is_new || e.tooth_periods == 0) {  // nothing, or the engagement alone
-            continue;
-        }
-        tooth_periods += first > 0 ? e.tooth_periods : 0;
-        first = first > 0 ? first : k;
-        last = k;
-        DOUBLES_EQUAL((last - first) / 3.75, tooth_periods, 2.0);  // of which one or two wait to be shown
-    }
-    constexpr int longest_wait = 50 + 2 * 4;  // ticks, and two teeth
-    CHECK(first < 700 + longest_wait && last >= 1450 - longest_wait);
-}
-
-TEST(Tick, in_small_portions_looks_seldom_at_a_cut_that_stays) {
-    ForceControlTick<float> tick(in_small_portions(well_known_machine(), 6.0F));
-    int shown = 0;  // in the last 300 ticks
-    for (int k = 0; k < 1200; ++k) {
-        const float* before = &tick.estimate().window_s;
-        tick.step(sample_of(k), program());
-        shown += k >= 900 && &tick.estimate().window_s != before ? 1 : 0;
-    }
-    CHECK(tick.control().state == CutState::in_cut);
-    CHECK(shown >= 5 && shown <= 7);  // 300 ms by 50 ms: a revolution is 15
-}
-
-TEST(Tick, in_small_portions_looks_at_once_at_a_tooth_that_takes_more) {
-    ForceControlTick<float> tick(in_small_portions(well_known_machine(), 6.0F));
-    for (int k = 0; k < 900; ++k) {
-        tick.step(sample_of(k), program());
-    }
-    const float before_N = tick.estimate().tooth_tangential_N.value;
-    int ticks = 0;
-    while (!(tick.estimate().tooth_tangential_N.value > 1.2F * before_N) && ticks < 100) {
-        hal::DriveSample heavier = sample_of(900 + ticks);
-        heavier.spindle_current_A *= 1.5F;
-        tick.step(heavier, program());
-        ++ticks;
-    }
-    CHECK(ticks <= 12);  // two teeth, and the portions of an estimate
-}
-
-TEST(Tick, in_small_portions_finds_the_same_cut_again_after_a_gap_in_the_samples) {
-    const Parameters small = in_small_portions(machine_and_tool(), 6.0F);
-    ForceControlTick<float> tick(small);
-    for (int k = 0; k < 900; ++k) {
-        tick.step(sample_of(k), program());
-    }
-    CHECK(tick.estimate().engagement.immersion_valid);
+    tick.work();
     tick.step_without_sample(0.001F, 0.001F, program());
+    CHECK_FALSE(tick.work_due());
     CHECK_FALSE(tick.estimate().engagement.immersion_valid);
-    for (int k = 901; k < 1100; ++k) {
-        tick.step(sample_of(k), program());
+    for (int k = 910; k < 1100; ++k) {
+        step_and_work(tick, sample_of(k), program());
     }
     CHECK(tick.estimate().engagement.immersion_valid);
 }
@@ -308,8 +241,8 @@ TEST(Tick, counts_its_heartbeat_up_by_one_with_and_without_a_sample) {
     std::uint32_t expected = 0;
     for (int k = 0; k < 300; ++k) {
         const bool with_sample = k % 7 != 0;
-        const auto output =
-            with_sample ? tick.step(sample_of(k), program()) : tick.step_without_sample(0.001F, 0.001F, program());
+        const auto output = with_sample ? step_and_work(tick, sample_of(k), program())
+                                        : tick.step_without_sample(0.001F, 0.001F, program());
         LONGS_EQUAL(++expected, output.heartbeat);
     }
 }
@@ -317,7 +250,7 @@ TEST(Tick, counts_its_heartbeat_up_by_one_with_and_without_a_sample) {
 TEST(Tick, holds_the_feed_and_latches_a_fault_once_samples_are_stale) {
     ForceControlTick<float> tick = fresh_tick();
     for (int k = 0; k < 600; ++k) {
-        tick.step(sample_of(k), program());
+        step_and_work(tick, sample_of(k), program());
     }
     hal::FeedOverride output;
     for (int k = 1; k <= 49; ++k) {
@@ -328,12 +261,12 @@ TEST(Tick, holds_the_feed_and_latches_a_fault_once_samples_are_stale) {
     CHECK(output.hold);
     LONGS_EQUAL(static_cast<int>(Fault::stale_input), output.fault);
     for (int k = 700; k < 900; ++k) {
-        output = tick.step(sample_of(k), program());
+        output = step_and_work(tick, sample_of(k), program());
     }
     CHECK(output.hold);
     DOUBLES_EQUAL(0.1, static_cast<double>(output.ratio), 1e-6);
     tick.reset_fault();
-    output = tick.step(sample_of(900), program());
+    output = step_and_work(tick, sample_of(900), program());
     CHECK_FALSE(output.hold);
     LONGS_EQUAL(0, output.fault);
 }
@@ -341,7 +274,7 @@ TEST(Tick, holds_the_feed_and_latches_a_fault_once_samples_are_stale) {
 TEST(Tick, does_not_raise_the_feed_while_samples_are_missing) {
     ForceControlTick<float> tick = fresh_tick();
     for (int k = 0; k < 600; ++k) {
-        tick.step(sample_of(k), program());
+        step_and_work(tick, sample_of(k), program());
     }
     float before = tick.control().ratio;
     for (int k = 1; k < 50; ++k) {
@@ -367,9 +300,9 @@ TEST(Tick, takes_what_is_not_finite_for_what_is_not_present) {
                                             : spoilt.axis_velocity_mm_s[axis];
                 value = k % 3 == 0 ? not_a_number : k % 3 == 1 ? std::numeric_limits<float>::infinity() : -INFINITY;
             }
-            const auto output = with_nan.step(spoilt, program());
+            const auto output = step_and_work(with_nan, spoilt, program());
             CHECK(is_sound(output));
-            CHECK(are_equal(output, without.step(missing, program())));
+            CHECK(are_equal(output, step_and_work(without, missing, program())));
         }
     }
 }
@@ -377,14 +310,14 @@ TEST(Tick, takes_what_is_not_finite_for_what_is_not_present) {
 TEST(Tick, without_the_spindles_current_has_no_force_and_does_not_raise_the_feed_in_cut) {
     ForceControlTick<float> tick = fresh_tick();
     for (int k = 0; k < 600; ++k) {
-        tick.step(sample_of(k), program());
+        step_and_work(tick, sample_of(k), program());
     }
     CHECK(tick.control().state == CutState::in_cut);
     float before = tick.control().ratio;
     for (int k = 600; k < 1500; ++k) {
         hal::DriveSample sample = sample_of(k);
         sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(hal::Present::spindle_current));
-        const auto output = tick.step(sample, program());
+        const auto output = step_and_work(tick, sample, program());
         if (k > 700) {
             CHECK_FALSE(tick.estimate().tangential_N.valid);
             CHECK(output.ratio <= before);
@@ -401,7 +334,7 @@ TEST(Tick, without_the_spindles_encoder_has_no_estimate_and_does_not_raise_the_f
     for (int k = 0; k < 500; ++k) {
         hal::DriveSample sample = sample_of(k);
         sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(hal::Present::spindle_count));
-        const auto output = tick.step(sample, program());
+        const auto output = step_and_work(tick, sample, program());
         CHECK_FALSE(tick.estimate().tangential_N.valid);
         CHECK(output.ratio <= before);
         before = output.ratio;
@@ -412,8 +345,8 @@ TEST(Tick, is_not_touched_by_the_wrap_of_the_time) {
     ForceControlTick<float> plain = fresh_tick();
     ForceControlTick<float> wrapping = fresh_tick();
     for (int k = 0; k < 900; ++k) {
-        const auto output = plain.step(sample_of(k), program());
-        CHECK(are_equal(output, wrapping.step(sample_of(k, 0xFFFFFFFFU - 450123U), program())));
+        const auto output = step_and_work(plain, sample_of(k), program());
+        CHECK(are_equal(output, step_and_work(wrapping, sample_of(k, 0xFFFFFFFFU - 450123U), program())));
     }
     CHECK(wrapping.control().state == CutState::in_cut);
 }
@@ -424,8 +357,8 @@ TEST(Tick, is_not_touched_by_the_wrap_of_the_encoder_count) {
     for (int k = 0; k < 900; ++k) {
         hal::DriveSample wrapped = sample_of(k);
         wrapped.spindle_count -= 4096U * 30U;
-        const auto output = plain.step(sample_of(k), program());
-        CHECK(are_equal(output, wrapping.step(wrapped, program())));
+        const auto output = step_and_work(plain, sample_of(k), program());
+        CHECK(are_equal(output, step_and_work(wrapping, wrapped, program())));
     }
 }
 
@@ -451,7 +384,7 @@ TEST(Tick, gives_a_sound_ratio_whatever_the_sample_and_the_program_say) {
         status.programmed_feed_mm_s = anything(feed_mm_s);
         status.operator_override = anything(1.0F);
         status.rapid = engine() % 20U == 0U;
-        CHECK(is_sound(tick.step(sample, status)));
+        CHECK(is_sound(step_and_work(tick, sample, status)));
         if (engine() % 50U == 0U) {
             tick.reset_fault();
         }

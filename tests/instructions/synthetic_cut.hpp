@@ -9,9 +9,9 @@
 #include "hal/drive_sample.hpp"
 #include "machine_and_tool.hpp"
 
-/// The cuts whose ticks are counted on every processor: down milling in steel along +x after some revolutions of air,
-/// with the tooth's ripple on the currents. Everything is worked out in float, so that the samples are the same bits
-/// everywhere.
+/// The cut whose ticks are counted, and whose estimates are compared between processors: down milling in steel along +x
+/// after some revolutions of air, with the tooth's ripple on the currents. Everything is worked out in float, so that
+/// the samples are the same bits everywhere.
 
 namespace millforce::instructions {
 
@@ -28,7 +28,6 @@ inline constexpr int counted_samples = 300;
 using bench::machine_and_tool;
 
 struct Cut {
-    const char* name;
     float spindle_speed_rad_s;
     float feed_mm_s;  // 0.075 mm per tooth
     bool widens;      // from start to end, so that no revolution is like the one before
@@ -37,11 +36,7 @@ struct Cut {
 
     [[nodiscard]] constexpr int samples() const { return air_samples + settling_samples + counted_samples; }
 };
-inline constexpr Cut slow_cut{"slow", 131.947F, 6.3F, false, 320, 320};  // 1260 rpm, as Kim & Chung's
-inline constexpr Cut fast_cut{"fast", 418.879F, 20.0F, false};           // 4000 rpm: 15 ticks a revolution
-inline constexpr Cut slow_widening_cut{"slow_widening", 131.947F, 6.3F, true, 320, 320};
-inline constexpr Cut fast_widening_cut{"fast_widening", 418.879F, 20.0F, true};
-inline constexpr Cut cuts[] = {slow_cut, fast_cut, slow_widening_cut, fast_widening_cut};
+inline constexpr Cut fast_widening_cut{418.879F, 20.0F, true};  // 4000 rpm: 15 samples a revolution
 
 /// Sample `index` of a cut, which begins after its `air_samples`.
 inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& parameters,

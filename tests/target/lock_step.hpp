@@ -30,7 +30,8 @@ struct Answer {
     std::uint32_t limit;
     std::uint32_t valid;  ///< bit 0 F_at, 1 F_ax, 2 immersion, 3 depth, 4 tooth force
     std::array<float, 8> value;
-    std::uint32_t instructions;  ///< of the step, where the other side counts them (instruction_counter.hpp)
+    std::uint32_t instructions;  ///< of the step and its longest slice, where the other side counts them
+                                 ///< (instruction_counter.hpp)
 };
 static_assert(sizeof(hal::FeedOverride) == 12 && sizeof(Answer) == 56);
 

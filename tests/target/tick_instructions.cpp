@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the instructions of each tick of the synthetic cuts, and the stack that they need: with the engagement solved
-// in portions and without the wide-band methods, as a small processor runs it. To be run with MILLFORCE_ICOUNT=1, see
-// instruction_counter.hpp. Prints one line per figure: SCALAR KIND FIGURE VALUE. Exit code 1: the estimator did not
-// find the cut.
+// Counts the instructions of the tick as a small processor has it, without the wide-band methods, and the stack that it
+// needs, in a cut of which each revolution is another one. The side of the tool is known, then it is not, which doubles
+// the solver's work. To be run with MILLFORCE_ICOUNT=1, see instruction_counter.hpp. Prints one line per figure:
+// SCALAR FIGURE VALUE. Exit code 1: the estimator did not find the cut.
 
+#include <algorithm>
 #include <cstdint>
 #include <new>
-#include <type_traits>
 
 #include "common/processor.hpp"
 #include "estimation/number/fixed_point.hpp"
@@ -21,96 +21,85 @@ namespace {
 using namespace millforce;
 using target::write_number;
 using target::write_text;
+using Scalar = MILLFORCE_SCALAR;
+using Tick = firmware::SmallTick<Scalar>;
 
-struct Count {
-    std::uint32_t steps = 0;
-    std::uint32_t sum = 0;
-    std::uint32_t worst = 0;
-    void add(std::uint32_t instructions) {
-        ++steps;
-        sum += instructions;
-        worst = instructions > worst ? instructions : worst;
-    }
+/// The most instructions of each.
+struct Worst {
+    std::uint32_t step = 0;
+    std::uint32_t slice = 0;
+    std::uint32_t estimate = 0;           ///< all slices of one
+    std::uint32_t step_and_estimate = 0;  ///< both between two samples
+    std::uint32_t stack_bytes = 0;
 };
 
-void print(const char* scalar, const char* kind, const char* figure, std::uint32_t value) {
-    for (const char* word : {scalar, " ", kind, " ", figure, " "}) {
+void print(const char* figure, std::uint32_t value) {
+    for (const char* word : {MILLFORCE_SCALAR_NAME, " ", figure, " "}) {
         write_text(word);
     }
     write_number(value);
     write_text("\n");
 }
 
-void print(const char* scalar, const char* kind, const Count& count) {
-    print(scalar, kind, "mean", (count.sum + count.steps / 2) / count.steps);
-    print(scalar, kind, "worst", count.worst);
-}
-
-template <typename Scalar>
-using Tick = firmware::SmallTick<Scalar>;
-
-/// Values of the solver in one tick: so many that its worst is about that of a tooth period's end. Without an FPU one,
-/// whichever the scalar: what is compared there does the same work.
-#ifdef __ARM_FP
-template <typename Scalar>
-constexpr float solver_values_per_tick = std::is_same_v<Scalar, float> ? 6.0F : 1.0F;
-#else
-template <typename Scalar>
-constexpr float solver_values_per_tick = 1.0F;
-#endif
-
-template <typename Scalar>
-[[gnu::noipa]] hal::FeedOverride counted_step(Tick<Scalar>& tick, const hal::DriveSample& sample,
+[[gnu::noipa]] hal::FeedOverride counted_step(Tick& tick, const hal::DriveSample& sample,
                                               const hal::ProgramStatus& program) {
     return tick.step(sample, program);
 }
 
-template <typename Scalar>
-bool count_steps(const char* name, const instructions::Cut& cut, std::uint32_t& stack) {
+[[gnu::noipa]] void counted_slice(Tick& tick) {
+    tick.work();
+}
+
+/// Instructions of a call, and its stack.
+template <typename Call>
+std::uint32_t count(const target::InstructionCounter& counter, Worst& worst, Call call) {
+    board::paint_stack();
+    const std::uint32_t untouched = board::untouched_stack_bytes();
+    const std::uint32_t start = counter.now();
+    call();
+    const std::uint32_t instructions = counter.since(start);
+    worst.stack_bytes = std::max(worst.stack_bytes, untouched - board::untouched_stack_bytes());
+    return instructions;
+}
+
+bool count_cut(estimation::CutSide side, Worst& worst) {
     const target::InstructionCounter counter;
+    const instructions::Cut& cut = instructions::fast_widening_cut;
     auto parameters = instructions::machine_and_tool();
-    parameters.machine.cnc.solver_values_per_tick = solver_values_per_tick<Scalar>;
-    alignas(Tick<Scalar>) static unsigned char memory[sizeof(Tick<Scalar>)];
-    Tick<Scalar>& tick = *new (memory) Tick<Scalar>(firmware::parameters_in<Scalar>(parameters));
-    Count all;
-    std::uint32_t estimates = 0;
-    std::uint32_t with_engagement = 0;
-    const int settled = cut.air_samples + cut.settling_samples;
+    parameters.tool.side = static_cast<float>(side);
+    alignas(Tick) static unsigned char memory[sizeof(Tick)];
+    Tick& tick = *new (memory) Tick(firmware::parameters_in<Scalar>(parameters));
     for (int index = 0; index < cut.samples(); ++index) {
         const hal::DriveSample sample = instructions::sample_of(index, parameters, cut);
         const hal::ProgramStatus program = instructions::program_at(index, cut);
-        const Scalar before_s = tick.estimator().since_period_s();
-        board::paint_stack();
-        const std::uint32_t untouched = board::untouched_stack_bytes();
-        const std::uint32_t start = counter.now();
-        counted_step(tick, sample, program);
-        const std::uint32_t instructions = counter.since(start);
-        const std::uint32_t used = untouched - board::untouched_stack_bytes();
-        stack = used > stack ? used : stack;
-        if (index < settled) {
-            continue;
+        const std::uint32_t step = count(counter, worst, [&] { counted_step(tick, sample, program); });
+        std::uint32_t estimate = 0;
+        while (tick.work_due()) {
+            const std::uint32_t slice = count(counter, worst, [&] { counted_slice(tick); });
+            worst.slice = std::max(worst.slice, slice);
+            estimate += slice;
         }
-        const bool is_new = tick.estimator().since_period_s() < before_s;
-        all.add(instructions);
-        const auto& estimate = tick.estimate();
-        estimates += is_new ? 1U : 0U;
-        // At the end of a tooth period the forces are new, and the engagement comes back with the peaks, a tick later.
-        const bool knows = estimate.engagement.immersion_valid && estimate.engagement.depth_valid;
-        with_engagement += !is_new && knows ? 1U : 0U;
+        worst.step = std::max(worst.step, step);
+        worst.estimate = std::max(worst.estimate, estimate);
+        worst.step_and_estimate = std::max(worst.step_and_estimate, step + estimate);
     }
-    print(name, cut.name, all);
-    return estimates > 0 && with_engagement >= estimates;
+    const auto& engagement = tick.estimate().engagement;
+    return engagement.immersion_valid && engagement.depth_valid;
 }
 
 }  // namespace
 
 void millforce::board::run_image() {
-    bool all_found = true;
-    std::uint32_t stack = 0;
-    for (const auto& cut : instructions::cuts) {
-        all_found = count_steps<MILLFORCE_SCALAR>(MILLFORCE_SCALAR_NAME, cut, stack) && all_found;
-    }
-    print(MILLFORCE_SCALAR_NAME, "tick", "RAM", sizeof(Tick<MILLFORCE_SCALAR>));
-    print(MILLFORCE_SCALAR_NAME, "tick", "stack", stack);
-    target::exit_emulator(all_found ? 0 : 1);
+    Worst worst;
+    bool has_found = count_cut(estimation::CutSide::down, worst);
+    print("step_and_estimate_of_known_side", worst.step_and_estimate);
+    has_found = count_cut(estimation::CutSide::unknown, worst) && has_found;
+    print("step", worst.step);
+    print("slice", worst.slice);
+    print("step_and_slice", worst.step + worst.slice);
+    print("estimate", worst.estimate);
+    print("step_and_estimate", worst.step_and_estimate);
+    print("RAM", sizeof(Tick));
+    print("stack", worst.stack_bytes);
+    target::exit_emulator(has_found ? 0 : 1);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/cutting/cutting_law.hpp"
-#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/engagement/engagement_estimate.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <Eigen/Core>
@@ -13,6 +13,10 @@
 
 namespace millforce::estimation {
 
+/// 1 + p_s of a usual law: cutting force ∝ f^(1+p_s).
+template <typename Scalar>
+inline constexpr Scalar usual_feed_exponent = literal<Scalar>(0.75L);
+
 template <typename Scalar>
 struct CutEstimatorSettings {
     Scalar teeth{4};
@@ -22,24 +26,26 @@ struct CutEstimatorSettings {
     CutSide side = CutSide::unknown;
     Scalar centre_offset_in_radii{0};
     Scalar largest_depth_mm{10};  ///< longest depth of cut of the tool's flutes
-    Scalar nominal_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};
+    Scalar nominal_feed_per_tooth_mm{literal<Scalar>(0.05L)};
     Scalar assumed_immersion{1};  ///< used for peaks (never to speed up) until an immersion is known
     Scalar surge_immersion{0};    ///< see FeedControllerParameters::surge_radial_immersion
     Scalar turn_immersion{0};     ///< … and turn_radial_immersion
     Scalar tooth_force_limit_N{1000};
-    Scalar declared_depth_mm{0};  ///< axial depth that the program tells; 0: not told
-    Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
+    Scalar declared_depth_mm{0};  ///< axial depth that the program declares; 0: not declared
+    Scalar law_relative_sd{literal<Scalar>(0.02L)};
     Scalar min_samples{12};
-    int solver_values_per_step{0};  ///< of J in one add(); 0: all at once (see add())
     std::uint32_t encoder_counts_per_rev = 4096;
 };
 
-/// One drive sample, as plain numbers. `present`: bit 0 spindle current, bits 1–3 the axes x, y, z.
+/// One drive sample, as plain numbers.
 template <typename Scalar>
 struct DriveSignals {
-    static constexpr int first_current = 1;   ///< of the axes, in A; value 0 is the spindle's
-    static constexpr int first_velocity = 4;  ///< of the axes, in mm/s
+    static constexpr int spindle_current = 0;  ///< in A
+    static constexpr int first_current = 1;    ///< of the axes, in A
+    static constexpr int first_velocity = 4;   ///< of the axes, in mm/s
     static constexpr int channels = 7;
+    static constexpr std::uint32_t spindle_present = 1U;
+    static constexpr std::uint32_t first_axis_present = 2U;  ///< of x; y and z follow
 
     Eigen::Matrix<Scalar, channels, 1> values = Eigen::Matrix<Scalar, channels, 1>::Zero();
     std::uint32_t present = 0;
@@ -54,21 +60,15 @@ struct DriveSignals {
     }
 };
 
-/// Mean forces on the workpiece over the window. With solver_values_per_step they are worked out once a revolution, and
-/// as soon as F_at leaves what it was in the revolutions before.
 template <typename Scalar>
-struct FeedForces {
-    Measurement<Scalar> x_N{};  ///< along the machine's axes
-    Measurement<Scalar> y_N{};
-    Measurement<Scalar> z_N{};
-    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid where a needed axis stands
-};
-
-template <typename Scalar>
-struct CutEstimate : FeedForces<Scalar> {
+struct CutEstimate {
     int tooth_periods = 0;                     ///< that have ended since the estimate before
     Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
     Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
+    Measurement<Scalar> x_N{};  ///< mean force on the workpiece along the machine's axes, over the window
+    Measurement<Scalar> y_N{};
+    Measurement<Scalar> z_N{};
+    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid where a needed axis stands
     EngagementEstimate<Scalar> engagement{};
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
@@ -78,7 +78,7 @@ struct CutEstimate : FeedForces<Scalar> {
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
     Scalar cutting_share{1};              ///< of F_at: what is not edge force
-    Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
+    Scalar feed_exponent{usual_feed_exponent<Scalar>};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     /// The force of a tooth at another immersion, at the same depth and feed.
     struct Change {
         Scalar ratio{1};          ///< over its force now
@@ -88,7 +88,8 @@ struct CutEstimate : FeedForces<Scalar> {
     Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
     Change surge{};               ///< to settings.surge_immersion, where that is larger than now
     Change turn{};                ///< to settings.turn_immersion
-    Scalar feed_mm_s{0};          ///< path speed over the window
+    Scalar feed_mm_s{0};          ///< path speed in the plane over the window
+    Scalar axial_speed_mm_s{0};   ///< along z
     Scalar feed_per_tooth_mm{0};
     Scalar spindle_speed_rad_s{0};
     Scalar window_s{0};

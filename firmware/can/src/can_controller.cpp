@@ -198,7 +198,7 @@ void CanController::tick_on_sample() {
     next_silent_us_ = sync_time_us_ + silent_after_us_;
     program_ = program_at(sync_time_us_);
     reset_fault_where_asked();
-    work();
+    finish_work(tick_);  // what was not done in time: a replay does the same work
     finish(tick_.step(sample_, program_), sync_time_us_);
 }
 
@@ -209,12 +209,6 @@ void CanController::tick_without_sample() {
     finish(tick_.step_without_sample(seconds(time_us - complete_time_us_), seconds(settings_.drives.sync_period_us),
                                      program_),
            time_us);
-}
-
-void CanController::work() {
-    if (tick_.work_due()) {
-        tick_.work();
-    }
 }
 
 void CanController::finish(const hal::FeedOverride& output, std::uint64_t time_us) {

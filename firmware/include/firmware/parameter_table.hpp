@@ -82,7 +82,6 @@ inline constexpr auto parameter_table = std::to_array<ParameterRow<Scalar>>({
     {ParameterFile::machine, "cnc", "acceleration_mm_s2", "mm/s²", 2000.0F, 1.0F, 1e6F, "Acceleration limit of the path velocity.", MILLFORCE_FIELD(machine.cnc.acceleration_mm_s2)},
     {ParameterFile::machine, "cnc", "stale_s", "s", 0.05F, 0.001F, 10.0F, "Without a drive sample for longer the controller faults and holds the feed.", MILLFORCE_FIELD(machine.cnc.stale_s)},
     {ParameterFile::machine, "cnc", "sample_rate_hz", "Hz", 1000.0F, 10.0F, 1e5F, "Rate of the drive samples.", MILLFORCE_FIELD(machine.cnc.sample_rate_hz)},
-    {ParameterFile::machine, "cnc", "solver_values_per_tick", "1", 0.0F, 0.0F, 1000.0F, "Values of the engagement's misfit that one tick works out (some hundred instructions each), for small processors; 0: all at once.", MILLFORCE_FIELD(machine.cnc.solver_values_per_tick)},
 
     {ParameterFile::machine, "bus", "role", "", 0.0F, 0.0F, 1.0F, "Master: reads rated values, writes what is asked to and starts the drives (SDO, NMT). Listener: sends none of it, the CNC is the master.", MILLFORCE_FIELD(machine.bus.role), "listener|master"},
     {ParameterFile::machine, "bus", "produces_sync", "", 0.0F, 0.0F, 1.0F, "Send SYNC; else the CNC or a drive does.", MILLFORCE_FIELD(machine.bus.produces_sync), "false|true"},

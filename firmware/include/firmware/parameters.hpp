@@ -2,7 +2,10 @@
 #pragma once
 
 #include "control/feed_controller.hpp"
-#include "estimation/cut_estimator.hpp"
+#include "estimation/cut_estimate.hpp"
+#include "estimation/cutting/cutting_law.hpp"
+#include "estimation/drives/feed_drive.hpp"
+#include "estimation/drives/spindle_drive.hpp"
 #include "estimation/force_drop/force_drop_law.hpp"
 #include "estimation/surface/roughness.hpp"
 
@@ -23,7 +26,6 @@ struct CncParameters {
     Scalar acceleration_mm_s2{2000};
     Scalar stale_s{static_cast<Scalar>(0.05L)};
     Scalar sample_rate_hz{1000};
-    Scalar solver_values_per_tick{0};  ///< see CutEstimatorSettings::solver_values_per_step
 };
 
 /// One drive on the bus. Which objects its PDOs carry stands beside the numbers, as text (text_table).
@@ -153,7 +155,6 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.surge_immersion = p.tool.control.surge_radial_immersion;
     s.turn_immersion = p.tool.control.turn_radial_immersion;
     s.tooth_force_limit_N = p.tool.tooth_force_limit_N;
-    s.solver_values_per_step = static_cast<int>(p.machine.cnc.solver_values_per_tick);
     s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;
     s.encoder_counts_per_rev = static_cast<std::uint32_t>(p.machine.encoder_counts_per_rev);

@@ -58,10 +58,8 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     const hal::ProgramStatus program = program_of(message);
     bridge_gap(message.time_us, program);
     reset_where_asked(message);
+    finish_work(tick_);  // what was not done in time
     output_ = tick_.step(drives_of(message), program);
-    if (tick_.work_due()) {
-        tick_.work();
-    }
     answer = encode(answer_to(message.sequence));
     return local_link::MessageError::none;
 }

@@ -53,6 +53,7 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
             return;
         }
         server.send(answer);
+        firmware::finish_work(controller);
         faults.follow(controller.output());
     }
 }

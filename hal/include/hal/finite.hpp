@@ -12,15 +12,4 @@ namespace millforce::hal {
     return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;
 }
 
-/// All of them, and of a size that has a sum: by that where there is a floating-point unit, one operation each.
-template <typename... Floats>
-[[nodiscard]] constexpr bool all_finite(Floats... values) {
-#ifdef __SOFTFP__
-    return (is_finite(values) && ...);
-#else
-    const float sum = (values + ...);
-    return sum - sum == 0.0F;
-#endif
-}
-
 }  // namespace millforce::hal

@@ -76,7 +76,7 @@ TEST(LinuxCncPlant, shows_the_controller_no_cut_while_the_spindle_starts) {
     CncAtRest cnc;
     millforce::firmware::ForceControlTick<float> tick(cnc.scenario.parameters);
     for (int k = 0; k < 1500; ++k) {
-        tick.step(sample_of(cnc.cycle(k >= 500)), {});
+        millforce::firmware::step_and_work(tick, sample_of(cnc.cycle(k >= 500)), {});
         CHECK(tick.control().state == CutState::air);
     }
     DOUBLES_EQUAL(0.0, static_cast<double>(tick.estimate().tangential_N.value), 40.0);

@@ -74,11 +74,6 @@ class SpindleDrive {
         drift_Nm_.correct({true, torque_without_drift_Nm(average), noise + doubt, noise});
     }
 
-    /// Of the difference of two means of the current, each of so many samples, by its noise; of none: 0.
-    [[nodiscard]] Scalar difference_variance_A2(Scalar samples) const {
-        return samples > Scalar(0) ? Scalar(2) * square(parameters_.current_sd_A) / samples : Scalar(0);
-    }
-
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
 
     [[nodiscard]] Scalar torque_constant_Nm_per_A(Scalar speed_rad_s) const {

@@ -3,11 +3,11 @@
 
 #include "estimation/cutting/cutting_law.hpp"
 #include "estimation/number/elementary.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 #include "estimation/number/stored.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace millforce::estimation {
@@ -25,7 +25,7 @@ namespace millforce::estimation {
 template <typename Scalar, int Nodes>
 class EngagementTable {
   public:
-    static constexpr Scalar first_rad = static_cast<Scalar>(0.2L);
+    static constexpr Scalar first_rad = literal<Scalar>(0.2L);
 
     /// What the feed makes of the law.
     struct Feed {
@@ -50,8 +50,8 @@ class EngagementTable {
 
     EngagementTable() = default;
 
-    [[gnu::cold]] void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
-                             Scalar largest_rad) {
+    void build(const CuttingLaw<Scalar>& law, Scalar teeth, CutSide side, Scalar centre_offset_in_radii,
+               Scalar largest_rad) {
         using elementary::log;
         law_ = law;
         teeth_ = teeth;
@@ -78,8 +78,7 @@ class EngagementTable {
             return {};
         }
         const Scalar ln_f = log(feed_per_tooth_mm);
-        constexpr Scalar per_turn = Scalar(1) / (Scalar(2) * pi<Scalar>);
-        return {law_.k_s_N_per_mm2 * exp(law_.p_s * ln_f) * feed_per_tooth_mm * (teeth_ * per_turn),
+        return {law_.k_s_N_per_mm2 * exp(law_.p_s * ln_f) * feed_per_tooth_mm * (teeth_ * turns_per_rad<Scalar>),
                 law_.k_1 * exp(law_.p_1 * ln_f), has_reference_ ? ln_f - ln_reference_ : Scalar(0)};
     }
 
@@ -155,7 +154,7 @@ class EngagementTable {
                 half_x * (x + Scalar(1))};
     }
 
-    [[nodiscard, gnu::cold]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
+    [[nodiscard]] Node node_at(Scalar theta_rad, CutSide side, Scalar centre_offset_in_radii) const {
         using elementary::cos;
         using elementary::exp;
         using elementary::log;
@@ -164,7 +163,7 @@ class EngagementTable {
         const Scalar ln_m = log(i.mean_sine);
         const Scalar u = exp(law_.p_s * ln_m);
         const Scalar v = u * exp(law_.p_1 * ln_m);
-        const Scalar per_pitch = teeth_ / (Scalar(2) * pi<Scalar>);
+        const Scalar per_pitch = teeth_ * turns_per_rad<Scalar>;
         const Scalar E_t = law_.K_te_N_per_mm * per_pitch;
         const Scalar E_r = law_.K_re_N_per_mm * per_pitch;
         Node node;

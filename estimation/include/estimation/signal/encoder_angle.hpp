@@ -33,7 +33,7 @@ struct EncoderReading {
 /// first one `index_found`.
 /// A direction change is reported once per reading; a jitter of one count is not a reversal.
 /// Readings must be less than 0.45 revolutions apart. Integer arithmetic only, no accumulation of rounding.
-/// Not thread-safe; about 15 instructions a reading, and as many for its angle, which can be left out.
+/// Not thread-safe; about 30 instructions a reading.
 template <typename Scalar>
 class EncoderAngle {
   public:
@@ -45,13 +45,6 @@ class EncoderAngle {
     void reset() { started_ = false; }
 
     EncoderReading<Scalar> update(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
-        EncoderReading<Scalar> reading = advance(count, index_count, index_number);
-        reading.angle_rev = angle_rev();
-        return reading;
-    }
-
-    /// A reading without its angle: for whoever asks for that now and then, at least once in 2³¹ counts of `forward`.
-    EncoderReading<Scalar> advance(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
         EncoderReading<Scalar> reading;
         const auto turned = static_cast<std::int32_t>(count - last_count_);
         if (started_ && turned > 0 && turned < too_many_) [[likely]] {
@@ -60,18 +53,22 @@ class EncoderAngle {
             last_count_ = count;
         } else if (!started_) {
             start(count, index_count, index_number);
+            reading.angle_rev = angle_rev();
             return reading;
         } else {
             reading.event = other_event(turned);
             last_count_ = reading.event == EncoderEvent::standstill ? last_count_ : count;
-            static_cast<void>(angle_rev());
         }
         if (index_number != last_index_number_) {
             take_index(index_count, index_number, reading);
         }
+        reading.angle_rev = angle_rev();
         return reading;
     }
 
+    [[nodiscard]] std::uint32_t counts_per_rev() const { return counts_per_rev_; }
+
+  private:
     /// After the last reading.
     [[nodiscard]] Scalar angle_rev() {
         std::uint32_t since_zero = last_count_ - zero_count_;
@@ -82,9 +79,6 @@ class EncoderAngle {
         return static_cast<Scalar>(since_zero) * rev_per_count_;
     }
 
-    [[nodiscard]] std::uint32_t counts_per_rev() const { return counts_per_rev_; }
-
-  private:
     void start(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
         started_ = true;
         last_count_ = count;

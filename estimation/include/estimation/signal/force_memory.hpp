@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/engagement/engagement_estimate.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <cmath>
@@ -49,22 +49,11 @@ class ForceMemory {
         }
     }
 
-    /// The tangential force tells of no change: it agrees with a memory of two revolutions or more, as it is.
-    [[nodiscard]] bool holds(const Measurement<Scalar>& tangential_N) const {
-        if (!(revolutions_ > Scalar(1)) || tangential_N.valid != held_.tangential_N.valid) {
-            return false;
-        }
-        const Scalar off_N = tangential_N.value - held_.tangential_N.value;
-        return !tangential_N.valid ||
-               square(off_N) <= square(holding_deviations) * variance_per_noise() * tangential_N.noise;
-    }
-
     [[nodiscard]] Scalar revolutions() const { return revolutions_; }
 
   private:
     static constexpr int longest_revolutions = 8;
     static constexpr Scalar forgotten_revolutions = static_cast<Scalar>(0.01L);
-    static constexpr Scalar holding_deviations = static_cast<Scalar>(3);
     static constexpr Scalar whole_deviations = static_cast<Scalar>(2);
     static constexpr Scalar nothing_deviations = static_cast<Scalar>(4);
 

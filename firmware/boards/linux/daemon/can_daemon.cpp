@@ -87,7 +87,7 @@ void CanDaemon::step() {
     send_all();
     local_outputs_.poll(socketcan::monotonic_us());
     controller_.hold_from_outside(local_outputs_.health().is_failed);
-    controller_.work();
+    firmware::finish_work(controller_);
     report(time_us);
 }
 

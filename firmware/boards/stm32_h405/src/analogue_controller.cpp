@@ -84,6 +84,9 @@ void AnalogueController::poll(std::uint64_t now_us) {
     }
     sender_.poll(now_us);
     send_frames();
+    if (tick_ && tick_->work_due()) {
+        tick_->work();
+    }
 }
 
 void AnalogueController::receive_frames(std::uint64_t now_us) {

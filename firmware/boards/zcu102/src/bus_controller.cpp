@@ -38,7 +38,9 @@ void BusController::poll(std::uint64_t now_us) {
     can_.poll();
     rejoin_after_bus_off(now_us);
     exchange_frames(now_us);
-    controller_.work();
+    if (controller_.work_due()) {
+        controller_.work();
+    }
     guard_ticks(now_us);
 }
 

@@ -19,7 +19,7 @@
 ///     controller.on_frame(frame, time_us, is_own);     // every frame of the bus, the echo of its own SYNC too
 ///     controller.poll(now_us);                         // at least once per SYNC period; at next_event_us()
 ///     while (controller.take_frame(frame)) { ... }     // send
-///     controller.work();                               // what may take milliseconds, now that the override is out
+///     finish_work(controller);                         // what may take milliseconds, now that the override is out
 ///
 /// What the tick sees depends on the received frames, their order and their times alone: the same frames with the same
 /// times give the same estimates, bit for bit, however late they were fetched and however often poll() came. So that
@@ -72,8 +72,10 @@ class CanController {
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
     void poll(std::uint64_t now_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
-    /// The tick's work beside its steps. What is not done by then is done before the next sample: it is the same work.
-    void work();
+    /// The tick's work beside its steps, in slices. What is not done by then is done before the next sample, so that
+    /// the estimates do not depend on when it was done.
+    [[nodiscard]] bool work_due() const { return tick_.work_due(); }
+    void work() { tick_.work(); }
     /// From the next tick on and as long as it is asked for the override says hold. The tick does not see it.
     void hold_from_outside(bool is_held) { is_held_outside_ = is_held; }
     /// No more ticks nor SYNC: the override says hold at once, and the heartbeat `stopped` a little later.

@@ -30,6 +30,11 @@ class LinkController {
     [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
                                                       local_link::OverrideBytes& answer);
 
+    /// The tick's work beside its steps, in slices, for after the answer was sent. What is left is done before the next
+    /// sample.
+    [[nodiscard]] bool work_due() const { return tick_.work_due(); }
+    void work() { tick_.work(); }
+
     [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_; }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
 

@@ -37,8 +37,9 @@ class BoardBench {
         if (converter_runs) {
             convert();
         }
-        for (unsigned k = 0; k < 4; ++k) {
-            now_us += period_us / 4;
+        constexpr unsigned polls = 20;  // so many that the slices of an estimate are done within a period
+        for (unsigned k = 0; k < polls; ++k) {
+            now_us += period_us / polls;
             controller->poll(now_us);
             carry();
         }

@@ -54,11 +54,10 @@ class AnalogueController {
   public:
     using Tick = firmware::SmallTick<float>;
 
-    [[gnu::cold]] AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
+    AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
 
     /// `parameters` are used where the report says that there are some.
-    [[gnu::cold]] void start(const StartReport& report, const firmware::Parameters<float>& parameters,
-                             std::uint64_t now_us);
+    void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us);
     /// As often as possible, at least once per sample period.
     void poll(std::uint64_t now_us);
     /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is
@@ -83,7 +82,7 @@ class AnalogueController {
     [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
 
   private:
-    [[gnu::cold]] void tell_start(const StartReport& report);
+    void tell_start(const StartReport& report);
     void receive_frames(std::uint64_t now_us);
     void send_frames();
     bool send_last_words(emergency::Reason reason, std::uint32_t detail);

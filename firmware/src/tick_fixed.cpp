@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/tick.hpp"
-
 #include "estimation/number/fixed_point.hpp"
-#include "firmware/parameter_table.hpp"
+#include "firmware/tick_impl.hpp"
 
 namespace millforce::firmware {
 
-template class ForceControlTick<float>;
 template class ForceControlTick<estimation::Fixed>;
+template class ForceControlTick<estimation::Fixed, NoWideBand<estimation::Fixed>>;
 
 }  // namespace millforce::firmware

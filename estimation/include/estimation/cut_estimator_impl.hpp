@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/cut_estimator.hpp"
+#include "estimation/cutting/engagement_peaks_impl.hpp"
+#include "estimation/cutting/tooth_force_impl.hpp"
+#include "estimation/engagement/engagement_solver_impl.hpp"
+#include "estimation/signal/synchronous_average_impl.hpp"
+
+#include <cmath>
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+CutEstimator<Scalar>::CutEstimator(const CutEstimatorSettings<Scalar>& settings,
+                                   const SpindleDriveParameters<Scalar>& spindle,
+                                   const std::array<FeedDriveParameters<Scalar>, 3>& axes,
+                                   const CuttingLaw<Scalar>& law)
+    : encoder_(settings.encoder_counts_per_rev),
+      average_({static_cast<int>(settings.teeth), settings.min_samples}),
+      settings_(settings),
+      per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
+      spindle_(spindle),
+      axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
+      peaks_(law, {peak_settings(settings.side), settings.largest_depth_mm, settings.assumed_immersion,
+                   settings.surge_immersion, settings.turn_immersion}),
+      tooth_force_(settings, law),
+      law_(law),
+      solver_(law,
+              {.teeth = settings.teeth,
+               .centre_offset_in_radii = settings.centre_offset_in_radii,
+               .law_relative_sd = settings.law_relative_sd,
+               .declared_depth_mm = settings.declared_depth_mm},
+              settings.side) {}
+
+template <typename Scalar>
+PeakFactorSettings<Scalar> CutEstimator<Scalar>::peak_settings(CutSide side) const {
+    PeakFactorSettings<Scalar> peak;
+    peak.teeth = settings_.teeth;
+    peak.cutter_radius_mm = settings_.cutter_radius_mm;
+    peak.helix_rad = settings_.helix_rad;
+    peak.nominal_feed_per_tooth_mm = settings_.nominal_feed_per_tooth_mm;
+    peak.side = side;
+    peak.centre_offset_in_radii = settings_.centre_offset_in_radii;
+    return peak;
+}
+
+// One sample
+
+template <typename Scalar>
+void CutEstimator<Scalar>::add(Scalar dt_s, std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number,
+                               const DriveSignals<Scalar>& signals) {
+    const EncoderReading<Scalar> reading = encoder_.update(count, index_count, index_number);
+    since_period_s_ += dt_s;
+    if (reading.is_break()) {
+        average_.restart();
+        periods_ended_ = 0;
+        return;
+    }
+    const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values, signals.present);
+    if (completed > 0) {
+        since_prediction_s_ += since_period_s_;
+        since_period_s_ = Scalar(0);
+        periods_ended_ += completed;
+    }
+}
+
+template <typename Scalar>
+bool CutEstimator<Scalar>::spindle_turns() const {
+    // What the estimate takes, and a tooth period that is as long as the window.
+    constexpr Scalar patience_s = literal<Scalar>(0.02L);
+    constexpr Scalar windows{3};
+    const Scalar window_s = estimate_.window_s;
+    return window_s > Scalar(0) && since_period_s_ < windows * window_s + patience_s;
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::restart() {
+    encoder_.reset();
+    average_.restart();
+    periods_ended_ = 0;
+    stage_ = Stage::idle;
+    search_.cancel();
+    estimate_ = {};
+}
+
+// The work beside the samples
+
+template <typename Scalar>
+bool CutEstimator<Scalar>::work(int solver_steps) {
+    switch (stage_) {
+        case Stage::idle:
+            return periods_ended_ > 0 && begin_estimate();
+        case Stage::engagement:
+            if (solver_.advance(search_, solver_steps)) {
+                stage_ = Stage::peaks;
+            }
+            return false;
+        case Stage::peaks:
+            peaks_.take(search_.estimate(), solver_, search_.feed());
+            in_work_.engagement = search_.estimate();
+            tooth_force_.fill(in_work_, peaks_, solver_.table(peaks_.side()));
+            publish();
+            return true;
+    }
+    return false;
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::publish() {
+    estimate_ = in_work_;
+    stage_ = Stage::idle;
+}
+
+/// Returns true where the estimate is complete with that: there is no window yet.
+template <typename Scalar>
+bool CutEstimator<Scalar>::begin_estimate() {
+    predict_drifts();
+    window_ = average_.window();
+    in_work_ = {};
+    in_work_.tooth_periods = periods_ended_;
+    periods_ended_ = 0;
+    if (window_.revolutions == 0) {
+        publish();
+        return true;
+    }
+    estimate_forces();
+    estimate_along_feed();
+    begin_engagement();
+    stage_ = Stage::engagement;
+    return false;
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::predict_drifts() {
+    spindle_.predict(since_prediction_s_);
+    for (FeedDrive<Scalar>& axis : axes_) {
+        axis.predict(since_prediction_s_);
+    }
+    since_prediction_s_ = Scalar(0);
+}
+
+template <typename Scalar>
+typename SpindleDrive<Scalar>::Average CutEstimator<Scalar>::spindle_average(const Window& window) const {
+    // Counted in halves of the window, each between two counts with an error of variance 1/12: 4/12 in all.
+    constexpr Scalar variance_counts2 = literal<Scalar>(1.0L / 3.0L);
+    const Scalar count_rad = turn_rad<Scalar> / Scalar(static_cast<int>(settings_.encoder_counts_per_rev));
+    const Scalar half_s = halved(window.duration_s);
+    typename SpindleDrive<Scalar>::Average spindle;
+    spindle.current_A = window.mean[DriveSignals<Scalar>::spindle_current];
+    spindle.speed_rad_s = window.spindle_speed_rad_s;
+    spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
+    spindle.acceleration_variance =
+        half_s > Scalar(0) ? square(count_rad / square(half_s)) * variance_counts2 : Scalar(0);
+    spindle.samples = window.samples;
+    spindle.present = (window.present & DriveSignals<Scalar>::spindle_present) != 0U;
+    return spindle;
+}
+
+/// The last tooth period alone; the acceleration is that of the window.
+template <typename Scalar>
+typename SpindleDrive<Scalar>::Average CutEstimator<Scalar>::spindle_average_of_tooth(const Window& window) const {
+    const typename Averager::Means& tooth = average_.tooth();
+    typename SpindleDrive<Scalar>::Average spindle = spindle_average(window);
+    spindle.current_A = tooth.mean[DriveSignals<Scalar>::spindle_current];
+    spindle.speed_rad_s = average_.tooth_speed_rad_s();
+    spindle.samples = tooth.samples;
+    spindle.present = (tooth.present & DriveSignals<Scalar>::spindle_present) != 0U;
+    return spindle;
+}
+
+template <typename Scalar>
+typename FeedDrive<Scalar>::Average CutEstimator<Scalar>::axis_average(const Window& window, std::size_t axis) {
+    const auto current = DriveSignals<Scalar>::first_current + static_cast<int>(axis);
+    const auto velocity = DriveSignals<Scalar>::first_velocity + static_cast<int>(axis);
+    typename FeedDrive<Scalar>::Average average;
+    average.current_A = window.mean[current];
+    average.velocity_mm_s = window.mean[velocity];
+    average.acceleration_mm_s2 = window.slope_per_s[velocity];
+    average.duration_s = window.duration_s;
+    average.samples = window.samples;
+    average.present = (window.present & (DriveSignals<Scalar>::first_axis_present << axis)) != 0U;
+    return average;
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::estimate_forces() {
+    CutEstimate<Scalar>& e = in_work_;
+    e.window_s = window_.duration_s;
+    e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
+    if (per_Nm_ > Scalar(0)) {
+        e.tangential_N = spindle_.force_N(spindle_average(window_), per_Nm_);
+        e.tooth_tangential_N = spindle_.force_N(spindle_average_of_tooth(window_), per_Nm_);
+    }
+    e.x_N = axes_[0].force_N(axis_average(window_, 0));
+    e.y_N = axes_[1].force_N(axis_average(window_, 1));
+    e.z_N = axes_[2].force_N(axis_average(window_, 2));
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::estimate_along_feed() {
+    using std::sqrt;
+    CutEstimate<Scalar>& e = in_work_;
+    const Scalar x_mm_s = window_.mean[DriveSignals<Scalar>::first_velocity];
+    const Scalar y_mm_s = window_.mean[DriveSignals<Scalar>::first_velocity + 1];
+    e.axial_speed_mm_s = window_.mean[DriveSignals<Scalar>::first_velocity + 2];
+    e.feed_mm_s = sqrt(square(x_mm_s) + square(y_mm_s));
+    const Scalar teeth_per_s = settings_.teeth * turns_per_rad<Scalar> * window_.spindle_speed_rad_s;
+    e.feed_per_tooth_mm = teeth_per_s > Scalar(0) ? e.feed_mm_s / teeth_per_s : Scalar(0);
+    if (!(e.feed_mm_s > Scalar(0))) {
+        return;
+    }
+    direction_x_ = x_mm_s / e.feed_mm_s;
+    direction_y_ = y_mm_s / e.feed_mm_s;
+    const auto is_known_or_across = [](const Measurement<Scalar>& force_N, Scalar share) {
+        constexpr Scalar across = literal<Scalar>(0.001L);  // of the force's square: 1.8 degrees from square
+        return force_N.valid || square(share) < across;
+    };
+    if (is_known_or_across(e.x_N, direction_x_) && is_known_or_across(e.y_N, direction_y_)) {
+        e.feed_N.valid = true;
+        e.feed_N.value = (e.x_N.valid ? direction_x_ * e.x_N.value : Scalar(0)) +
+                         (e.y_N.valid ? direction_y_ * e.y_N.value : Scalar(0));
+        e.feed_N.variance = square(direction_x_) * e.x_N.variance + square(direction_y_) * e.y_N.variance;
+    }
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::begin_engagement() {
+    AverageForceMeasurement<Scalar> forces;
+    forces.tangential_N = in_work_.tangential_N;
+    forces.x_N = in_work_.x_N;
+    forces.y_N = in_work_.y_N;
+    forces.feed_direction_x = direction_x_;
+    forces.feed_direction_y = direction_y_;
+    periods_since_memory_ += in_work_.tooth_periods;
+    const bool is_new_revolution = periods_since_memory_ >= window_.tooth_periods;
+    periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
+    memory_.blend(forces, in_work_.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution);
+    forces.radial_immersion = other_;
+    solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side);
+}
+
+// Learning in air
+
+template <typename Scalar>
+bool CutEstimator<Scalar>::rezero() {
+    if (window_.revolutions == 0) {
+        return false;
+    }
+    air_periods_ = air_periods_ + estimate_.tooth_periods;
+    if (air_periods_ < window_.tooth_periods) {
+        return false;
+    }
+    air_periods_ = 0;
+    const bool has_window = air_window_.revolutions > 0;
+    if (has_window) {
+        spindle_.rezero(spindle_average(air_window_));
+        for (std::size_t k = 0; k < axes_.size(); ++k) {
+            axes_[k].rezero(axis_average(air_window_, k));
+        }
+    }
+    air_window_ = window_;
+    return has_window;
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::leave_air() {
+    air_window_ = {};
+    air_periods_ = 0;
+}
+
+template <typename Scalar>
+bool CutEstimator<Scalar>::axes_rest() const {
+    constexpr Scalar rest_mm_s = literal<Scalar>(0.1L);
+    bool all_rest = window_.revolutions > 0;
+    for (int k = DriveSignals<Scalar>::first_velocity; k < DriveSignals<Scalar>::channels; ++k) {
+        all_rest = all_rest && window_.mean[k] < rest_mm_s && -window_.mean[k] < rest_mm_s;
+    }
+    return all_rest;
+}
+
+template <typename Scalar>
+typename CutEstimator<Scalar>::TotalForce CutEstimator<Scalar>::total_force() const {
+    const PeakFactors<Scalar> factors =
+        peak_factors(law_, peak_settings(peaks_.side()), peaks_.now().radial_immersion, peaks_.depth_mm());
+    const Scalar peak_per_tooth = factors.threshold_factor();
+    return {estimate_.worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
+}
+
+}  // namespace millforce::estimation

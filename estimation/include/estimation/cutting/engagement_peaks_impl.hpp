@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/cutting/engagement_peaks.hpp"
+
+#include <cmath>
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+EngagementPeaks<Scalar>::EngagementPeaks(const CuttingLaw<Scalar>& law, const Settings& settings)
+    : largest_depth_mm_(settings.largest_depth_mm),
+      surge_(place_of(settings.surge_immersion)),
+      turn_(place_of(settings.turn_immersion)),
+      slot_(place_of(Scalar(2))),
+      now_(place_of(settings.assumed_immersion)) {
+    const auto build = [&](ToothPeakTable<Scalar>& table, CutSide unknown_is) {
+        PeakFactorSettings<Scalar> peak = settings.peak;
+        peak.side = peak.side == CutSide::unknown ? unknown_is : peak.side;
+        table.build(law, peak);
+    };
+    build(down_, CutSide::down);
+    build(up_, CutSide::up);
+}
+
+template <typename Scalar>
+typename EngagementPeaks<Scalar>::Place EngagementPeaks<Scalar>::place_of(Scalar radial_immersion) {
+    using elementary::acos;
+    return {acos(Scalar(1) - clamp(radial_immersion, Scalar(0), Scalar(2))), radial_immersion};
+}
+
+template <typename Scalar>
+void EngagementPeaks<Scalar>::take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver,
+                                   const typename Table::Feed& feed) {
+    take_place(found);
+    const Table& table = solver.table(side_);
+    here_node_ = table.between(now_.theta_rad);
+    factors_.now = factor(now_, depth_mm_);
+    factors_.slot = factor(slot_, depth_mm_);
+    factors_.by_K_s = change_by_K_s(table, feed);
+    read_changes(table);
+    read_bounds(found);
+}
+
+template <typename Scalar>
+void EngagementPeaks<Scalar>::take_place(const EngagementEstimate<Scalar>& found) {
+    if (found.immersion_valid) {
+        now_ = {found.engagement_rad, found.radial_immersion};
+        side_ = found.side;
+        last_depth_mm_ = found.depth_valid ? found.axial_depth_mm : last_depth_mm_;
+    }
+    // However doubtful: it is the depth that goes with the immersion.
+    const bool has_depth = found.immersion_valid && found.axial_depth_mm > Scalar(0);
+    const Scalar usual_mm = last_depth_mm_ > Scalar(0) ? last_depth_mm_ : largest_depth_mm_;
+    depth_mm_ = has_depth ? found.axial_depth_mm : usual_mm;
+}
+
+template <typename Scalar>
+Scalar EngagementPeaks<Scalar>::factor(const Place& cut, Scalar depth_mm) const {
+    const ToothPeakTable<Scalar>& table = side_ == CutSide::up ? up_ : down_;
+    return table.at_angle(cut.theta_rad, cut.radial_immersion, depth_mm);
+}
+
+/// The engagements that may come.
+template <typename Scalar>
+void EngagementPeaks<Scalar>::read_changes(const Table& table) {
+    if (surge_is_wider()) {
+        surge_node_ = table.between(surge_.theta_rad);
+        factors_.surge = factor(surge_, depth_mm_);
+    }
+    if (turn_is_wider()) {
+        turn_node_ = table.between(turn_.theta_rad);
+        factors_.turn = factor(turn_, depth_mm_);
+    }
+}
+
+template <typename Scalar>
+void EngagementPeaks<Scalar>::read_bounds(const EngagementEstimate<Scalar>& found) {
+    const Place low{found.engagement_low_rad, found.radial_immersion_low};
+    if (found.immersion_valid) {
+        const bool has_depth = found.axial_depth_mm > Scalar(0);
+        const Place high{found.engagement_high_rad, found.radial_immersion_high};
+        factors_.at_low = factor(low, has_depth ? found.depth_at_low_mm : depth_mm_);
+        factors_.at_high = factor(high, has_depth ? found.depth_at_high_mm : depth_mm_);
+    } else if (found.solved) {
+        factors_.bound = factor(low, found.depth_at_high_mm);
+    } else {
+        factors_.narrowest = factor(Place{}, Scalar(0));
+    }
+}
+
+/// An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
+template <typename Scalar>
+Scalar EngagementPeaks<Scalar>::change_by_K_s(const Table& table, const typename Table::Feed& feed) const {
+    using std::sqrt;
+    if (!(feed.G_N_per_mm > Scalar(0))) {
+        return Scalar(0);
+    }
+    const Scalar variance = table.doubt_of_K_s().variance_at(Table::ln_t_in_references(here_node_, feed));
+    const Scalar shallower_mm = depth_mm_ * (Scalar(1) - sqrt(variance));
+    return factor(now_, shallower_mm) - factors_.now;
+}
+
+}  // namespace millforce::estimation

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/engagement/engagement_estimate.hpp"
+#include "estimation/engagement/engagement_table.hpp"
+
+#include <cstddef>
+
+namespace millforce::estimation {
+
+/// A depth of cut that is known before any force is measured, as one more measurement.
+template <typename Scalar>
+struct DeclaredDepth {
+    Scalar depth_mm{0};  ///< 0: none
+    Scalar relative_sd{0};
+};
+
+/// The profile likelihood of the immersion for one set of measured forces: at each immersion the depth that fits best,
+/// and how badly it fits. Every force is proportional to the depth, m_i = a_p g_i(R_r), so
+///
+///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²
+///
+/// σ² of a force along an axis also holds the misfit of the closed law and the doubt in r_1; an immersion from another
+/// method adds (R_r − R_other)²/σ², a declared depth (a_p − a_declared)²/σ². Cost of a value: some hundred instructions
+/// at a node of the table, twice as many between nodes. Bodies: immersion_profile_impl.hpp.
+template <typename Scalar, int Nodes>
+class ImmersionProfile {
+  public:
+    using Table = EngagementTable<Scalar, Nodes>;
+
+    struct Value {
+        Scalar misfit{0};  ///< J
+        Scalar depth_mm{0};
+        Scalar information{0};  ///< Σ w g²: inverse variance of the depth at this immersion
+        Scalar ln_t_in_references{0};
+    };
+
+    ImmersionProfile() = default;
+    /// `law`: any table of the law in question.
+    ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
+                     Scalar law_relative_sd, const DeclaredDepth<Scalar>& declared);
+
+    [[nodiscard]] Value at(const Table& table, Scalar theta_rad) const;
+    [[nodiscard]] Value at_node(const Table& table, std::size_t node) const;
+
+    [[nodiscard]] const typename Table::Feed& feed() const { return feed_; }
+    [[nodiscard]] const typename Table::Doubt& doubt_of_K_s() const { return K_s_; }
+
+  private:
+    /// What one force adds to the sums. A weight of 0: it was not measured.
+    struct Term {
+        Scalar measured{0};  // m
+        Scalar per_mm{0};    // g
+        Scalar weight{0};    // w
+    };
+
+    [[nodiscard]] Value value_of(const typename Table::Forces& model, Scalar theta_rad) const;
+    [[nodiscard]] Term along_axis(const Measurement<Scalar>& force_N, const typename Table::Forces& model,
+                                  Scalar direction_x, Scalar direction_y) const;
+    [[nodiscard]] Term of_declared_depth(Scalar ln_t_in_references) const;
+
+    AverageForceMeasurement<Scalar> forces_{};  // variances along the axes with the law's misfit
+    DeclaredDepth<Scalar> declared_{};
+    typename Table::Feed feed_{};
+    typename Table::Doubt K_s_{};
+    typename Table::Doubt r_1_{};
+    Scalar tangential_weight_{0};
+};
+
+}  // namespace millforce::estimation

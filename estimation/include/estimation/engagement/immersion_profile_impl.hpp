@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/engagement/immersion_profile.hpp"
+
+namespace millforce::estimation {
+
+template <typename Scalar, int Nodes>
+ImmersionProfile<Scalar, Nodes>::ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces,
+                                                  Scalar feed_per_tooth_mm, Scalar law_relative_sd,
+                                                  const DeclaredDepth<Scalar>& declared)
+    : forces_(forces),
+      declared_(declared),
+      feed_(law.feed(feed_per_tooth_mm)),
+      K_s_(law.doubt_of_K_s()),
+      r_1_(law.doubt_of_r_1()),
+      tangential_weight_(Scalar(1) / forces.tangential_N.variance) {
+    const Scalar law_variance = square(law_relative_sd * forces.tangential_N.value);
+    forces_.x_N.variance += law_variance;
+    forces_.y_N.variance += law_variance;
+}
+
+template <typename Scalar, int Nodes>
+typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>::at(const Table& table,
+                                                                                    Scalar theta_rad) const {
+    return value_of(table.at(theta_rad, feed_), theta_rad);
+}
+
+template <typename Scalar, int Nodes>
+typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>::at_node(const Table& table,
+                                                                                         std::size_t node) const {
+    return value_of(table.at_node(node, feed_), table.angle_rad(Scalar(static_cast<int>(node))));
+}
+
+/// The doubt in r_1 acts along the feed and across it at once; its size per F_at is known at each immersion.
+template <typename Scalar, int Nodes>
+typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::along_axis(
+    const Measurement<Scalar>& force_N, const typename Table::Forces& model, Scalar direction_x,
+    Scalar direction_y) const {
+    if (!force_N.valid) {
+        return {};
+    }
+    const Scalar per_F_at = forces_.tangential_N.value / model.tangential_N;
+    const Scalar per_ln_r_1 =
+        per_F_at * (direction_x * model.feed_per_ln_r_1_N - direction_y * model.normal_per_ln_r_1_N);
+    const Scalar by_r_1 = square(per_ln_r_1) * r_1_.variance_at(model.ln_t_in_references);
+    return {force_N.value, direction_x * model.feed_N - direction_y * model.normal_N,
+            Scalar(1) / (force_N.variance + by_r_1)};
+}
+
+/// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the factor is known as well
+/// as both are.
+template <typename Scalar, int Nodes>
+typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::of_declared_depth(
+    Scalar ln_t_in_references) const {
+    if (!(declared_.depth_mm > Scalar(0))) {
+        return {};
+    }
+    const Scalar relative_variance = square(declared_.relative_sd) + K_s_.variance_at(ln_t_in_references);
+    return {declared_.depth_mm, Scalar(1), Scalar(1) / (square(declared_.depth_mm) * relative_variance)};
+}
+
+template <typename Scalar, int Nodes>
+typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>::value_of(
+    const typename Table::Forces& model, Scalar theta_rad) const {
+    using elementary::cos;
+    const Scalar t_x = forces_.feed_direction_x;
+    const Scalar t_y = forces_.feed_direction_y;
+    const Term terms[] = {{forces_.tangential_N.value, model.tangential_N, tangential_weight_},
+                          along_axis(forces_.x_N, model, t_x, t_y),
+                          along_axis(forces_.y_N, model, t_y, -t_x),
+                          of_declared_depth(model.ln_t_in_references)};
+    Scalar wgg{0};
+    Scalar wmg{0};
+    for (const Term& term : terms) {
+        const Scalar wg = term.weight * term.per_mm;
+        wgg += wg * term.per_mm;
+        wmg += wg * term.measured;
+    }
+    Value value;
+    value.information = wgg;
+    value.depth_mm = wmg > Scalar(0) ? wmg / wgg : Scalar(0);
+    value.ln_t_in_references = model.ln_t_in_references;
+    for (const Term& term : terms) {
+        value.misfit += term.weight * square(term.measured - value.depth_mm * term.per_mm);
+    }
+    if (forces_.radial_immersion.valid) {
+        const Scalar immersion = Scalar(1) - cos(theta_rad);
+        value.misfit += square(immersion - forces_.radial_immersion.value) / forces_.radial_immersion.variance;
+    }
+    return value;
+}
+
+}  // namespace millforce::estimation

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/engagement/engagement_estimate.hpp"
+#include "estimation/number/literal.hpp"
+
+namespace millforce::estimation {
+
+/// 95 % of a normal distribution: deviations on each side of the mean, its whole width in deviations, and what a sum of
+/// squares in deviations exceeds its least by (χ² of one degree of freedom).
+template <typename Scalar>
+inline constexpr Scalar deviations_of_95_percent = literal<Scalar>(1.96L);
+template <typename Scalar>
+inline constexpr Scalar width_of_95_percent = literal<Scalar>(3.92L);
+template <typename Scalar>
+inline constexpr Scalar threshold_of_95_percent = literal<Scalar>(3.84L);
+
+/// The side of a tool whose side is not known: the one that fits better by more than 95 %. Where neither does, the
+/// estimate is valid only if both sides give the same immersion.
+template <typename Scalar>
+[[nodiscard]] EngagementEstimate<Scalar> better_of_sides(const EngagementEstimate<Scalar>& down,
+                                                         const EngagementEstimate<Scalar>& up) {
+    const Scalar advantage = up.misfit - down.misfit;
+    if (down.immersion_valid != up.immersion_valid) {
+        const EngagementEstimate<Scalar>& only = down.immersion_valid ? down : up;
+        const EngagementEstimate<Scalar>& other = down.immersion_valid ? up : down;
+        if (other.misfit - only.misfit > threshold_of_95_percent<Scalar>) {
+            return only;
+        }
+    }
+    if (advantage > threshold_of_95_percent<Scalar>) {
+        return down;
+    }
+    if (advantage < -threshold_of_95_percent<Scalar>) {
+        return up;
+    }
+    EngagementEstimate<Scalar> either = advantage < Scalar(0) ? up : down;
+    const Scalar apart = down.radial_immersion - up.radial_immersion;
+    const Scalar within = deviations_of_95_percent<Scalar> * (down.radial_immersion_sd + up.radial_immersion_sd);
+    either.side = CutSide::unknown;
+    if (!(square(apart) <= square(within))) {
+        either.immersion_valid = false;
+        either.depth_valid = false;
+    }
+    return either;
+}
+
+}  // namespace millforce::estimation

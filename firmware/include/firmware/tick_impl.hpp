@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "firmware/carried_immersion_impl.hpp"
+#include "firmware/surface_monitor_impl.hpp"
+#include "firmware/tick.hpp"
+#include "firmware/usable_signals.hpp"
+
+namespace millforce::firmware {
+
+template <typename Scalar, typename WideBand>
+ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
+    : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
+                 parameters.tool.law),
+      wide_band_(parameters),
+      surface_(parameters.tool),
+      controller_(controller_parameters(parameters)),
+      control_parameters_(controller_parameters(parameters)),
+      reaction_s_(parameters.machine.cnc.override_latency_s) {}
+
+// Each sample
+
+template <typename Scalar, typename WideBand>
+hal::FeedOverride ForceControlTick<Scalar, WideBand>::step(const hal::DriveSample& sample,
+                                                           const hal::ProgramStatus& program) {
+    const Scalar dt_s = elapsed_s(sample.time_us);
+    const estimation::DriveSignals<Scalar> signals = usable_signals_of<Scalar>(sample);
+    follow_wide_band(dt_s, sample);
+    if ((sample.present & hal::mask(hal::Present::spindle_count)) != 0) {
+        estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count, sample.spindle_index_number, signals);
+    } else {
+        forget_estimate();
+    }
+    run_law(signals.velocity(), program, dt_s, dt_s);
+    return output();
+}
+
+template <typename Scalar, typename WideBand>
+hal::FeedOverride ForceControlTick<Scalar, WideBand>::step_without_sample(float silent_s, float dt_s,
+                                                                          const hal::ProgramStatus& program) {
+    forget_estimate();  // no average reaches over the gap
+    input_.surface.valid = false;
+    has_time_ = false;
+    run_law({}, program, Scalar(dt_s), Scalar(silent_s));
+    return output();
+}
+
+/// Since the last sample; 0 for the first one and where the clock went backwards.
+template <typename Scalar, typename WideBand>
+Scalar ForceControlTick<Scalar, WideBand>::elapsed_s(std::uint32_t time_us) {
+    constexpr Scalar s_per_us = estimation::literal<Scalar>(1e-6L);
+    const auto elapsed_us = static_cast<std::int32_t>(time_us - last_time_us_);
+    const bool is_known = has_time_ && elapsed_us > 0;
+    last_time_us_ = time_us;
+    has_time_ = true;
+    return is_known ? static_cast<Scalar>(elapsed_us) * s_per_us : Scalar(0);
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::follow_wide_band(Scalar dt_s, const hal::DriveSample& sample) {
+    // Without a tangential force (no spindle current: a force sensor alone) nothing tells air from cut.
+    const bool may_be_in_cut = !estimator_.estimate().tangential_N.valid || is_in_cut();
+    if (!wide_band_.add(dt_s, sample, may_be_in_cut)) {
+        drops_.forget_sections();
+    }
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::set_motion(Velocity velocity) {
+    using estimation::square;
+    using std::sqrt;
+    constexpr Scalar plunging_mm_s{0.5F};
+    const Scalar plane2 = square(velocity.x_mm_s) + square(velocity.y_mm_s);
+    const Scalar axial2 = square(velocity.z_mm_s);
+    input_.velocity_x_mm_s = velocity.x_mm_s;
+    input_.velocity_y_mm_s = velocity.y_mm_s;
+    input_.path_speed_mm_s = sqrt(plane2 + axial2);
+    input_.plunging = axial2 > plane2 && axial2 > square(plunging_mm_s);
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::run_law(Velocity velocity, const hal::ProgramStatus& program, Scalar dt_s,
+                                                 Scalar time_since_sample_s) {
+    set_motion(velocity);
+    input_.dt_s = dt_s;
+    input_.time_since_sample_s = time_since_sample_s;
+    input_.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
+    input_.operator_override = Scalar(program.operator_override);
+    input_.rapid = program.rapid;
+    input_.feed_hold = program.feed_hold;
+    input_.cut.fresh = has_new_estimate_;
+    input_.cut.spindle_turning = estimator_.spindle_turns();
+    input_.cut.force_valid = estimator_.estimate().tangential_N.valid && input_.cut.spindle_turning;
+    has_new_estimate_ = false;
+    is_rapid_ = program.rapid;
+    control_ = controller_.step(input_);
+}
+
+template <typename Scalar, typename WideBand>
+hal::FeedOverride ForceControlTick<Scalar, WideBand>::output() {
+    hal::FeedOverride output;
+    output.ratio = static_cast<float>(control_.ratio);
+    output.hold = control_.hold;
+    output.state = static_cast<std::uint8_t>(control_.state);
+    output.fault = static_cast<std::uint8_t>(control_.fault);
+    output.heartbeat = ++heartbeat_;
+    return output;
+}
+
+// Work beside the samples
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::work() {
+    if (estimator_.work_due()) {
+        estimator_.set_immersion_of_other_method(
+            drops_.carry(wide_band_.estimate().force_drop_immersion, estimator_.estimate().section_mm2));
+        if (estimator_.work()) {
+            take_estimate();
+        }
+    } else if (wide_band_.work_due()) {
+        work_on_wide_band();
+    }
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::take_estimate() {
+    rezero_in_air();
+    drops_.follow_section(estimator_.estimate().section_mm2);
+    surface_.update(estimator_.estimate());
+    set_cut();
+    has_new_estimate_ = true;
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::forget_estimate() {
+    estimator_.restart();
+    set_cut();
+    has_new_estimate_ = false;
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::work_on_wide_band() {
+    const WideBandEstimate<Scalar> before = wide_band_.estimate();
+    wide_band_.work();
+    if (wide_band_.estimate().force_drops != before.force_drops) {
+        drops_.take(wide_band_.estimate().force_drop_immersion, before.force_drop_immersion);
+    }
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
+    const auto& estimate = estimator_.estimate();
+    const bool in_air = controller_.state() == control::CutState::air;
+    const Scalar half_contact_N = estimation::halved(control_parameters_.contact_force_N);
+    const bool looks_idle = was_rezeroed_ ? estimate.tangential_N.valid && estimate.tangential_N.value < half_contact_N
+                                          : estimator_.axes_rest();
+    // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
+    air_periods_ = is_rapid_ || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
+    // The first windows after a change hold a mixture of air and cut.
+    const int enough = 2 * static_cast<int>(control_parameters_.teeth) + 1;
+    if (air_periods_ >= enough) {
+        was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
+        air_periods_ = enough;
+    } else {
+        estimator_.leave_air();
+    }
+}
+
+/// What a new estimate says to the controller.
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::set_cut() {
+    using std::sqrt;
+    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+    control::CutEstimateForControl<Scalar>& cut = input_.cut;
+    const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
+    const estimation::Measurement<Scalar>& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
+    cut.tangential_N = F_at.value;
+    cut.tangential_sd_N = sqrt(F_at.variance);
+    const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;
+    const Scalar tooth_sd_N = sqrt(tooth.variance);
+    cut.tooth_force_valid = tooth.valid;
+    cut.tooth_force_is_bound = e.tooth_force_is_bound;
+    cut.least_tooth_force_N = e.least_tooth_force_N;
+    cut.tooth_force_N = tooth.valid ? tooth.value + control_parameters_.caution_sd * tooth_sd_N : e.worst_tooth_force_N;
+    // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
+    if (e.newest_tangential_N > Scalar(0)) {
+        const Scalar lead_s = reaction_s_ + estimation::halved(e.window_s);
+        cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
+    }
+    cut.tooth_periods = Scalar(e.tooth_periods);
+    cut.cutting_share = e.cutting_share;
+    cut.surge_ratio = e.surge.ratio;
+    cut.surge_cutting_share = e.surge.cutting_share;
+    cut.turn_ratio = e.turn.ratio;
+    cut.turn_cutting_share = e.turn.cutting_share;
+    cut.section_mm2 = e.section_mm2;
+    cut.section_noise_mm2 = e.section_noise_mm2;
+    cut.feed_exponent = e.feed_exponent;
+    cut.feed_mm_s = e.feed_mm_s;
+    cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
+    input_.surface = surface_.for_control();
+}
+
+// What is shown
+
+template <typename Scalar, typename WideBand>
+bool ForceControlTick<Scalar, WideBand>::is_in_cut() const {
+    const bool is_cutting = control_.state == control::CutState::in_cut || control_.state == control::CutState::hold;
+    return is_cutting && !control_.fading;
+}
+
+template <typename Scalar, typename WideBand>
+estimation::EngagementEstimate<Scalar> ForceControlTick<Scalar, WideBand>::engagement() const {
+    estimation::EngagementEstimate<Scalar> shown = estimator_.estimate().engagement;
+    const bool arc_is_known = is_in_cut();
+    shown.immersion_valid = shown.immersion_valid && arc_is_known;
+    shown.depth_valid = shown.depth_valid && arc_is_known;
+    return shown;
+}
+
+}  // namespace millforce::firmware

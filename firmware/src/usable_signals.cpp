@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/usable_signals.hpp"
+
+#include "hal/finite.hpp"
+
+namespace millforce::firmware {
+
+hal::DriveSample usable_drives_of(const hal::DriveSample& sample) {
+    const auto is_present = [&](std::uint8_t mask) { return (sample.present & mask) != 0; };
+    hal::DriveSample usable;
+    if (is_present(hal::mask(hal::Present::spindle_current)) && hal::is_finite(sample.spindle_current_A)) {
+        usable.present = hal::mask(hal::Present::spindle_current);
+        usable.spindle_current_A = sample.spindle_current_A;
+    }
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        if (is_present(hal::axis_mask(k)) && hal::is_finite(sample.axis_current_A[k]) &&
+            hal::is_finite(sample.axis_velocity_mm_s[k])) {
+            usable.present = static_cast<std::uint8_t>(usable.present | hal::axis_mask(k));
+            usable.axis_current_A[k] = sample.axis_current_A[k];
+            usable.axis_velocity_mm_s[k] = sample.axis_velocity_mm_s[k];
+        }
+    }
+    return usable;
+}
+
+}  // namespace millforce::firmware

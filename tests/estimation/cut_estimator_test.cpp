@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimation/cut_estimator.hpp"
+
+#include "estimation/number/fixed_point.hpp"
+#include "laws.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <array>
+#include <bit>
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+using namespace millforce::estimation;
+
+namespace {
+
+/// Down milling along +x at 1 kHz with 4 teeth, a tooth's ripple on the load, and each revolution wider than the last.
+class Cut {
+  public:
+    explicit Cut(double revs_per_s) : revs_per_s_(revs_per_s) {}
+
+    template <typename Scalar>
+    bool add_next(CutEstimator<Scalar>& estimator) {
+        const double rev = revs_per_s_ * 1e-3 * ++index_;
+        const double load = 1.0 + 0.3 * std::sin(2.0 * std::numbers::pi * 4.0 * rev);
+        DriveSignals<Scalar> signals;
+        signals.values[0] = Scalar(static_cast<float>(10.0 * load));
+        signals.values[1] = Scalar(static_cast<float>(-(2.0 - 1e-3 * index_) * load));
+        signals.values[DriveSignals<Scalar>::first_velocity] = Scalar(20);
+        signals.present = 0xFU;
+        const Scalar before_s = estimator.since_period_s();
+        estimator.add(literal<Scalar>(1e-3L), static_cast<std::uint32_t>(rev * 65536.0), 0, 0, signals);
+        return estimator.since_period_s() < before_s;
+    }
+
+  private:
+    double revs_per_s_;
+    int index_ = 0;
+};
+
+template <typename Scalar>
+CutEstimator<Scalar> fresh_estimator(CutSide side = CutSide::down) {
+    CutEstimatorSettings<Scalar> settings;
+    settings.side = side;
+    settings.encoder_counts_per_rev = 65536;
+    SpindleDriveParameters<Scalar> spindle;
+    spindle.K_t1_Nm_per_A = literal<Scalar>(0.13L);
+    std::array<FeedDriveParameters<Scalar>, 3> axes{};
+    for (auto& axis : axes) {
+        axis.K_x4_N_per_A = Scalar(100);
+        axis.friction_relative_sd = literal<Scalar>(0.01L);
+    }
+    return CutEstimator<Scalar>(settings, spindle, axes, millforce::tests::carbide_in_SM45C<Scalar>());
+}
+
+std::uint64_t bits_of(float value) {
+    return std::bit_cast<std::uint32_t>(value);
+}
+std::uint64_t bits_of(Fixed value) {
+    return static_cast<std::uint64_t>(value.raw());
+}
+
+template <typename Scalar>
+std::vector<std::uint64_t> bits_of(const CutEstimate<Scalar>& e) {
+    std::vector<std::uint64_t> bits{static_cast<std::uint64_t>(e.tooth_periods)};
+    for (const Scalar value :
+         {e.tangential_N.value, e.tangential_N.variance, e.tooth_tangential_N.value, e.feed_N.value,
+          e.engagement.radial_immersion, e.engagement.radial_immersion_sd, e.engagement.axial_depth_mm,
+          e.engagement.axial_depth_sd_mm, e.engagement.misfit, e.tooth_force_N.value, e.tooth_force_N.variance,
+          e.section_mm2, e.surge.ratio, e.turn.ratio, e.cutting_share}) {
+        bits.push_back(bits_of(value));
+    }
+    return bits;
+}
+
+constexpr int unlimited = INT_MAX;
+constexpr int samples = 600;
+
+/// The bits of all estimates where each is completed before the next sample.
+template <typename Scalar>
+std::vector<std::vector<std::uint64_t>> estimates_at_once(CutSide side, int steps_per_slice) {
+    CutEstimator<Scalar> estimator = fresh_estimator<Scalar>(side);
+    Cut cut(66.7);
+    std::vector<std::vector<std::uint64_t>> estimates;
+    for (int k = 0; k < samples; ++k) {
+        cut.add_next(estimator);
+        while (estimator.work_due()) {
+            if (estimator.work(steps_per_slice)) {
+                estimates.push_back(bits_of(estimator.estimate()));
+            }
+        }
+    }
+    CHECK(estimator.estimate().engagement.immersion_valid);
+    return estimates;
+}
+
+/// … where there is one slice between two samples.
+template <typename Scalar>
+std::vector<std::vector<std::uint64_t>> estimates_between_samples(double revs_per_s, int steps_per_slice) {
+    CutEstimator<Scalar> estimator = fresh_estimator<Scalar>();
+    Cut cut(revs_per_s);
+    std::vector<std::vector<std::uint64_t>> estimates;
+    for (int k = 0; k < samples; ++k) {
+        cut.add_next(estimator);
+        if (estimator.work(steps_per_slice)) {
+            estimates.push_back(bits_of(estimator.estimate()));
+        }
+    }
+    CHECK(estimator.estimate().engagement.immersion_valid);
+    return estimates;
+}
+
+template <typename Scalar>
+void check_slices() {
+    for (const CutSide side : {CutSide::down, CutSide::unknown}) {
+        const auto expected = estimates_at_once<Scalar>(side, unlimited);
+        CHECK(expected.size() > 100);
+        for (const int steps : {1, 3, 17}) {
+            CHECK(estimates_at_once<Scalar>(side, steps) == expected);
+        }
+    }
+}
+
+}  // namespace
+
+TEST_GROUP(CutEstimator){};
+
+TEST(CutEstimator, gives_the_same_bits_whatever_the_size_of_a_slice_in_float) {
+    check_slices<float>();
+}
+
+TEST(CutEstimator, gives_the_same_bits_whatever_the_size_of_a_slice_in_fixed_point) {
+    check_slices<Fixed>();
+}
+
+TEST(CutEstimator, gives_the_same_bits_where_samples_come_between_the_slices) {
+    constexpr double slow_rev_s = 7.0;  // a tooth in 35 samples
+    const auto expected = estimates_between_samples<float>(slow_rev_s, unlimited);
+    CHECK(expected.size() > 10);
+    for (const int steps : {2, 5}) {
+        CHECK(estimates_between_samples<float>(slow_rev_s, steps) == expected);
+    }
+}
+
+TEST(CutEstimator, merges_the_tooth_periods_that_end_while_an_estimate_is_in_work) {
+    CutEstimator<float> estimator = fresh_estimator<float>();
+    Cut cut(66.7);  // a tooth in 3.75 samples, an estimate in 8
+    int ended = 0;
+    int estimated = 0;
+    int estimates = 0;
+    for (int k = 0; k < samples; ++k) {
+        ended += cut.add_next(estimator) ? 1 : 0;
+        if (estimator.work(5)) {
+            estimated += estimator.estimate().tooth_periods;
+            ++estimates;
+        }
+    }
+    CHECK(estimates > 50 && estimates < ended * 2 / 3);
+    CHECK(ended - estimated >= 0 && ended - estimated <= 6);  // the newest ones are not yet complete
+}
+
+TEST(CutEstimator, does_nothing_until_a_tooth_period_has_ended) {
+    CutEstimator<float> estimator = fresh_estimator<float>();
+    Cut cut(66.7);
+    int idle = 0;
+    for (int k = 0; k < 50; ++k) {
+        const bool has_ended = cut.add_next(estimator);
+        CHECK(estimator.work_due() == has_ended);
+        idle += estimator.work_due() ? 0 : 1;
+        while (estimator.work_due()) {
+            estimator.work();
+        }
+    }
+    CHECK(idle > 30);
+    CHECK_FALSE(estimator.work());
+}
+
+TEST(CutEstimator, forgets_the_estimate_in_work_when_it_restarts) {
+    CutEstimator<float> estimator = fresh_estimator<float>();
+    Cut cut(66.7);
+    for (int k = 0; k < samples || !estimator.work_due(); ++k) {
+        while (estimator.work_due()) {
+            estimator.work();
+        }
+        cut.add_next(estimator);
+    }
+    estimator.work();
+    estimator.restart();
+    CHECK_FALSE(estimator.work_due());
+    CHECK_FALSE(estimator.estimate().tangential_N.valid);
+    CHECK_FALSE(estimator.spindle_turns());
+}
