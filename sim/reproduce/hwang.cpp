@@ -23,17 +23,17 @@ constexpr std::uint64_t hwang_seed = 1;
 
 /// The laws that the estimators use: with the edge forces taken out, and as the paper has it, without.
 struct HwangLaws {
-    FloatForceDropCalibration::Result steel{};
-    FloatForceDropCalibration::Result aluminium{};
-    FloatForceDropCalibration::Result steel_down{};
-    FloatForceDropCalibration::Result steel_without_edges{};
-    FloatForceDropCalibration::Result aluminium_without_edges{};
+    estimation::ForceDropCalibration::Result steel{};
+    estimation::ForceDropCalibration::Result aluminium{};
+    estimation::ForceDropCalibration::Result steel_down{};
+    estimation::ForceDropCalibration::Result steel_without_edges{};
+    estimation::ForceDropCalibration::Result aluminium_without_edges{};
 };
 
 HwangLaws calibrated_laws() {
     HwangLaws laws;
-    const FloatForceDropCalibration steel = calibration_cuts(steel_SM45C(), true, hwang_seed);
-    const FloatForceDropCalibration aluminium = calibration_cuts(aluminium_6061(), true, hwang_seed);
+    const estimation::ForceDropCalibration steel = calibration_cuts(steel_SM45C(), true, hwang_seed);
+    const estimation::ForceDropCalibration aluminium = calibration_cuts(aluminium_6061(), true, hwang_seed);
     laws.steel = steel.solve();
     laws.steel_without_edges = steel.solve_without_edges();
     laws.aluminium = aluminium.solve();
@@ -46,8 +46,8 @@ bool is_steel(const TableRow& row) {
     return row.cut.material.name == steel_SM45C().name;
 }
 
-std::vector<TableResult> mill_table(const std::vector<TableRow>& rows, const FloatForceDropLaw& steel,
-                                    const FloatForceDropLaw& aluminium) {
+std::vector<TableResult> mill_table(const std::vector<TableRow>& rows, const FittedForceDropLaw& steel,
+                                    const FittedForceDropLaw& aluminium) {
     std::vector<TableResult> results;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         results.push_back(mill_row(is_steel(rows[k]) ? steel : aluminium, rows[k], hwang_seed * 50U + k));
@@ -169,7 +169,7 @@ void add_other_seeds(const std::vector<TableRow>& rows, const HwangLaws& laws, R
 
 /// Table 1's steel rows with another force law or another runout: the method does not depend on those of the bench.
 void add_other_plant(const char* name, const BenchMaterial& material, double runout_mm, Reproduction& out) {
-    const FloatForceDropLaw law = calibration_cuts(material, true, hwang_seed + 2U).solve().law;
+    const FittedForceDropLaw law = calibration_cuts(material, true, hwang_seed + 2U).solve().law;
     std::vector<TableResult> results;
     std::uint64_t seed = 77U;
     for (TableRow row : table_rows()) {
@@ -218,28 +218,26 @@ void add_edge_figures(const std::vector<TableResult>& ours, const std::vector<Ta
 
 void add_law_figures(const HwangLaws& laws, Reproduction& out) {
     using Judged = Figure::Judged;
-    const auto value = [](float number) { return static_cast<double>(number); };
-    const auto sd = [](float variance) { return std::sqrt(static_cast<double>(variance)); };
     const auto& plain = laws.steel_without_edges.law;
     const auto& law = laws.steel.law;
+    out.figures.push_back({"Fig. 7: a of r = a r_av + b, edge force left in", "", 0.50465, plain.a, Judged::shown});
     out.figures.push_back(
-        {"Fig. 7: a of r = a r_av + b, edge force left in", "", 0.50465, value(plain.a), Judged::shown});
-    out.figures.push_back({"Fig. 7: its standard error", "", unknown, sd(plain.a_b_covariance(0, 0)), Judged::shown});
-    out.figures.push_back({"Fig. 7: b, edge force left in (not printed)", "", unknown, value(plain.b), Judged::shown});
-    out.figures.push_back({"a, edge force taken out", "", unknown, value(law.a), Judged::shown});
-    out.figures.push_back({"its standard error", "", unknown, sd(law.a_b_covariance(0, 0)), Judged::shown});
+        {"Fig. 7: its standard error", "", unknown, std::sqrt(plain.a_b_covariance(0, 0)), Judged::shown});
+    out.figures.push_back({"Fig. 7: b, edge force left in (not printed)", "", unknown, plain.b, Judged::shown});
+    out.figures.push_back({"a, edge force taken out", "", unknown, law.a, Judged::shown});
+    out.figures.push_back({"its standard error", "", unknown, std::sqrt(law.a_b_covariance(0, 0)), Judged::shown});
     out.figures.push_back(
-        {"|a|: the paper's iteration would converge below 1", "", 1.0, std::abs(value(plain.a)), Judged::at_most, 1.0});
-    out.figures.push_back({"Edge length e_t of SM45C", "mm", unknown, value(law.e_t_mm), Judged::shown});
-    out.figures.push_back({"Edge length e_r of SM45C", "mm", unknown, value(law.e_r_mm), Judged::shown});
-    out.figures.push_back({"Edge length e_t of SM45C, relative standard error", "", unknown,
-                           value(law.e_t_sd_mm / law.e_t_mm), Judged::at_most, 0.10});
+        {"|a|: the paper's iteration would converge below 1", "", 1.0, std::abs(plain.a), Judged::at_most, 1.0});
+    out.figures.push_back({"Edge length e_t of SM45C", "mm", unknown, law.e_t_mm, Judged::shown});
+    out.figures.push_back({"Edge length e_r of SM45C", "mm", unknown, law.e_r_mm, Judged::shown});
+    out.figures.push_back({"Edge length e_t of SM45C, relative standard error", "", unknown, law.e_t_sd_mm / law.e_t_mm,
+                           Judged::at_most, 0.10});
 }
 
 /// Row 17: 6 inserts, 200 rpm, the immersion growing from 0.2 to 0.8 along 150 mm.
 constexpr double part_revolutions = 166.0;
 
-std::vector<ForceDropRun> mill_varying_part(const FloatForceDropLaw& law) {
+std::vector<ForceDropRun> mill_varying_part(const FittedForceDropLaw& law) {
     const BenchCut cut{.spindle_speed_rpm = 200.0, .teeth = 6, .axial_depth_mm = 1.0, .material = steel_SM45C()};
     const auto immersion_at = [](double revolution) {
         return 0.2 + 0.6 * std::clamp(revolution / part_revolutions, 0.0, 1.0);
@@ -296,7 +294,7 @@ struct DriveResult {
     Tally along_x{};
 };
 
-DriveResult mill_on_drives(const FloatForceDropLaw& law) {
+DriveResult mill_on_drives(const FittedForceDropLaw& law) {
     constexpr double diagonal_rad = 0.785398;
     constexpr double beyond_bandwidth_rpm = 2000.0;  // 100 teeth a second
     DriveResult result;

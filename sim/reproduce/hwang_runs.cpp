@@ -76,8 +76,8 @@ estimation::ForceDropSettings<float> force_drop_settings(const BenchCut& cut, in
     return settings;
 }
 
-FloatForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling, std::uint64_t seed) {
-    FloatForceDropCalibration calibration;
+estimation::ForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling, std::uint64_t seed) {
+    estimation::ForceDropCalibration calibration;
     int number = 0;
     for (const double feed_mm : {0.10, 0.15, 0.20}) {
         for (const double immersion : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
@@ -88,15 +88,15 @@ FloatForceDropCalibration calibration_cuts(const BenchMaterial& material, bool u
                                .runout_angle_rad = 0.3 * number};
             ++number;
             const auto measured = measure_known_cut(cut, seed * 1000U + static_cast<std::uint64_t>(number));
-            calibration.add({measured, static_cast<float>(cut.axial_depth_mm), static_cast<float>(immersion)});
+            calibration.add({estimation::in_double(measured), cut.axial_depth_mm, immersion});
         }
     }
     return calibration;
 }
 
-std::vector<ForceDropRun> run_force_drop(const FloatForceDropLaw& law, const BenchCut& cut, int revolutions,
+std::vector<ForceDropRun> run_force_drop(const FittedForceDropLaw& law, const BenchCut& cut, int revolutions,
                                          const std::vector<BenchSample>& samples) {
-    FloatForceDrop force_drop(law, force_drop_settings(cut, revolutions));
+    FloatForceDrop force_drop(estimation::in_float(law), force_drop_settings(cut, revolutions));
     std::vector<ForceDropRun> runs;
     double seen = 0.0;
     for (const BenchSample& sample : samples) {
@@ -108,12 +108,12 @@ std::vector<ForceDropRun> run_force_drop(const FloatForceDropLaw& law, const Ben
     return runs;
 }
 
-std::vector<ForceDropRun> run_force_drop_on_drives(const FloatForceDropLaw& law, const DriveCut& drive_cut,
+std::vector<ForceDropRun> run_force_drop_on_drives(const FittedForceDropLaw& law, const DriveCut& drive_cut,
                                                    int revolutions, const DriveRecording& recording) {
     auto settings = force_drop_settings(drive_cut.cut, revolutions);
     settings.detector.response.corner_hz = static_cast<float>(0.44 / (2.0 * drive_cut.sample_s));
     settings.mean_force_sd_N = 10.0F;
-    FloatForceDrop force_drop(law, settings);
+    FloatForceDrop force_drop(estimation::in_float(law), settings);
     estimation::EncoderAngle<float> encoder(recording.encoder_counts_per_rev);
     DriveForces forces(drive_cut.feed_direction_rad);
     std::vector<ForceDropRun> runs;

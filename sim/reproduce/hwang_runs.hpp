@@ -14,14 +14,13 @@
 namespace millforce::sim {
 
 using FloatForceDrop = estimation::ForceDrop<float>;
-using FloatForceDropLaw = estimation::ForceDropLaw<float>;
+using FittedForceDropLaw = estimation::ForceDropLaw<double>;
 using FloatForceDropEstimate = estimation::ForceDropEstimate<float>;
-using FloatForceDropCalibration = estimation::ForceDropCalibration<float>;
 
 /// Twenty-one cuts at 300 rpm, Ø100, 3 inserts, 1.5 mm: feeds 0.10, 0.15, 0.20 mm, immersions 0.2…0.8, each with its
 /// own noise, drift and mounting of the cutter. All other conditions of Table 1 are not among them.
-[[nodiscard]] FloatForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling,
-                                                         std::uint64_t seed);
+[[nodiscard]] estimation::ForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling,
+                                                                std::uint64_t seed);
 
 /// One estimate and the truth.
 struct ForceDropRun {
@@ -33,11 +32,11 @@ struct ForceDropRun {
 [[nodiscard]] estimation::ForceDropSettings<float> force_drop_settings(const BenchCut& cut, int revolutions);
 
 /// Every estimate that the samples give.
-[[nodiscard]] std::vector<ForceDropRun> run_force_drop(const FloatForceDropLaw& law, const BenchCut& cut,
+[[nodiscard]] std::vector<ForceDropRun> run_force_drop(const FittedForceDropLaw& law, const BenchCut& cut,
                                                        int revolutions, const std::vector<BenchSample>& samples);
 
 /// The same from the drives' currents and velocities.
-[[nodiscard]] std::vector<ForceDropRun> run_force_drop_on_drives(const FloatForceDropLaw& law,
+[[nodiscard]] std::vector<ForceDropRun> run_force_drop_on_drives(const FittedForceDropLaw& law,
                                                                  const DriveCut& drive_cut, int revolutions,
                                                                  const DriveRecording& recording);
 

@@ -64,7 +64,7 @@ double TableCut::largest_relative_error() const {
     return largest;
 }
 
-TableResult mill_row(const FloatForceDropLaw& law, const TableRow& row, std::uint64_t seed) {
+TableResult mill_row(const FittedForceDropLaw& law, const TableRow& row, std::uint64_t seed) {
     TableResult result;
     std::uint64_t number = 0;
     for (const double immersion : table_immersions) {

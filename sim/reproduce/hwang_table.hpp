@@ -40,6 +40,6 @@ using TableResult = std::vector<TableCut>;  ///< one per immersion
 inline constexpr int revolutions_per_estimate = 4;
 inline constexpr int estimates_per_cut = 5;
 
-[[nodiscard]] TableResult mill_row(const FloatForceDropLaw& law, const TableRow& row, std::uint64_t seed);
+[[nodiscard]] TableResult mill_row(const FittedForceDropLaw& law, const TableRow& row, std::uint64_t seed);
 
 }  // namespace millforce::sim

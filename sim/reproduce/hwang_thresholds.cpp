@@ -7,9 +7,10 @@
 namespace millforce::sim {
 
 std::vector<ThresholdPoint> thresholds(const TableResult& row, const BenchCut& row_cut,
-                                       const FloatForceDropCalibration::Result& calibrated) {
+                                       const estimation::ForceDropCalibration::Result& calibrated) {
     const auto& k = calibrated.coefficients.parameters;
-    const auto law = estimation::linear_edge_law(k(0), k(1), k(2), k(3));
+    const auto in_float = [&k](int j) { return static_cast<float>(k(j)); };
+    const auto law = estimation::linear_edge_law(in_float(0), in_float(1), in_float(2), in_float(3));
     estimation::PeakFactorSettings<float> settings;
     settings.teeth = static_cast<float>(row_cut.teeth);
     settings.cutter_radius_mm = static_cast<float>(0.5 * row_cut.diameter_mm);

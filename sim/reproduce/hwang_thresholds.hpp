@@ -20,6 +20,6 @@ struct ThresholdPoint {
 
 /// One point per cut of a row of Table 1.
 [[nodiscard]] std::vector<ThresholdPoint> thresholds(const TableResult& row, const BenchCut& row_cut,
-                                                     const FloatForceDropCalibration::Result& calibrated);
+                                                     const estimation::ForceDropCalibration::Result& calibrated);
 
 }  // namespace millforce::sim

@@ -163,7 +163,7 @@ std::vector<KimAirCut> simulate_air_cuts(const KimMachine& machine) {
 }
 
 void fill_friction(const std::vector<KimAirCut>& air, host::MachineParameters& machine) {
-    estimation::FeedCurrentFit<double> fit;
+    estimation::FeedCurrentFit fit;
     for (const KimAirCut& cut : air) {
         fit.add(cut.feed_m_per_min, cut.current_A);
     }

@@ -62,7 +62,7 @@ struct KimCampaign {
     host::MachineParameters calibrated;  ///< after steps 1 and 2
     host::StandardCutGains gains;        ///< of step 2
     std::vector<host::RecordedStretch> standard_cuts;
-    estimation::DriveGainDoubt<double> gain_doubt;
+    estimation::DriveGainDoubt gain_doubt;
     double idle_torque_Nm = 0.0;  ///< of the plant's warm bearing at the spindle's speed
 };
 
@@ -73,7 +73,7 @@ KimCampaign calibrate_machine(const KimMachine& machine, const AverageChipLaw& d
 struct KimUnknownTool {
     std::vector<host::RecordedStretch> stretches;
     std::vector<host::CutRow> cuts;  ///< with forces from currents
-    estimation::CuttingFit<double> fit;
+    estimation::CuttingFit fit;
 };
 KimUnknownTool calibrate_tool(const KimCampaign& campaign, const AverageChipLaw& law, std::uint64_t noise);
 

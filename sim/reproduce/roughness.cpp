@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +22,7 @@ namespace {
 
 using Cut = estimation::RoughnessConditions<double>;
 using Model = estimation::RoughnessModel<double>;
-using Test = estimation::RoughnessTest<double>;
+using Test = estimation::RoughnessTest;
 using Predictor = estimation::RoughnessPredictor<double>;
 using Series = Plot::Series;
 using Judged = Figure::Judged;
@@ -111,8 +110,8 @@ Test held_out(const Model& model, Scatter& scatter) {
     return made_with(model, cut, scatter);
 }
 
-estimation::RoughnessFit<double> fit(const std::vector<Test>& tests) {
-    return estimation::fit_roughness(std::span<const Test>(tests));
+estimation::RoughnessFit fit(const std::vector<Test>& tests) {
+    return estimation::fit_roughness(tests);
 }
 
 bool is_covered(const Predictor& predictor, const Test& test) {
@@ -174,23 +173,15 @@ void add_coverage(const Published& paper, Reproduction& result) {
                               "%", 95.0, 100.0 * covered / held_out_tests, Judged::shown});
 }
 
-/// The chain of the loop: forces from currents with 3 % of noise, in float, the model fitted in float.
+/// The chain of the loop: forces from currents with 3 % of noise, in float.
 void add_loop_coverage(const Published& paper, Reproduction& result) {
     Scatter scatter(paper.seed + 3U);
     constexpr int held_out_tests = 1000;
     constexpr double force_sd = 0.03;
     int covered = 0;
     for (int k = 0; k < held_out_tests; ++k) {
-        std::vector<estimation::RoughnessTest<float>> tests;
-        for (const Test& test : table_1(paper.model, scatter)) {
-            estimation::RoughnessTest<float> copy;
-            std::transform(test.cut.begin(), test.cut.end(), copy.cut.begin(),
-                           [](double value) { return static_cast<float>(value); });
-            copy.roughness_um = static_cast<float>(test.roughness_um);
-            tests.push_back(copy);
-        }
         const estimation::RoughnessPredictor<float> predictor(
-            estimation::fit_roughness(std::span<const estimation::RoughnessTest<float>>(tests)).model);
+            estimation::in_float(fit(table_1(paper.model, scatter)).model));
         const Test test = held_out(paper.model, scatter);
         estimation::RoughnessConditions<float> cut{};
         std::transform(test.cut.begin(), test.cut.end(), cut.begin(),

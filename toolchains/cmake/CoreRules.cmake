@@ -5,6 +5,9 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(CORE_FOLDERS hal estimation control firmware/include firmware/src firmware/can firmware/link drivers)
+# Host code inside a folder of the core: not searched, and the core must not include its headers.
+set(HOST_FOLDERS estimation/calibration)
+set(host_header "^ *# *include *[<\"]estimation_calibration/")
 set(FORBIDDEN_WORDS
     new delete malloc calloc realloc free alloca throw try catch dynamic_cast typeid double goto
     std::vector std::string std::map std::unordered_map std::set std::list std::deque std::function
@@ -56,6 +59,9 @@ function(search_file file name)
     set(found "")
     foreach(line IN LISTS lines)
         math(EXPR line_number "${line_number} + 1")
+        if("${line}" MATCHES "${host_header}")
+            string(APPEND found "  ${name}:${line_number}: a header of the host is forbidden in the core\n")
+        endif()
         code_of_line("${line}" in_comment code)
         if(NOT "${code}" MATCHES "${not_of_a_word}(${any_forbidden_word})${not_of_a_word}")
             continue()
@@ -73,6 +79,9 @@ set(findings "")
 foreach(folder IN LISTS CORE_FOLDERS)
     file(GLOB_RECURSE files RELATIVE "${SOURCE_DIR}"
         "${SOURCE_DIR}/${folder}/*.hpp" "${SOURCE_DIR}/${folder}/*.cpp" "${SOURCE_DIR}/${folder}/*.h")
+    foreach(host_folder IN LISTS HOST_FOLDERS)
+        list(FILTER files EXCLUDE REGEX "^${host_folder}/")
+    endforeach()
     foreach(name IN LISTS files)
         search_file("${SOURCE_DIR}/${name}" "${name}")
     endforeach()

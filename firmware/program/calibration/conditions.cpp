@@ -16,8 +16,8 @@ estimation::EngagementAngles<double> CutRow::engagement(estimation::CutSide side
     return estimation::engagement_angles(side, width_mm / radius_mm());
 }
 
-estimation::CuttingMeasurement<double> CutRow::measurement(estimation::CutSide side) const {
-    estimation::CuttingMeasurement<double> result;
+estimation::CuttingMeasurement CutRow::measurement(estimation::CutSide side) const {
+    estimation::CuttingMeasurement result;
     result.cut = {feed_per_tooth_mm(), axial_depth_mm, engagement(side, radial_width_mm), flutes};
     result.tangential_N = spindle_torque_Nm * 1000.0 / radius_mm();
     result.feed_N = feed_force_N;

@@ -27,7 +27,7 @@ struct CutRow {
     /// Entry and exit for `width_mm`.
     estimation::EngagementAngles<double> engagement(estimation::CutSide side, double width_mm) const;
     /// The row as a measurement for the fit. Torque becomes F_at = T/R.
-    estimation::CuttingMeasurement<double> measurement(estimation::CutSide side) const;
+    estimation::CuttingMeasurement measurement(estimation::CutSide side) const;
 };
 
 /// Reads conditions (CSV): tool_diameter_mm, flutes, spindle_rad_s, feed_mm_s must be there; axial_depth_mm,

@@ -66,7 +66,7 @@ std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files) {
 
 struct CutsAndDoubt {
     std::vector<CutRow> cuts;
-    estimation::DriveGainDoubt<double> doubt;
+    estimation::DriveGainDoubt doubt;
 };
 
 /// Forces from currents. The gains of both drives come from standard cuts with one database: the smaller of their two
@@ -90,7 +90,7 @@ CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
 }
 
 /// A parameter that the cuts cannot determine, and the cut that is missing.
-std::string what_the_cuts_lack(const CuttingFit<double>& fit, CuttingLawForm form) {
+std::string what_the_cuts_lack(const CuttingFit& fit, CuttingLawForm form) {
     const auto lacks = [&](int j) { return !fit.determined(j); };
     if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm &&
         lacks(estimation::cutting_K_te)) {
@@ -114,8 +114,8 @@ std::string what_the_cuts_lack(const CuttingFit<double>& fit, CuttingLawForm for
     return {};
 }
 
-CuttingFit<double> fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
-                                 CutSide side, const estimation::DriveGainDoubt<double>& doubt) {
+CuttingFit fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, CutSide side,
+                         const estimation::DriveGainDoubt& doubt) {
     auto fit = options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt)
                                        : fit_cuts(cuts, options.form(), side);
     const std::string lack = what_the_cuts_lack(fit, options.form());
@@ -150,7 +150,7 @@ CutSide told_or_inferred_side(const CuttingCalibrationOptions& options, const st
 }
 
 /// Values at t = 1 mm, as the law holds them. What the chosen form has not is 0, without a standard error.
-std::array<FittedValue, 6> fitted_values(const CuttingFit<double>& fit, CuttingLawForm form) {
+std::array<FittedValue, 6> fitted_values(const CuttingFit& fit, CuttingLawForm form) {
     const auto& law = fit.law;
     const auto& keys = cutting_coefficient_keys;
     const auto fitted = [&](const CalibrationKey& key, bool is_held, double value, int j) {
@@ -166,14 +166,14 @@ std::array<FittedValue, 6> fitted_values(const CuttingFit<double>& fit, CuttingL
              fitted(keys[5], no_edge, law.K_re_N_per_mm, estimation::cutting_K_re)}};
 }
 
-void print_fit(std::ostream& out, const CuttingFit<double>& fit, CuttingLawForm form) {
+void print_fit(std::ostream& out, const CuttingFit& fit, CuttingLawForm form) {
     out << fmt::format("{} law, feed per tooth {:.4g} to {:.4g} mm, mean chip thickness {:.4g} to {:.4g} mm\n",
                        form_name(form), fit.minimum_feed_per_tooth_mm, fit.maximum_feed_per_tooth_mm,
                        fit.law.minimum_chip_thickness_mm, fit.law.maximum_chip_thickness_mm);
     for (const FittedValue& fitted : fitted_values(fit, form)) {
         print_fitted(out, fitted);
     }
-    const auto scatter = [&](std::string_view name, const estimation::CuttingScatter<double>& s) {
+    const auto scatter = [&](std::string_view name, const estimation::CuttingScatter& s) {
         if (s.cuts > 0) {
             out << fmt::format("  {}: {} cuts scatter {:.1f} % about the law ({:.1f} % with the odd ones: {})\n", name,
                                s.cuts, 100.0 * s.robust_sd, 100.0 * s.rms, s.odd_cuts);
@@ -239,7 +239,7 @@ bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingL
     return holds;
 }
 
-void write_fit(const CuttingCalibrationOptions& options, const CuttingFit<double>& fit, CutSide side) {
+void write_fit(const CuttingCalibrationOptions& options, const CuttingFit& fit, CutSide side) {
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment(fmt::format("Coefficients of the cutting force, {} law: K_s = k_s t^p_s, r_1 = k_1 t^p_1, t in mm.",

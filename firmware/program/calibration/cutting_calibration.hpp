@@ -67,12 +67,11 @@ HeldOutErrors leave_one_width_out(const std::vector<CutRow>& cuts, estimation::C
 std::vector<CutRow> read_conditions(const std::filesystem::path& file);
 
 /// The fit of all cuts on one side.
-estimation::CuttingFit<double> fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                        estimation::CutSide side);
+estimation::CuttingFit fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
+                                estimation::CutSide side);
 
 /// The same for forces from currents: their errors are absolute, and the drives' gains are in doubt.
-estimation::CuttingFit<double> fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                                      estimation::CutSide side,
-                                                      const estimation::DriveGainDoubt<double>& doubt);
+estimation::CuttingFit fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
+                                              estimation::CutSide side, const estimation::DriveGainDoubt& doubt);
 
 }  // namespace millforce::host

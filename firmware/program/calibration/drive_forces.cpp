@@ -105,7 +105,7 @@ AirBaseline air_baseline(const std::vector<RecordedStretch>& stretches, const Re
             for_friction.at(cut.middle_s, scale)};
 }
 
-estimation::DriveGainDoubt<double> gain_doubt(const MachineParameters& machine, std::size_t axis) {
+estimation::DriveGainDoubt gain_doubt(const MachineParameters& machine, std::size_t axis) {
     const double spindle = static_cast<double>(machine.spindle.gain_relative_sd);
     const double feed = static_cast<double>(machine.axes[axis].gain_relative_sd);
     const double shared = std::min(spindle, feed);

@@ -41,6 +41,6 @@ std::vector<CutRow> forces_of_cuts(const std::vector<RecordedStretch>& stretches
 
 /// Doubt of the forces from the machine's gains (gain_relative_sd). Standard cuts give both gains by one database: what
 /// both doubts have in common, the smaller one, is taken for shared.
-estimation::DriveGainDoubt<double> gain_doubt(const MachineParameters& machine, std::size_t axis);
+estimation::DriveGainDoubt gain_doubt(const MachineParameters& machine, std::size_t axis);
 
 }  // namespace millforce::host

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/recorded_forces.hpp"
@@ -21,8 +20,7 @@ namespace millforce::host {
 namespace {
 
 using ForceDrop = estimation::ForceDrop<float>;
-using DropCalibration = estimation::ForceDropCalibration<float>;
-using DropCut = DropCalibration::Cut;
+using DropCalibration = estimation::ForceDropCalibration;
 using estimation::CutSide;
 
 constexpr int revolutions_of_a_cut = 8;
@@ -31,6 +29,13 @@ constexpr double widest_immersion = 0.95;
 double immersion_of(const StretchConditions& cut) {
     return cut.radial_width_mm / (0.5 * cut.tool_diameter_mm);
 }
+
+/// One estimate of a cut whose conditions are known.
+struct MeasuredCut {
+    estimation::ForceDropMeasurement<float> measured;
+    double axial_depth_mm = 0.0;
+    double radial_immersion = 0.0;
+};
 
 /// One cut while it is read: as many estimates of its jump and averages as it is long.
 struct KnownCut {
@@ -77,8 +82,8 @@ void take_force(KnownCut& cut, float dt_s, const FeedForces& forces, float teeth
     cut.path_mm = cut.turned_rev = 0.0;
 }
 
-std::vector<DropCut> read_known_cuts(const ForceShapeCalibrationOptions& options,
-                                     const firmware::Parameters<float>& parameters) {
+std::vector<MeasuredCut> read_known_cuts(const ForceShapeCalibrationOptions& options,
+                                         const firmware::Parameters<float>& parameters) {
     const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
     std::vector<KnownCut> known;
     known.reserve(cuts.size());
@@ -88,7 +93,7 @@ std::vector<DropCut> read_known_cuts(const ForceShapeCalibrationOptions& options
     read_recorded_forces(options.data, cuts, parameters, [&](std::size_t k, float dt_s, const FeedForces& forces) {
         take_force(known[k], dt_s, forces, parameters.tool.teeth);
     });
-    std::vector<DropCut> measured;
+    std::vector<MeasuredCut> measured;
     for (std::size_t k = 0; k < cuts.size(); ++k) {
         if (known[k].measured.empty()) {
             throw InputError(
@@ -99,23 +104,23 @@ std::vector<DropCut> read_known_cuts(const ForceShapeCalibrationOptions& options
                             revolutions_of_a_cut));
         }
         for (const auto& m : known[k].measured) {
-            measured.push_back(
-                {m, static_cast<float>(cuts[k].axial_depth_mm), static_cast<float>(immersion_of(cuts[k]))});
+            measured.push_back({m, cuts[k].axial_depth_mm, immersion_of(cuts[k])});
         }
     }
     return measured;
 }
 
-DropCalibration::Result law_of(const std::vector<DropCut>& cuts, std::optional<std::size_t> left_out = {}) {
+bool is_same_cut(const MeasuredCut& a, const MeasuredCut& b) {
+    constexpr float same_feed = 0.05F;  // a measured feed varies from estimate to estimate
+    return a.radial_immersion == b.radial_immersion && a.axial_depth_mm == b.axial_depth_mm &&
+           std::abs(a.measured.feed_per_tooth_mm / b.measured.feed_per_tooth_mm - 1.0F) < same_feed;
+}
+
+DropCalibration::Result law_of(const std::vector<MeasuredCut>& cuts, const MeasuredCut* left_out = nullptr) {
     DropCalibration calibration;
-    const std::size_t step = std::max<std::size_t>(1, (cuts.size() + 63) / 64);  // it has room for 64
-    for (std::size_t k = 0; k < cuts.size(); k += step) {
-        const bool is_left_out =
-            left_out && cuts[k].radial_immersion == cuts[*left_out].radial_immersion &&
-            cuts[k].axial_depth_mm == cuts[*left_out].axial_depth_mm &&
-            std::abs(cuts[k].measured.feed_per_tooth_mm / cuts[*left_out].measured.feed_per_tooth_mm - 1.0F) < 0.05F;
-        if (!is_left_out) {
-            calibration.add(cuts[k]);
+    for (const MeasuredCut& cut : cuts) {
+        if (left_out == nullptr || !is_same_cut(cut, *left_out)) {
+            calibration.add({estimation::in_double(cut.measured), cut.axial_depth_mm, cut.radial_immersion});
         }
     }
     return calibration.solve();
@@ -143,17 +148,17 @@ struct LeftOut {
     std::size_t cuts = 0;
 };
 
-LeftOut leave_each_out(const std::vector<DropCut>& cuts) {
+LeftOut leave_each_out(const std::vector<MeasuredCut>& cuts) {
     LeftOut result;
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-        const auto law = law_of(cuts, k).law;
-        const auto estimate = estimation::ForceDropImmersion<float>(law).solve(cuts[k].measured);
+    for (const MeasuredCut& cut : cuts) {
+        const auto law = estimation::in_float(law_of(cuts, &cut).law);
+        const auto estimate = estimation::ForceDropImmersion<float>(law).solve(cut.measured);
         ++result.cuts;
         if (!estimate.valid()) {
             ++result.without;
             continue;
         }
-        const double error = static_cast<double>(std::abs(estimate.radial_immersion / cuts[k].radial_immersion - 1.0F));
+        const double error = std::abs(static_cast<double>(estimate.radial_immersion) / cut.radial_immersion - 1.0);
         result.mean += error;
         result.worst = std::max(result.worst, error);
     }
@@ -163,9 +168,9 @@ LeftOut leave_each_out(const std::vector<DropCut>& cuts) {
 }
 
 /// Every key of the table but `revolutions`, which is the user's choice.
-void write_law(TomlWriter& toml, const estimation::ForceDropLaw<float>& law) {
+void write_law(TomlWriter& toml, const estimation::ForceDropLaw<double>& law) {
     firmware::Parameters<float> holder;
-    holder.tool.force_drop.law = law;
+    holder.tool.force_drop.law = estimation::in_float(law);
     toml.table("force_drop");
     for (const auto& row : firmware::parameter_table<float>) {
         if (std::string_view(row.table) != "force_drop" || std::string_view(row.key) == "revolutions") {
@@ -185,15 +190,13 @@ void print_law(std::ostream& out, const DropCalibration::Result& result) {
     const auto line = [&](const char* name, double value, double sd, const char* unit) {
         out << fmt::format("  {:<8} {:>9.4f} ± {:.4f} {}\n", name, value, sd, unit);
     };
-    const auto root = [](float variance) { return std::sqrt(static_cast<double>(variance)); };
-    line("e_t", static_cast<double>(law.e_t_mm), static_cast<double>(law.e_t_sd_mm), "mm");
-    line("e_r", static_cast<double>(law.e_r_mm), static_cast<double>(law.e_r_sd_mm), "mm");
-    line("a", static_cast<double>(law.a), root(law.a_b_covariance(0, 0)), result.a_determined ? "" : "(put)");
-    line("b", static_cast<double>(law.b), root(law.a_b_covariance(1, 1)), "");
+    line("e_t", law.e_t_mm, law.e_t_sd_mm, "mm");
+    line("e_r", law.e_r_mm, law.e_r_sd_mm, "mm");
+    line("a", law.a, std::sqrt(law.a_b_covariance(0, 0)), result.a_determined ? "" : "(put)");
+    line("b", law.b, std::sqrt(law.a_b_covariance(1, 1)), "");
     for (int k = 0; k < 3; ++k) {
         const bool is_put = k > 0 && !result.c_determined;
-        line(fmt::format("c_{}", k).c_str(), static_cast<double>(law.c(k)), root(law.c_covariance(k, k)),
-             is_put ? "(put)" : "");
+        line(fmt::format("c_{}", k).c_str(), law.c(k), std::sqrt(law.c_covariance(k, k)), is_put ? "(put)" : "");
     }
 }
 
@@ -209,7 +212,7 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
                         "whose width the drop tells",
                         options.tool.string()));
     }
-    const std::vector<DropCut> cuts = read_known_cuts(options, parameters);
+    const std::vector<MeasuredCut> cuts = read_known_cuts(options, parameters);
     const auto result = law_of(cuts);
     refuse_what_cuts_lack(options, result);
     const LeftOut left_out = leave_each_out(cuts);

@@ -31,7 +31,7 @@ struct MechanicalResult {
 
 /// Samples [from, to) of each recording, as shares of its length.
 MechanicalResult fit_motion(const std::vector<AxisMotion>& motions, double from, double to, double minimum_speed_m_s) {
-    MechanicalFrictionFit<double> fit(minimum_speed_m_s);
+    MechanicalFrictionFit fit(minimum_speed_m_s);
     const auto for_each = [&](auto f) {
         for (const AxisMotion& motion : motions) {
             const auto n = static_cast<double>(motion.velocity_m_s.size());
@@ -204,7 +204,7 @@ std::string what_the_axis_lacks(char axis, const std::vector<SteadyFeed>& feeds)
 }
 
 void fit_axis(char axis, const std::vector<SteadyFeed>& feeds, TomlWriter& toml, std::ostream& out) {
-    FeedCurrentFit<double> fit;
+    FeedCurrentFit fit;
     for (const SteadyFeed& feed : feeds) {
         fit.add(feed.feed_m_per_min, feed.current_A);
     }

@@ -45,9 +45,8 @@ void add(Sums& sums, const CutRow& row, const estimation::CuttingLaw<double>& la
     ++sums.cuts;
 }
 
-std::vector<estimation::CuttingMeasurement<double>> measurements_of(const std::vector<CutRow>& cuts,
-                                                                    estimation::CutSide side) {
-    std::vector<estimation::CuttingMeasurement<double>> measurements;
+std::vector<estimation::CuttingMeasurement> measurements_of(const std::vector<CutRow>& cuts, estimation::CutSide side) {
+    std::vector<estimation::CuttingMeasurement> measurements;
     measurements.reserve(cuts.size());
     for (const CutRow& row : cuts) {
         measurements.push_back(row.measurement(side));
@@ -87,24 +86,22 @@ std::vector<CutRow> read_conditions(const std::filesystem::path& file) {
     return rows;
 }
 
-estimation::CuttingFit<double> fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                        estimation::CutSide side) {
+estimation::CuttingFit fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
+                                estimation::CutSide side) {
     const auto measurements = measurements_of(cuts, side);
-    estimation::CuttingFitOptions<double> options;
+    estimation::CuttingFitOptions options;
     options.form = form;
-    return estimation::fit_cutting_law<double>(measurements, options);
+    return estimation::fit_cutting_law(measurements, options);
 }
 
-estimation::CuttingFit<double> fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                                      estimation::CutSide side,
-                                                      const estimation::DriveGainDoubt<double>& doubt) {
+estimation::CuttingFit fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
+                                              estimation::CutSide side, const estimation::DriveGainDoubt& doubt) {
     const auto measurements = measurements_of(cuts, side);
-    std::vector<estimation::CuttingMeasurement<double>> scratch(measurements.size());
-    estimation::CuttingFitOptions<double> options;
+    estimation::CuttingFitOptions options;
     options.form = form;
     // Noise, idle torque and friction are wrong by newtons, whatever the cut: not by a share of its force.
     options.error_floor = 1.0;
-    return estimation::fit_cutting_law_from_currents<double>(measurements, scratch, doubt, options);
+    return estimation::fit_cutting_law_from_currents(measurements, doubt, options);
 }
 
 HeldOutErrors held_out_errors(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,

@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace millforce::host {
@@ -20,7 +19,7 @@ namespace millforce::host {
 namespace {
 
 using estimation::RoughnessFit;
-using Test = estimation::RoughnessTest<double>;
+using Test = estimation::RoughnessTest;
 
 constexpr int variables = estimation::roughness_variable_count;
 
@@ -115,18 +114,18 @@ unsigned held_bits(const RoughnessCalibrationOptions& options) {
     return bits;
 }
 
-RoughnessFit<double> fit_without(const std::vector<TestRow>& rows, std::size_t left_out, unsigned held) {
+RoughnessFit fit_without(const std::vector<TestRow>& rows, std::size_t left_out, unsigned held) {
     std::vector<Test> tests;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (k != left_out) {
             tests.push_back(rows[k].test);
         }
     }
-    return estimation::fit_roughness(std::span<const Test>(tests), held);
+    return estimation::fit_roughness(tests, held);
 }
 
 /// An exponent that the tests cannot determine, and the variation that is missing.
-std::string what_the_tests_lack(const RoughnessFit<double>& fit) {
+std::string what_the_tests_lack(const RoughnessFit& fit) {
     if (fit.degrees_of_freedom < 1) {
         return fmt::format(
             "'residual_ln_sd' cannot be determined: {} tests with a measured roughness; expected at least "
@@ -153,7 +152,7 @@ std::string what_the_tests_lack(const RoughnessFit<double>& fit) {
     return {};
 }
 
-void print_model(std::ostream& out, const std::string& measure, const RoughnessFit<double>& fit, unsigned held,
+void print_model(std::ostream& out, const std::string& measure, const RoughnessFit& fit, unsigned held,
                  const std::vector<TestRow>& rows) {
     const auto& model = fit.model;
     out << fmt::format("{} = C V^a f^b phi^c D^d (F_x/F_z)^e, {} tests, {} degrees of freedom\n", measure, fit.tests,
@@ -208,7 +207,7 @@ bool check_left_out(std::ostream& out, const std::vector<TestRow>& rows, unsigne
 
 /// C holds for 1 rpm, 1 mm/rev and so on, far outside of the tests: neither it nor its error need be numbers that a
 /// tool file takes. Where C is none, the data are no cutting tests.
-double constant_standard_error(const RoughnessFit<double>& fit) {
+double constant_standard_error(const RoughnessFit& fit) {
     constexpr double smallest_um = 1e-30;  // float keeps it
     constexpr double largest_error_um = 1e12;
     if (!(fit.model.constant_um >= smallest_um)) {
@@ -219,8 +218,7 @@ double constant_standard_error(const RoughnessFit<double>& fit) {
     return error_um <= largest_error_um ? error_um : no_estimate;
 }
 
-void write_model(const RoughnessCalibrationOptions& options, const std::string& measure,
-                 const RoughnessFit<double>& fit) {
+void write_model(const RoughnessCalibrationOptions& options, const std::string& measure, const RoughnessFit& fit) {
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment("Surface roughness: R = C V^a f^b phi^c D^d (F_x/F_z)^e, V in rpm, f in mm/rev, phi and D in mm.");

@@ -20,7 +20,7 @@ namespace millforce::host {
 
 namespace {
 
-using Sample = estimation::SpindleSample<double>;
+using Sample = estimation::SpindleSample;
 
 /// Columns as they stand in the file; NaN where a cell is empty.
 struct SpindleRows {
@@ -139,11 +139,11 @@ estimation::SpindleFitTerms terms_for(const std::vector<Sample>& samples) {
     return {fastest > 1.1 * slowest, acceleration > 1.0, fastest > 1.2 * slowest};
 }
 
-double correlation(const std::vector<Sample>& samples, const estimation::SpindleFit<double>& fit) {
+double correlation(const std::vector<Sample>& samples, const estimation::SpindleFit& fit) {
     const auto& p = fit.solution.parameters;
     std::vector<double> residuals;
     for (const Sample& s : samples) {
-        const double gain = estimation::detail::spindle_gain(p(estimation::spindle_base_speed), s.speed_rad_s);
+        const double gain = estimation::field_weakening_gain(p(estimation::spindle_base_speed), s.speed_rad_s);
         residuals.push_back(s.torque_Nm - p(estimation::spindle_K_t1) * gain * s.current_A -
                             p(estimation::spindle_K_t2) + p(estimation::spindle_idle_slope) * s.speed_rad_s +
                             p(estimation::spindle_inertia) * s.acceleration_rad_s2);
@@ -152,7 +152,7 @@ double correlation(const std::vector<Sample>& samples, const estimation::Spindle
 }
 
 void refuse_what_is_missing(const SpindleCalibrationOptions& options, const std::vector<Sample>& samples,
-                            const estimation::SpindleFit<double>& fit, double correlated) {
+                            const estimation::SpindleFit& fit, double correlated) {
     const auto refuse = [&](int j, std::string_view why) {
         throw InputError(fmt::format("{}: '{}' cannot be determined: {}", options.data.front().string(),
                                      spindle_keys[static_cast<std::size_t>(j)].name, why));
@@ -201,7 +201,7 @@ int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& ou
                         options.data.front().string(), samples.size()));
     }
     const estimation::SpindleFitTerms terms = terms_for(samples);
-    const auto fit = estimation::fit_spindle<double>(samples, terms);
+    const auto fit = estimation::fit_spindle(samples, terms);
     const double correlated = correlation(samples, fit);
     refuse_what_is_missing(options, samples, fit, correlated);
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace millforce::host {
 
@@ -19,7 +18,7 @@ namespace {
 
 using estimation::DriveGainFit;
 using estimation::StandardCutLack;
-using Stretch = estimation::StandardCutStretch<double>;
+using Stretch = estimation::StandardCutStretch;
 
 constexpr std::array<std::string_view, 3> axis_tables{"x", "y", "z"};
 
@@ -71,7 +70,7 @@ Stretch fit_row(const RecordedStretch& stretch, double last_s, const MachinePara
 }
 
 /// Gains of the recordings so far and of one more, by their standard errors. One that lacks something adds nothing.
-void merge(DriveGainFit<double>& all, const DriveGainFit<double>& next) {
+void merge(DriveGainFit& all, const DriveGainFit& next) {
     if (all.rows == 0) {
         all = next;
         return;
@@ -81,7 +80,7 @@ void merge(DriveGainFit<double>& all, const DriveGainFit<double>& next) {
     }
     const double w_all = 1.0 / (all.gain_se * all.gain_se);
     const double w_next = 1.0 / (next.gain_se * next.gain_se);
-    DriveGainFit<double> merged = next;
+    DriveGainFit merged = next;
     merged.gain = (w_all * all.gain + w_next * next.gain) / (w_all + w_next);
     merged.gain_se = 1.0 / std::sqrt(w_all + w_next);
     merged.rows = all.rows + next.rows;
@@ -139,7 +138,7 @@ void refuse_what_cuts_lack(const StandardCutOptions& options, const StandardCutG
 }
 
 /// Prints and writes one drive's gain and offset, and the doubt of the gain.
-void report(std::ostream& out, TomlWriter& toml, const DriveGainFit<double>& fit, std::array<CalibrationKey, 3> keys,
+void report(std::ostream& out, TomlWriter& toml, const DriveGainFit& fit, std::array<CalibrationKey, 3> keys,
             double database_sd) {
     for (const FittedValue& fitted :
          {FittedValue{keys[0], fit.gain, fit.gain_se}, FittedValue{keys[1], fit.offset, fit.offset_se}}) {
@@ -198,11 +197,11 @@ StandardCutGains standard_cut_gains(const std::vector<RecordedStretch>& stretche
                 by_axis[stretch.axis].push_back(rows.back());
             }
         }
-        merge(gains.spindle, estimation::fit_spindle_gain<double>(std::span<const Stretch>(rows)));
+        merge(gains.spindle, estimation::fit_spindle_gain(rows));
     }
     for (std::size_t k = 0; k < by_axis.size(); ++k) {
         if (!by_axis[k].empty()) {
-            gains.axes[k] = estimation::fit_feed_gain<double>(std::span<const Stretch>(by_axis[k]));
+            gains.axes[k] = estimation::fit_feed_gain(by_axis[k]);
         }
     }
     return gains;

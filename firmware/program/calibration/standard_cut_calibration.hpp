@@ -26,8 +26,8 @@ struct StandardCutOptions {
 
 /// Gains of the drives from stretches of standard cuts and air.
 struct StandardCutGains {
-    estimation::DriveGainFit<double> spindle;
-    std::array<std::optional<estimation::DriveGainFit<double>>, 3> axes;  ///< of those that fed
+    estimation::DriveGainFit spindle;
+    std::array<std::optional<estimation::DriveGainFit>, 3> axes;  ///< of those that fed
 };
 
 /// `law`: of the standard tool and workpiece. The spindle is fitted for each recording on its own, since each begins

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 
 namespace millforce::host {
 
@@ -110,9 +109,9 @@ std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vec
     return seconds;
 }
 
-estimation::WarmUpFit<double> warm_up_or_refuse(const std::filesystem::path& path,
-                                                const std::vector<estimation::IdleTorque<double>>& torques) {
-    const auto fit = estimation::fit_warm_up<double>(std::span<const estimation::IdleTorque<double>>(torques));
+estimation::WarmUpFit warm_up_or_refuse(const std::filesystem::path& path,
+                                        const std::vector<estimation::IdleTorque>& torques) {
+    const auto fit = estimation::fit_warm_up(torques);
     switch (fit.lack) {
         case estimation::WarmUpLack::samples:
             throw InputError(fmt::format("{}: '{}' cannot be determined: {} s of idling; expected ten minutes or more",
@@ -140,7 +139,7 @@ estimation::WarmUpFit<double> warm_up_or_refuse(const std::filesystem::path& pat
 int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out) {
     const MachineParameters machine = read_machine_parameters(options.machine.string());
     const auto seconds = at_one_speed(options.data, read_idle_seconds(options.data));
-    std::vector<estimation::IdleTorque<double>> torques;
+    std::vector<estimation::IdleTorque> torques;
     torques.reserve(seconds.size());
     for (const IdleSecond& s : seconds) {
         torques.push_back({s.time_s, spindle_gain_Nm_per_A(machine, s.speed_rad_s) * s.current_A});

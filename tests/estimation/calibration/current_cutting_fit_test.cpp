@@ -29,11 +29,11 @@ CuttingLaw<double> hss() {
 }
 
 /// Forces as drives with gains wrong by these shares would show them.
-std::vector<CuttingMeasurement<double>> cuts(double tangential_share, double feed_share, double sd_N, Noise& noise) {
-    std::vector<CuttingMeasurement<double>> result;
+std::vector<CuttingMeasurement> cuts(double tangential_share, double feed_share, double sd_N, Noise& noise) {
+    std::vector<CuttingMeasurement> result;
     for (const double f_z : {0.02, 0.05, 0.14}) {
         for (const double width_mm : {0.2, 0.8, 2.0}) {
-            CuttingMeasurement<double> m;
+            CuttingMeasurement m;
             m.cut = {f_z, 12.0, engagement_angles(CutSide::down, width_mm / 4.0), 4.0};
             const auto forces = average_forces(hss(), m.cut);
             m.tangential_N = forces.tangential_N * (1.0 + tangential_share) + noise.normal(sd_N);
@@ -44,12 +44,11 @@ std::vector<CuttingMeasurement<double>> cuts(double tangential_share, double fee
     return result;
 }
 
-CuttingFit<double> fit(const std::vector<CuttingMeasurement<double>>& of, const DriveGainDoubt<double>& doubt) {
-    CuttingFitOptions<double> options;
+CuttingFit fit(const std::vector<CuttingMeasurement>& of, const DriveGainDoubt& doubt) {
+    CuttingFitOptions options;
     options.form = CuttingLawForm::power;
     options.error_floor = 1.0;
-    std::vector<CuttingMeasurement<double>> scratch(of.size());
-    return fit_cutting_law_from_currents<double>(of, scratch, doubt, options);
+    return fit_cutting_law_from_currents(of, doubt, options);
 }
 
 }  // namespace
@@ -88,7 +87,7 @@ TEST(CurrentCuttingFit, a_doubt_that_both_gains_share_is_one_of_K_s_and_hardly_o
 }
 
 TEST(CurrentCuttingFit, one_chip_thickness_cannot_tell_an_exponent) {
-    std::vector<CuttingMeasurement<double>> same;
+    std::vector<CuttingMeasurement> same;
     for (int k = 0; k < 6; ++k) {
         same.push_back(cuts(0.0, 0.0, 0.5, noise)[4]);
     }

@@ -15,14 +15,14 @@ using millforce::test::Noise;
 
 namespace {
 
-using Cuts = std::vector<CuttingMeasurement<double>>;
+using Cuts = std::vector<CuttingMeasurement>;
 
 /// Down milling, three flutes, all widths at all feeds; each force wrong by `error` of itself (normal).
 Cuts cut_with(const CuttingLaw<double>& law, std::initializer_list<double> feeds, double error, Noise& noise) {
     Cuts cuts;
     for (const double f_z : feeds) {
         for (double R_r = 0.3; R_r < 1.85; R_r += 0.3) {
-            CuttingMeasurement<double> m;
+            CuttingMeasurement m;
             m.cut = {f_z, 1.0, engagement_angles(CutSide::down, R_r), 3.0};
             const auto forces = average_forces(law, m.cut);
             m.tangential_N = forces.tangential_N * (1.0 + noise.normal(error));
@@ -44,10 +44,10 @@ CuttingLaw<double> law_of(double K_s, double p_s, double r_1, double p_1, double
     return law;
 }
 
-CuttingFit<double> fit(const Cuts& cuts, CuttingLawForm form) {
-    CuttingFitOptions<double> options;
+CuttingFit fit(const Cuts& cuts, CuttingLawForm form) {
+    CuttingFitOptions options;
     options.form = form;
-    return fit_cutting_law<double>(cuts, options);
+    return fit_cutting_law(cuts, options);
 }
 
 constexpr std::initializer_list<double> five_feeds{0.015, 0.03, 0.05, 0.08, 0.12};
@@ -104,7 +104,7 @@ TEST(CuttingFit, finds_the_power_law_with_honest_standard_errors) {
 TEST(CuttingFit, of_the_combined_law_covers_truths_drawn_from_its_beliefs) {
     std::array<Coverage, cutting_parameter_count> coverage;
     Noise noise(33);
-    const CuttingFitOptions<double> belief;
+    const CuttingFitOptions belief;
     for (int repetition = 0; repetition < 1500; ++repetition) {
         const double K_s = noise.uniform(700.0, 2500.0);
         const double edge_sd = K_s * belief.edge_thickness_sd_mm;
@@ -132,7 +132,7 @@ TEST(CuttingFit, of_the_combined_law_covers_truths_drawn_from_its_beliefs) {
 TEST(CuttingFit, foretells_a_feed_beyond_the_calibrated_ones_within_its_stated_doubt) {
     Coverage torque, force;
     Noise noise(34);
-    const CuttingFitOptions<double> belief;
+    const CuttingFitOptions belief;
     for (int repetition = 0; repetition < 1000; ++repetition) {
         const auto law =
             law_of(1500.0, belief.p_s_mean + noise.normal(belief.p_s_sd), 0.8,
@@ -205,24 +205,21 @@ TEST(CuttingFit, of_nothing_determines_nothing) {
     LONGS_EQUAL(0x3F, fit({}, CuttingLawForm::combined).undetermined);
 }
 
-TEST(CuttingFit, agrees_in_float_with_double) {
+TEST(CuttingFit, of_forces_rounded_to_float_is_the_same_within_a_tenth_of_its_standard_errors) {
     Noise noise(38);
     const auto cuts = cut_with(linear_edge_law(1400.0, 9.6, 1050.0, 6.1), {0.014, 0.04, 0.066}, 0.03, noise);
-    std::vector<CuttingMeasurement<float>> slim;
-    for (const auto& m : cuts) {
-        CuttingMeasurement<float> s;
-        s.cut = {static_cast<float>(m.cut.feed_per_tooth_mm),
-                 1.0F,
-                 {static_cast<float>(m.cut.engagement.entry_rad), static_cast<float>(m.cut.engagement.exit_rad)},
-                 3.0F};
-        s.tangential_N = static_cast<float>(m.tangential_N);
-        s.normal_N = static_cast<float>(m.normal_N);
-        slim.push_back(s);
+    const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+    Cuts coarse = cuts;
+    for (CuttingMeasurement& m : coarse) {
+        m.cut.feed_per_tooth_mm = rounded(m.cut.feed_per_tooth_mm);
+        m.cut.engagement = {rounded(m.cut.engagement.entry_rad), rounded(m.cut.engagement.exit_rad)};
+        m.tangential_N = rounded(m.tangential_N);
+        m.normal_N = rounded(m.normal_N);
     }
-    const auto wide = fit(cuts, CuttingLawForm::combined);
-    const auto narrow = fit_cutting_law<float>(slim);
-    LONGS_EQUAL(0, narrow.undetermined);
+    const auto exact = fit(cuts, CuttingLawForm::combined);
+    const auto from_coarse = fit_cutting_law(coarse);
+    LONGS_EQUAL(0, from_coarse.undetermined);
     for (int j = 0; j < cutting_parameter_count; ++j) {
-        DOUBLES_EQUAL(wide.parameters(j), static_cast<double>(narrow.parameters(j)), 0.1 * wide.standard_error(j));
+        DOUBLES_EQUAL(exact.parameters(j), from_coarse.parameters(j), 0.1 * exact.standard_error(j));
     }
 }

@@ -39,12 +39,12 @@ Eigen::Matrix<double, 6, 1> drive() {
 TEST_GROUP(FrictionFit){};
 
 TEST(FrictionFit, finds_mass_and_friction_by_direction_with_honest_standard_errors) {
-    const DirectionalFriction<double> truth{95.0, 166.0, 241.0, 20.1, 20.6};
+    const DirectionalFriction truth{95.0, 166.0, 241.0, 20.1, 20.6};
     const std::array<double, 5> values{95.0, 166.0, 241.0, 20.1, 20.6};
     std::array<Coverage, 5> coverage;
     Noise noise(11);
     for (int repetition = 0; repetition < 1500; ++repetition) {
-        MechanicalFrictionFit<double> fit(0.002);
+        MechanicalFrictionFit fit(0.002);
         for (int k = 0; k < 300; ++k) {
             const Motion m = motion(k);
             fit.add(m.velocity_m_s, m.acceleration_m_s2,
@@ -63,8 +63,8 @@ TEST(FrictionFit, finds_mass_and_friction_by_direction_with_honest_standard_erro
 }
 
 TEST(FrictionFit, finds_the_symmetric_form_with_its_offset) {
-    const SymmetricFriction<double> truth{95.11, 203.5, 20.39, -3.16};
-    MechanicalFrictionFit<double> fit(0.002);
+    const SymmetricFriction truth{95.11, 203.5, 20.39, -3.16};
+    MechanicalFrictionFit fit(0.002);
     Noise noise(12);
     for (int k = 0; k < 2000; ++k) {
         const Motion m = motion(k);
@@ -80,7 +80,7 @@ TEST(FrictionFit, finds_the_symmetric_form_with_its_offset) {
 }
 
 TEST(FrictionFit, in_one_direction_cannot_tell_dry_friction_from_an_offset) {
-    MechanicalFrictionFit<double> fit(0.002);
+    MechanicalFrictionFit fit(0.002);
     for (int k = 0; k < 300; ++k) {
         const double v = 0.1 + 0.05 * std::sin(0.1 * k);
         fit.add(v, 0.5 * std::cos(0.1 * k), 20.0 + 200.0 * v);
@@ -96,7 +96,7 @@ TEST(FrictionFit, in_one_direction_cannot_tell_dry_friction_from_an_offset) {
 }
 
 TEST(FrictionFit, at_one_speed_cannot_tell_viscous_from_dry_friction) {
-    MechanicalFrictionFit<double> fit(0.002);
+    MechanicalFrictionFit fit(0.002);
     for (int k = 0; k < 100; ++k) {
         const double v = k % 2 == 0 ? 0.1 : -0.1;
         fit.add(v, 0.0, 300.0 * v);
@@ -109,7 +109,7 @@ TEST(FrictionFit, at_one_speed_cannot_tell_viscous_from_dry_friction) {
 }
 
 TEST(FrictionFit, at_rest_uses_nothing) {
-    MechanicalFrictionFit<double> fit(0.002);
+    MechanicalFrictionFit fit(0.002);
     for (int k = 0; k < 100; ++k) {
         CHECK(!fit.add(0.001, 0.0, 5.0));
     }
@@ -121,7 +121,7 @@ TEST(FrictionFit, finds_the_quadratic_current_by_direction_with_gravity_and_hone
     std::array<Coverage, 6> coverage;
     Noise noise(13);
     for (int repetition = 0; repetition < 3000; ++repetition) {
-        FeedCurrentFit<double> fit;
+        FeedCurrentFit fit;
         for (const double w : feeds) {
             fit.add(w, feed_friction_current_A(drive(), w) + noise.normal(0.05));
             fit.add(w, feed_friction_current_A(drive(), w) + noise.normal(0.05));
@@ -139,7 +139,7 @@ TEST(FrictionFit, finds_the_quadratic_current_by_direction_with_gravity_and_hone
 }
 
 TEST(FrictionFit, recovers_the_published_feed_drive_from_its_curve) {
-    FeedCurrentFit<double> fit;  // Kim & Chung Table 3, mirrored
+    FeedCurrentFit fit;  // Kim & Chung Table 3, mirrored
     for (const double w : feeds) {
         const double size = std::abs(w);
         const double current = 3.5788 * size * size - 7.2469 * size + 19.7252;
@@ -153,8 +153,8 @@ TEST(FrictionFit, recovers_the_published_feed_drive_from_its_curve) {
 }
 
 TEST(FrictionFit, with_one_feed_refuses_the_curve_and_in_one_direction_refuses_gravity) {
-    FeedCurrentFit<double> one_feed;
-    FeedCurrentFit<double> one_direction;
+    FeedCurrentFit one_feed;
+    FeedCurrentFit one_direction;
     for (int k = 0; k < 10; ++k) {
         one_feed.add(k % 2 == 0 ? 2.0 : -2.0, k % 2 == 0 ? 1.0 : -1.2);
         one_direction.add(0.5 + k, feed_friction_current_A(drive(), 0.5 + k));

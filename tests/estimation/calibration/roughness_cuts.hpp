@@ -15,7 +15,7 @@
 namespace millforce::test {
 
 using Cut = estimation::RoughnessConditions<double>;
-using RoughnessTests = std::vector<estimation::RoughnessTest<double>>;
+using RoughnessTests = std::vector<estimation::RoughnessTest>;
 
 inline estimation::RoughnessModel<double> published_Ra() {
     estimation::RoughnessModel<double> model;
@@ -65,8 +65,8 @@ inline RoughnessTests made_with(const estimation::RoughnessModel<double>& model,
     return tests;
 }
 
-inline estimation::RoughnessFit<double> fit(const RoughnessTests& tests, unsigned held = 0U) {
-    return estimation::fit_roughness(std::span<const estimation::RoughnessTest<double>>(tests), held);
+inline estimation::RoughnessFit fit(const RoughnessTests& tests, unsigned held = 0U) {
+    return estimation::fit_roughness(tests, held);
 }
 
 /// A cut within the published conditions, at random.

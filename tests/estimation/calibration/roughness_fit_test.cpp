@@ -118,15 +118,7 @@ TEST(RoughnessFit, recovers_the_published_exponents_within_two_standard_errors_i
 
 TEST(RoughnessFit, in_float_gives_the_same_interval_to_a_thousandth) {
     const auto tests = tests_of_seed(5);
-    std::vector<RoughnessTest<float>> in_float;
-    for (const auto& test : tests) {
-        RoughnessTest<float> copy;
-        std::transform(test.cut.begin(), test.cut.end(), copy.cut.begin(),
-                       [](double value) { return static_cast<float>(value); });
-        copy.roughness_um = static_cast<float>(test.roughness_um);
-        in_float.push_back(copy);
-    }
-    const RoughnessPredictor<float> rough(fit_roughness(std::span<const RoughnessTest<float>>(in_float)).model);
+    const RoughnessPredictor<float> rough(in_float(fit(tests).model));
     const RoughnessPredictor<double> exact(fit(tests).model);
     for (const auto& test : tests) {
         RoughnessConditions<float> cut{};

@@ -20,14 +20,14 @@ struct Drive {
 };
 
 /// Current of the drive under a known torque; the noise is on the torque that the user knows.
-SpindleSample<double> sample(const Drive& d, double speed, double acceleration, double torque, double error) {
+SpindleSample sample(const Drive& d, double speed, double acceleration, double torque, double error) {
     const double gain = d.base_speed > 0.0 && speed > d.base_speed ? d.base_speed / speed : 1.0;
     return {(torque - d.K_t2 + d.slope * speed + d.inertia * acceleration) / (d.K_t1 * gain), speed, acceleration,
             torque + error};
 }
 
-std::vector<SpindleSample<double>> cuts(const Drive& d, std::initializer_list<double> speeds, Noise& noise, double sd) {
-    std::vector<SpindleSample<double>> samples;
+std::vector<SpindleSample> cuts(const Drive& d, std::initializer_list<double> speeds, Noise& noise, double sd) {
+    std::vector<SpindleSample> samples;
     for (const double speed : speeds) {
         for (const double torque : {0.0, 0.0, 2.0, 4.0, 6.0, 8.0}) {
             samples.push_back(sample(d, speed, noise.uniform(-40, 40), torque, noise.normal(sd)));
@@ -47,7 +47,7 @@ TEST(SpindleFit, finds_all_five_parameters_with_honest_standard_errors) {
     Noise noise(21);
     for (int repetition = 0; repetition < 1000; ++repetition) {
         const auto samples = cuts(drive, {60, 90, 120, 220, 300, 400}, noise, 0.05);
-        const auto fit = fit_spindle<double>(samples, {true, true, true});
+        const auto fit = fit_spindle(samples, {true, true, true});
         for (int j = 0; j < spindle_parameter_count; ++j) {
             const auto index = static_cast<std::size_t>(j);
             coverage[index].add(truth[index], fit.solution.parameters(j), fit.solution.standard_error(j),
@@ -65,7 +65,7 @@ TEST(SpindleFit, sees_no_field_weakening_where_there_is_none) {
     Noise noise(22);
     int seen = 0;
     for (int repetition = 0; repetition < 200; ++repetition) {
-        const auto fit = fit_spindle<double>(cuts(drive, {60, 120, 240, 400}, noise, 0.05), {true, true, true});
+        const auto fit = fit_spindle(cuts(drive, {60, 120, 240, 400}, noise, 0.05), {true, true, true});
         seen += fit.solution.parameters(spindle_base_speed) > 0.0 ? 1 : 0;
     }
     CHECK(seen <= 4);  // one in a thousand per candidate speed
@@ -75,43 +75,44 @@ TEST(SpindleFit, above_the_base_speed_alone_knows_power_and_says_that_nothing_is
     const Drive drive;
     Noise noise(23);
     const auto samples = cuts(drive, {200, 300, 400}, noise, 0.02);
-    const auto fit = fit_spindle<double>(samples, {true, true, true});
+    const auto fit = fit_spindle(samples, {true, true, true});
     CHECK(fit.nothing_below_base_speed);
     const double power = fit.solution.parameters(spindle_K_t1) * fit.solution.parameters(spindle_base_speed);
     DOUBLES_EQUAL(1.4 * 157.0, power, 0.02 * 1.4 * 157.0);
 }
 
 TEST(SpindleFit, without_load_cannot_tell_the_torque_constant) {
-    std::vector<SpindleSample<double>> samples(10, SpindleSample<double>{2.0, 100.0, 0.0, 0.0});
-    const auto fit = fit_spindle<double>(samples, {});
+    std::vector<SpindleSample> samples(10, SpindleSample{2.0, 100.0, 0.0, 0.0});
+    const auto fit = fit_spindle(samples, {});
     CHECK(!fit.solution.determined(spindle_K_t1));
     CHECK(!fit.solution.determined(spindle_K_t2));
 }
 
 TEST(SpindleFit, recovers_the_published_spindle) {
     // Kim & Chung Eq. 8 as forces: F_at = 196.61 I − 1911.0.
-    std::vector<SpindleSample<double>> samples;
+    std::vector<SpindleSample> samples;
     for (const double current : {9.72, 11.0, 13.0, 15.0}) {
         samples.push_back({current, 131.9, 0.0, 196.61 * current - 1911.0});
     }
-    const auto fit = fit_spindle<double>(samples, {});
+    const auto fit = fit_spindle(samples, {});
     DOUBLES_EQUAL(196.61, fit.solution.parameters(spindle_K_t1), 1e-8);
     DOUBLES_EQUAL(-1911.0, fit.solution.parameters(spindle_K_t2), 1e-6);
 }
 
-TEST(SpindleFit, agrees_in_float_with_double) {
+TEST(SpindleFit, of_samples_rounded_to_float_is_the_same_within_a_tenth_of_its_standard_errors) {
     const Drive drive;
     Noise noise(24);
     const auto samples = cuts(drive, {60, 90, 120, 220, 300, 400}, noise, 0.05);
-    std::vector<SpindleSample<float>> slim;
-    std::transform(samples.begin(), samples.end(), std::back_inserter(slim), [](const auto& s) {
-        return SpindleSample<float>{static_cast<float>(s.current_A), static_cast<float>(s.speed_rad_s),
-                                    static_cast<float>(s.acceleration_rad_s2), static_cast<float>(s.torque_Nm)};
+    const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+    std::vector<SpindleSample> coarse;
+    std::transform(samples.begin(), samples.end(), std::back_inserter(coarse), [&](const SpindleSample& s) {
+        return SpindleSample{rounded(s.current_A), rounded(s.speed_rad_s), rounded(s.acceleration_rad_s2),
+                             rounded(s.torque_Nm)};
     });
-    const auto wide = fit_spindle<double>(samples, {true, true, true});
-    const auto narrow = fit_spindle<float>(slim, {true, true, true});
+    const auto exact = fit_spindle(samples, {true, true, true});
+    const auto from_coarse = fit_spindle(coarse, {true, true, true});
     for (int j = 0; j < spindle_parameter_count; ++j) {
-        DOUBLES_EQUAL(wide.solution.parameters(j), static_cast<double>(narrow.solution.parameters(j)),
-                      0.1 * wide.solution.standard_error(j));
+        DOUBLES_EQUAL(exact.solution.parameters(j), from_coarse.solution.parameters(j),
+                      0.1 * exact.solution.standard_error(j));
     }
 }

@@ -105,7 +105,7 @@ TEST(FrictionCalibration, sees_that_viscous_friction_of_the_measured_axis_differ
 TEST(FrictionCalibration, on_the_first_half_of_the_measured_axis_sees_no_cutting_force_in_the_second) {
     const AxisMotion motion = read_axis_motion(measured_axis, 20.0);
     const std::size_t n = motion.velocity_m_s.size();
-    millforce::estimation::MechanicalFrictionFit<double> fit(0.002);
+    millforce::estimation::MechanicalFrictionFit fit(0.002);
     for (std::size_t k = 0; k < n / 2; ++k) {
         fit.add(motion.velocity_m_s[k], motion.acceleration_m_s2[k], motion.motor_force_N[k]);
     }
