@@ -4,6 +4,7 @@
 #include "estimation/cut_estimate.hpp"
 #include "estimation/cutting/engagement_peaks.hpp"
 #include "estimation/cutting/tooth_force.hpp"
+#include "estimation/cutting/total_force.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
@@ -162,17 +163,9 @@ class CutEstimator {
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
         return axes_[axis].friction_scale(positive);
     }
-    /// The total force's peak and its threshold, for the operator's eye and for the record: F_at κ and F_tooth,max g.
-    /// Not for the tick: about 300 single-tooth forces.
-    struct TotalForce {
-        Scalar peak_N{0};
-        Scalar limit_N{0};
-    };
-    [[nodiscard]] TotalForce total_force() const {
-        const PeakFactors<Scalar> factors =
-            peak_factors(law_, peak_settings(peaks_.side()), peaks_.now().radial_immersion, peaks_.depth_mm());
-        const Scalar peak_per_tooth = factors.threshold_factor();
-        return {estimate().worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
+    /// What the total force of estimate() is worked out of, by whoever shows it: TotalForce.
+    [[nodiscard]] TotalForceInput<Scalar> total_force_input() const {
+        return {estimate().worst_tooth_force_N, peaks_.now().radial_immersion, peaks_.depth_mm(), peaks_.side()};
     }
 
   private:
@@ -201,14 +194,7 @@ class CutEstimator {
     }
 
     [[nodiscard]] PeakFactorSettings<Scalar> peak_settings(CutSide side) const {
-        PeakFactorSettings<Scalar> peak;
-        peak.teeth = settings_.teeth;
-        peak.cutter_radius_mm = settings_.cutter_radius_mm;
-        peak.helix_rad = settings_.helix_rad;
-        peak.nominal_feed_per_tooth_mm = settings_.nominal_feed_per_tooth_mm;
-        peak.side = side;
-        peak.centre_offset_in_radii = settings_.centre_offset_in_radii;
-        return peak;
+        return peak_factor_settings(settings_, side);
     }
 
     using SpindleAverage = typename SpindleDrive<Scalar>::Average;

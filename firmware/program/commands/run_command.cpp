@@ -84,7 +84,8 @@ int run_on_bus(const RunOptions& options) {
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
+        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0,
+                        firmware::total_force(parameters)});
     const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
                                                     CanDaemonSettings{!options.record.empty(), time});
     if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor

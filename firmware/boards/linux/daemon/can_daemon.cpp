@@ -86,6 +86,7 @@ void CanDaemon::step() {
     controller_.poll(time_us);
     send_all();
     local_outputs_.poll(socketcan::monotonic_us());
+    record_ticks();
     controller_.hold_from_outside(local_outputs_.health().is_failed);
     controller_.work();
     report(time_us);
@@ -133,9 +134,19 @@ void CanDaemon::send_all() {
 
 void CanDaemon::on_tick(const firmware::CanController& controller) {
     local_outputs_.update(controller.told(), socketcan::monotonic_us());
-    if (entries_.add(controller, newest_)) {
-        journal_.estimate(newest_);
+    if (unrecorded_count_ == unrecorded_.size()) {
+        record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
+    unrecorded_[unrecorded_count_++] = controller.record();
+}
+
+void CanDaemon::record_ticks() {
+    for (std::size_t k = 0; k < unrecorded_count_; ++k) {
+        if (entries_.add(unrecorded_[k], newest_)) {
+            journal_.estimate(newest_);
+        }
+    }
+    unrecorded_count_ = 0;
 }
 
 firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {

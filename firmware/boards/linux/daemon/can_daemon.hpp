@@ -41,6 +41,7 @@ class CanDaemon final : private firmware::TickListener {
     void receive_all();
     void send_all();
     void end(std::uint64_t duration_us);
+    void record_ticks();
     void report(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
@@ -53,6 +54,8 @@ class CanDaemon final : private firmware::TickListener {
     Journal& journal_;
     std::uint32_t override_id_;
     TickEntries entries_;
+    std::array<firmware::TickRecord, 16> unrecorded_{};  ///< ticks whose override is not out yet
+    std::size_t unrecorded_count_ = 0;
     firmware::CanController controller_;
     socketcan::CanSocket socket_;
     BusClock clock_;

@@ -66,7 +66,7 @@ void Journal::run() {
 void Journal::write_all() {
     write_frames();
     for (EstimateEntry entry; estimates_.pop(entry);) {
-        put(log_, json_line(entry));
+        put(log_, json_line(entry, settings_.total_force));
     }
     for (StatusEntry entry; statuses_.pop(entry);) {
         write_status(entry);

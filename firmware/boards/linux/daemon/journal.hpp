@@ -23,6 +23,7 @@ struct JournalSettings {
     std::string record_file;   ///< candump log of every frame; empty: none
     std::string log_file;      ///< JSON lines; empty: none
     bool status_line = false;  ///< on standard output, once a second
+    estimation::TotalForce<float> total_force;  ///< by the tool's parameters, for the log
 };
 
 /// How bus and drives are.

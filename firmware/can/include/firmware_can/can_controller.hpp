@@ -7,6 +7,7 @@
 
 #include "cia402/drive_bus.hpp"
 #include "firmware/tick.hpp"
+#include "firmware/tick_record.hpp"
 #include "firmware_can/conditions.hpp"
 #include "firmware_can/sync_producer.hpp"
 #include "hal/can_frame.hpp"
@@ -91,6 +92,7 @@ class CanController {
     /// The output as the CNC is told it: with the holds that are none of the tick's.
     [[nodiscard]] hal::FeedOverride told() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
+    [[nodiscard]] TickRecord record() const { return tick_record(tick_, output_, tick_time_us_); }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
