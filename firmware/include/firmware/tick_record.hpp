@@ -8,8 +8,8 @@
 #include "firmware/parameters.hpp"
 #include "hal/feed_override.hpp"
 
-/// One tick for a record: what the tick knows anyway. Everything else (the total force, units and words for a person) is
-/// worked out from it by whoever shows it, outside the real-time path.
+/// One tick for a record: what the tick knows anyway. Everything else (the total force, units and words for a person)
+/// is worked out from it by whoever shows it, outside the real-time path.
 
 namespace millforce::firmware {
 

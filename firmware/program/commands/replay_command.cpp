@@ -182,8 +182,7 @@ int replay_table(const ReplayOptions& options) {
     }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(),
-                   wide_band.summary(tick.wide_band()));
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), wide_band.summary(tick.wide_band()));
     } else {
         std::cout << held_back.str();
     }

@@ -83,9 +83,8 @@ int run_on_bus(const RunOptions& options) {
     const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0,
-                        firmware::total_force(parameters)});
+    const auto journal = std::make_unique<Journal>(JournalSettings{
+        options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, firmware::total_force(parameters)});
     const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
                                                     CanDaemonSettings{!options.record.empty(), time});
     if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
@@ -123,7 +122,9 @@ void add_run(CLI::App& app, int& exit_code) {
         ->type_name("M.toml");
     command->add_option("--tool", options->tool, "Tool parameters")->required()->type_name("T.toml");
     command->add_option("--log", options->log, "Estimates and states as JSON lines")->type_name("FILE.jsonl");
-    command->add_option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
+    command
+        ->add_option("--record", options->record,
+                     "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
         ->type_name("FILE.log");
     add_bus_pace(*command, options->pace);
     command->callback([options, &exit_code] { exit_code = run_on_bus(*options); });

@@ -63,8 +63,7 @@ constexpr void set_known(DriveSample& sample, std::size_t axis, bool has_current
     const unsigned velocity = 1U << (axis_count + axis);
     const unsigned of_part = is_whole ? 0U : (has_current ? current : 0U) | (has_velocity ? velocity : 0U);
     sample.part = static_cast<std::uint8_t>((sample.part & ~(current | velocity)) | of_part);
-    sample.present =
-        static_cast<std::uint8_t>((sample.present & ~axis_mask(axis)) | (is_whole ? axis_mask(axis) : 0U));
+    sample.present = static_cast<std::uint8_t>((sample.present & ~axis_mask(axis)) | (is_whole ? axis_mask(axis) : 0U));
 }
 
 /// Puts what another source knows of the same moment into a sample. The sample's time stays.

@@ -21,8 +21,8 @@
 /// absent. Values are in the units of DriveSample. `time_us` is when the drives latched the values, not when they
 /// arrived, by a clock that does not run backwards.
 ///
-/// Neither call waits for a drive, allocates or throws. One thread. Sources that frames or messages feed have a function
-/// for them as well (on_frame(), on_message()); for these poll() may come as often as wanted.
+/// Neither call waits for a drive, allocates or throws. One thread. Sources that frames or messages feed have a
+/// function for them as well (on_frame(), on_message()); for these poll() may come as often as wanted.
 
 namespace millforce::hal {
 

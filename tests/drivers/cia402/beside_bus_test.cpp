@@ -8,8 +8,7 @@ using namespace millforce::cia402;
 
 namespace {
 
-constexpr std::uint8_t of_spindle =
-    hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current);
+constexpr std::uint8_t of_spindle = hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current);
 constexpr std::uint8_t whole = of_spindle | hal::axis_mask(0);
 
 /// A drive of the bus that gives the velocity of x and no current; all of the spindle comes by another source.

@@ -48,8 +48,8 @@ class TotalForce {
 
     /// Cost: about 300 single-tooth forces. Not for the real-time path.
     [[nodiscard]] Forces of(const TotalForceInput<Scalar>& cut) const {
-        const PeakFactors<Scalar> factors = peak_factors(law_, peak_factor_settings(settings_, cut.side),
-                                                         cut.radial_immersion, cut.axial_depth_mm);
+        const PeakFactors<Scalar> factors =
+            peak_factors(law_, peak_factor_settings(settings_, cut.side), cut.radial_immersion, cut.axial_depth_mm);
         const Scalar g = factors.threshold_factor();
         return {cut.tooth_force_N * g, settings_.tooth_force_limit_N * g};
     }

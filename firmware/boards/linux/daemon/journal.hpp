@@ -21,9 +21,9 @@ namespace millforce::host {
 
 struct JournalSettings {
     std::string interface;
-    std::string record_file;   ///< candump log of every frame, with local_line()s between; empty: none
-    std::string log_file;      ///< JSON lines; empty: none
-    bool status_line = false;  ///< on standard output, once a second
+    std::string record_file;                    ///< candump log of every frame, with local_line()s between; empty: none
+    std::string log_file;                       ///< JSON lines; empty: none
+    bool status_line = false;                   ///< on standard output, once a second
     estimation::TotalForce<float> total_force;  ///< by the tool's parameters, for the log
 };
 

@@ -30,10 +30,11 @@ std::string estimate_members(const EstimateEntry& entry, const estimation::Total
     const firmware::TickRecord& tick = entry.tick;
     const hal::FeedOverride& out = tick.feed_override;
     const firmware::ShownForces shown = firmware::shown_forces(total, tick);
-    std::string text = fmt::format(
-        R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
-        control::name(static_cast<control::CutState>(out.state)), control::name(static_cast<control::Limit>(tick.limit)),
-        control::name(static_cast<control::Fault>(out.fault)), CsvWriter::cell(out.ratio), out.hold);
+    std::string text =
+        fmt::format(R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
+                    control::name(static_cast<control::CutState>(out.state)),
+                    control::name(static_cast<control::Limit>(tick.limit)),
+                    control::name(static_cast<control::Fault>(out.fault)), CsvWriter::cell(out.ratio), out.hold);
     for (const auto& [key, value] :
          {std::pair{"tangential_force_N", tick.tangential_force_N}, std::pair{"feed_force_N", tick.feed_force_N},
           std::pair{"radial_immersion", tick.radial_immersion},

@@ -12,12 +12,12 @@
 #include "iio/adc_currents.hpp"
 #include "iio/counter_input.hpp"
 
-/// Drives without a bus: motor currents by a converter, and where they are wired encoders by counters, of this computer.
-/// poll() reads them, at each SYNC. The current is the converter's mean since the poll() before.
+/// Drives without a bus: motor currents by a converter, and where they are wired encoders by counters, of this
+/// computer. poll() reads them, at each SYNC. The current is the converter's mean since the poll() before.
 ///
-/// A drive of the bus that gives its motion alone keeps its PDOs, and has its current from here. What cannot be read, is
-/// stale or out of range is absent: the sample is incomplete, and after the CNC's `stale_s` the feed is held with the
-/// fault `stale_input`. No heap after construction; reads of a slow converter's sysfs files block. One thread.
+/// A drive of the bus that gives its motion alone keeps its PDOs, and has its current from here. What cannot be read,
+/// is stale or out of range is absent: the sample is incomplete, and after the CNC's `stale_s` the feed is held with
+/// the fault `stale_input`. No heap after construction; reads of a slow converter's sysfs files block. One thread.
 
 namespace millforce::host {
 

@@ -93,8 +93,7 @@ bool read_local_line(std::string_view line, hal::DriveSample& sample) {
         const std::size_t end = std::min(line.find(' ', place + 1), line.size());
         const std::string_view word = line.substr(place + 1, end - place - 1);
         const std::size_t equals = word.find('=');
-        if (equals == std::string_view::npos ||
-            !read_value(word.substr(0, equals), word.substr(equals + 1), sample)) {
+        if (equals == std::string_view::npos || !read_value(word.substr(0, equals), word.substr(equals + 1), sample)) {
             return false;
         }
         place = end;

@@ -24,21 +24,21 @@
 ///     controller.work();                               // what may take milliseconds, now that the override is out
 ///
 /// What the tick sees depends on the received frames, their times, and the order of frames and added samples alone: the
-/// same of these give the same estimates, bit for bit, however late they were fetched and however often poll() came. So that
-/// this holds by construction, the clock of poll() decides nothing that the tick sees: time passes with the frames of
-/// filters(), to which this controller's own override and heartbeat belong. What is due before a frame's time is done
-/// before the frame is looked at. A cycle begins when the own SYNC comes back from the bus, at its time, and the run
-/// begins, or begins anew, when the own boot-up comes back; it is repeated until then.
+/// same of these give the same estimates, bit for bit, however late they were fetched and however often poll() came. So
+/// that this holds by construction, the clock of poll() decides nothing that the tick sees: time passes with the frames
+/// of filters(), to which this controller's own override and heartbeat belong. What is due before a frame's time is
+/// done before the frame is looked at. A cycle begins when the own SYNC comes back from the bus, at its time, and the
+/// run begins, or begins anew, when the own boot-up comes back; it is repeated until then.
 ///
 /// Where no frame comes at all, not even an own one, no override could reach the CNC by the bus either. After `stale_s`
 /// by the clock of poll() the override says hold, with a counter that stands still; when frames come again the tick
 /// finds the gap in their times, and its fault is latched.
 ///
-/// Supervision. A sample is complete where every configured drive, and what is beside the bus, told everything. The tick begins with the first
-/// complete one and sees complete ones only; what lacks something is left out. After five SYNC periods without a
-/// complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s` it faults and holds the
-/// feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as they do. A fault
-/// is latched until the CNC resets it (program status frame) with all axes at rest.
+/// Supervision. A sample is complete where every configured drive, and what is beside the bus, told everything. The
+/// tick begins with the first complete one and sees complete ones only; what lacks something is left out. After five
+/// SYNC periods without a complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s`
+/// it faults and holds the feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as
+/// they do. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
