@@ -13,55 +13,39 @@ firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
     return parameters;
 }
 
-template <typename Scalar>
-double as_double(Scalar value) {
-    return static_cast<double>(static_cast<float>(value));
-}
-
-template <typename Scalar>
-double value_or_none(const estimation::Measurement<Scalar>& measurement) {
-    return measurement.valid ? as_double(measurement.value) : host::no_estimate;
-}
-
 }  // namespace
 
 template <typename Scalar>
 hal::FeedOverride TickController<Scalar>::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    return firmware::step_and_work(tick_, sample, program);
+    output_ = firmware::step_and_work(tick_, sample, program);
+    return output_;
+}
+
+void describe(const firmware::TickRecord& tick, TracePoint& point) {
+    const auto in_double = [](float value) { return static_cast<double>(value); };
+    point.state = tick.feed_override.state;
+    point.limit = tick.limit;
+    point.fault = tick.feed_override.fault;
+    point.tangential_force_N = in_double(tick.tangential_force_N);
+    point.feed_force_N = in_double(tick.feed_force_N);
+    point.radial_immersion = in_double(tick.radial_immersion);
+    point.radial_immersion_sd = in_double(tick.radial_immersion_sd);
+    point.axial_depth_mm = in_double(tick.axial_depth_mm);
+    point.axial_depth_sd_mm = in_double(tick.axial_depth_sd_mm);
+    point.tooth_force_N = in_double(tick.tooth_force_N);
 }
 
 template <typename Scalar>
-void describe_tick(const firmware::ForceControlTick<Scalar>& tick, TracePoint& point) {
-    const estimation::CutEstimate<Scalar>& e = tick.estimate();
-    const bool in_contact =
-        tick.control().state != control::CutState::air && tick.control().state != control::CutState::exit;
-    point.state = static_cast<std::uint8_t>(tick.control().state);
-    point.limit = static_cast<std::uint8_t>(tick.control().limit);
-    point.fault = static_cast<std::uint8_t>(tick.control().fault);
-    point.tangential_force_N = value_or_none(e.tangential_N);
-    point.feed_force_N = value_or_none(e.feed_N);
-    if (!in_contact) {
-        return;
-    }
-    const estimation::EngagementEstimate<Scalar> engagement = tick.engagement();
-    if (engagement.immersion_valid) {
-        point.radial_immersion = as_double(engagement.radial_immersion);
-        point.radial_immersion_sd = as_double(engagement.radial_immersion_sd);
-    }
-    if (engagement.depth_valid) {
-        point.axial_depth_mm = as_double(engagement.axial_depth_mm);
-        point.axial_depth_sd_mm = as_double(engagement.axial_depth_sd_mm);
-    }
-    point.tooth_force_N = value_or_none(e.tooth_force_N);
-    if (e.tooth_force_N.valid) {
-        const auto total = tick.estimator().total_force();
-        point.peak_force_N = as_double(total.peak_N);
-        point.force_limit_N = as_double(total.limit_N);
+void TickController<Scalar>::describe(TracePoint& point) const {
+    const firmware::TickRecord record = firmware::tick_record(tick_, output_, 0);
+    sim::describe(record, point);
+    if (record.has_tooth_force()) {
+        const auto total = total_force_.of(tick_.estimator().total_force_input());
+        point.peak_force_N = static_cast<double>(static_cast<float>(total.peak_N));
+        point.force_limit_N = static_cast<double>(static_cast<float>(total.limit_N));
     }
 }
 
-template void describe_tick(const firmware::ForceControlTick<float>& tick, TracePoint& point);
-template void describe_tick(const firmware::ForceControlTick<estimation::Fixed>& tick, TracePoint& point);
 template class TickController<float>;
 template class TickController<estimation::Fixed>;
 

@@ -8,6 +8,7 @@
 #include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
+#include "firmware/tick_record.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
 #include "report/run_result.hpp"
@@ -33,9 +34,8 @@ class OverrideSource {
     [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
 
-/// The estimates of a tick at this moment. Scalar: float or estimation::Fixed.
-template <typename Scalar>
-void describe_tick(const firmware::ForceControlTick<Scalar>& tick, TracePoint& point);
+/// What a tick knew. Its total force, that a trace shows as well, is left to the caller.
+void describe(const firmware::TickRecord& tick, TracePoint& point);
 
 /// The real tick, the same class that runs on a drive controller: in float, or in fixed point as on a processor without
 /// a floating-point unit.
@@ -43,15 +43,18 @@ template <typename Scalar>
 class TickController : public OverrideSource {
   public:
     explicit TickController(const firmware::Parameters<float>& parameters)
-        : tick_(firmware::parameters_in<Scalar>(parameters)) {}
+        : tick_(firmware::parameters_in<Scalar>(parameters)),
+          total_force_(firmware::total_force(firmware::parameters_in<Scalar>(parameters))) {}
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
-    void describe(TracePoint& point) const override { describe_tick(tick_, point); }
+    void describe(TracePoint& point) const override;
     [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return tick_.estimate(); }
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return tick_.roughness(); }
     [[nodiscard]] const firmware::WideBandEstimate<Scalar>& wide_band() const { return tick_.wide_band(); }
 
   private:
     firmware::ForceControlTick<Scalar> tick_;
+    estimation::TotalForce<Scalar> total_force_;
+    hal::FeedOverride output_{};
 };
 using MillforceController = TickController<float>;
 using FixedPointController = TickController<estimation::Fixed>;

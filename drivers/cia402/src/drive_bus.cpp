@@ -8,8 +8,6 @@ namespace millforce::cia402 {
 namespace {
 
 constexpr std::uint64_t sync_lost_after_periods = 3;
-/// A producer's next SYNC is never further ahead than this by the clock of poll(): a clock that was set costs no more.
-constexpr std::uint64_t largest_sync_wait_periods = 2;
 
 std::size_t add_filter(std::span<hal::CanFilter, DriveBus::filter_capacity> filters, std::size_t count,
                        std::uint32_t id) {
@@ -17,9 +15,23 @@ std::size_t add_filter(std::span<hal::CanFilter, DriveBus::filter_capacity> filt
     return count + 1;
 }
 
+std::uint8_t complete_sample(const BusSettings& settings) {
+    unsigned present = settings.beside_bus;
+    for (std::size_t role = 0; role < drive_capacity; ++role) {
+        const unsigned of_spindle = hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current);
+        const unsigned of_role = role == 0 ? of_spindle : hal::axis_mask(role - 1);
+        present |= settings.drives[role].node_id != 0 ? of_role : 0U;
+    }
+    return static_cast<std::uint8_t>(present);
+}
+
 }  // namespace
 
-DriveBus::DriveBus(const BusSettings& settings) : settings_(settings), sync_clock_(settings.sync_period_us) {
+DriveBus::DriveBus(const BusSettings& settings)
+    : settings_(settings),
+      complete_(complete_sample(settings)),
+      sync_clock_(settings.sync_period_us),
+      sync_producer_(settings.sync_id, settings.sync_period_us) {
     health_.sync_lost = true;
     if (check(settings) != SettingsError::none) {
         settings_ = {};
@@ -88,6 +100,8 @@ void DriveBus::begin_cycle(std::uint64_t time_us) {
     for (DriveNode& node : nodes_) {
         node.begin_cycle();
     }
+    has_beside_bus_ = false;
+    beside_bus_ = {};
     sync_time_us_ = time_us;
     sync_clock_.on_sync(time_us);
     had_sync_ = true;
@@ -97,14 +111,28 @@ void DriveBus::begin_cycle(std::uint64_t time_us) {
 }
 
 bool DriveBus::is_complete() const {
-    bool any_operational = false;
+    if (settings_.beside_bus != 0 && !has_beside_bus_) {
+        return false;
+    }
+    bool has_any = has_beside_bus_;
     for (const DriveNode& node : nodes_) {
         if (!node.is_complete()) {
             return false;
         }
-        any_operational = any_operational || node.health().state == NodeState::operational;
+        has_any = has_any || node.health().state == NodeState::operational;
     }
-    return any_operational;
+    return has_any;
+}
+
+void DriveBus::add(const hal::DriveSample& beside_bus) {
+    if (!cycle_open_) {
+        return;
+    }
+    hal::add(beside_bus_, beside_bus);
+    has_beside_bus_ = true;
+    if (is_complete()) {
+        hand_over();
+    }
 }
 
 void DriveBus::hand_over() {
@@ -116,8 +144,13 @@ void DriveBus::hand_over() {
         nodes_[k].end_cycle();
         put(k, reading);
     }
+    hal::add(sample_, beside_bus_);
+    if ((sample_.present & hal::mask(hal::Present::spindle_count)) != 0) {
+        sync_clock_.on_count(sample_.spindle_count);
+    }
     sample_.time_us = static_cast<std::uint32_t>(sync_clock_.latched_us());
     sample_ready_ = true;
+    had_sample_ = true;
     cycle_open_ = false;
 }
 
@@ -126,9 +159,7 @@ void DriveBus::put(std::size_t role, const DriveReading& reading) {
         const std::size_t axis = role - 1;
         sample_.axis_current_A[axis] = reading.current_A;
         sample_.axis_velocity_mm_s[axis] = reading.velocity_mm_s;
-        if (reading.has_current && reading.has_velocity) {
-            sample_.present = static_cast<std::uint8_t>(sample_.present | hal::axis_mask(axis));
-        }
+        hal::set_known(sample_, axis, reading.has_current, reading.has_velocity);
         return;
     }
     sample_.spindle_current_A = reading.current_A;
@@ -136,11 +167,10 @@ void DriveBus::put(std::size_t role, const DriveReading& reading) {
     sample_.spindle_index_count = reading.index_count;
     sample_.spindle_index_number = reading.index_number;
     if (reading.has_current) {
-        sample_.present = static_cast<std::uint8_t>(sample_.present | hal::mask(hal::Present::spindle_current));
+        hal::set_present(sample_, hal::Present::spindle_current);
     }
     if (reading.has_count) {
-        sync_clock_.on_count(reading.count);
-        sample_.present = static_cast<std::uint8_t>(sample_.present | hal::mask(hal::Present::spindle_count));
+        hal::set_present(sample_, hal::Present::spindle_count);
     }
 }
 
@@ -151,35 +181,16 @@ void DriveBus::poll(std::uint64_t time_us) {
     if (cycle_open_ && time_us >= sync_time_us_ + settings_.collect_us) {
         hand_over();
     }
-    if (settings_.produces_sync) {
-        produce_sync(time_us);
+    if (settings_.produces_sync && sync_producer_.poll(time_us)) {
+        health_.syncs_skipped = sync_producer_.skipped();
+        begin_cycle(time_us);
     }
     const std::uint64_t patience_us = sync_lost_after_periods * settings_.sync_period_us;
     health_.sync_lost = !had_sync_ || time_us > sync_time_us_ + patience_us;
 }
 
-void DriveBus::produce_sync(std::uint64_t time_us) {
-    const std::uint64_t period_us = settings_.sync_period_us;
-    const bool is_first_or_clock_was_set =
-        !had_sync_ || next_sync_us_ > time_us + largest_sync_wait_periods * period_us;
-    if (is_first_or_clock_was_set) {
-        next_sync_us_ = time_us;
-    }
-    if (time_us < next_sync_us_) {
-        return;
-    }
-    const std::uint64_t late_periods = (time_us - next_sync_us_) / period_us;
-    health_.syncs_skipped += static_cast<std::uint32_t>(late_periods);
-    next_sync_us_ += (late_periods + 1) * period_us;
-    begin_cycle(time_us);
-    sync_to_send_ = true;
-}
-
 bool DriveBus::take_frame(hal::CanFrame& frame) {
-    if (sync_to_send_) {
-        sync_to_send_ = false;
-        frame = {};
-        frame.id = settings_.sync_id;
+    if (sync_producer_.take_frame(frame)) {
         return true;
     }
     for (DriveNode& node : nodes_) {
@@ -199,10 +210,17 @@ bool DriveBus::take_sample(hal::DriveSample& sample) {
     return true;
 }
 
+hal::SourceState DriveBus::state() const {
+    if (!had_sample_) {
+        return hal::SourceState::waiting;
+    }
+    return health_.sync_lost ? hal::SourceState::silent : hal::SourceState::running;
+}
+
 std::uint64_t DriveBus::next_event_us(std::uint64_t now_us) const {
     std::uint64_t next_us = now_us + settings_.sync_period_us;
     if (settings_.produces_sync) {
-        next_us = had_sync_ && next_sync_us_ < next_us ? next_sync_us_ : next_us;
+        next_us = had_sync_ && sync_producer_.next_us() < next_us ? sync_producer_.next_us() : next_us;
     }
     if (cycle_open_ && sync_time_us_ + settings_.collect_us < next_us) {
         next_us = sync_time_us_ + settings_.collect_us;

@@ -71,7 +71,12 @@ DriveReading DriveNode::read(std::uint64_t sync_time_us, RejectCounters& rejects
     if (health_.state != NodeState::operational) {
         return reading;
     }
-    read_current(sync_time_us, reading, rejects);
+    if (settings_.gives_current) {
+        read_current(sync_time_us, reading, rejects);
+    }
+    if (!settings_.gives_motion) {
+        return reading;
+    }
     if (is_spindle_) {
         read_count(sync_time_us, reading, rejects);
     } else {

@@ -33,6 +33,9 @@ SettingsError check_pdos(const DriveSettings& drive) {
 }
 
 SettingsError check_current(const DriveSettings& drive, const SignalTable& signals, bool can_ask) {
+    if (!drive.gives_current) {
+        return SettingsError::none;
+    }
     const bool by_torque = drive.current_source == CurrentSource::torque_actual;
     if (!signals.is_mapped(by_torque ? Signal::torque : Signal::current)) {
         return SettingsError::object_missing;
@@ -93,6 +96,9 @@ SettingsError check_drive(const DriveSettings& drive, bool is_spindle, bool can_
     if (drive.heartbeat_timeout_us != 0 && drive.heartbeat_timeout_us <= heartbeat_us) {
         return SettingsError::heartbeat;
     }
+    if (!drive.gives_motion) {
+        return SettingsError::none;
+    }
     return is_spindle ? check_spindle(drive, signals) : check_axis(drive, signals);
 }
 
@@ -116,7 +122,7 @@ SettingsError check_ids(const BusSettings& settings) {
 }
 
 SettingsError check_nodes(const BusSettings& settings) {
-    bool any = false;
+    bool any = settings.beside_bus != 0;
     for (std::size_t k = 0; k < drive_capacity; ++k) {
         const DriveSettings& drive = settings.drives[k];
         if (drive.node_id == 0) {

@@ -41,7 +41,8 @@ SdoRequest mapping_step(const PdoMapping& pdo, std::uint16_t number, std::uint8_
 
 bool preparation_step(const DriveSettings& settings, std::uint8_t step, SdoRequest& request) {
     const bool by_torque = settings.current_source == CurrentSource::torque_actual;
-    const bool reads = by_torque ? settings.rated_torque_Nm == 0.0F : settings.rated_current_A == 0.0F;
+    const float rated = by_torque ? settings.rated_torque_Nm : settings.rated_current_A;
+    const bool reads = settings.gives_current && rated == 0.0F;
     if (reads && step-- == 0) {
         request = {by_torque ? object::rated_torque_mNm : object::rated_current_mA, 0, 0, 0};
         return true;

@@ -6,25 +6,23 @@ namespace millforce::iio {
 hal::DriveSample join(const CurrentReading& currents, const MotionReading& motion) {
     hal::DriveSample sample;
     sample.time_us = static_cast<std::uint32_t>(currents.time_us);
-    unsigned present = 0;
     if (currents.has[0]) {
         sample.spindle_current_A = currents.current_A[0];
-        present |= hal::mask(hal::Present::spindle_current);
+        hal::set_present(sample, hal::Present::spindle_current);
     }
     if (motion.has_count) {
         sample.spindle_count = motion.spindle_count;
         sample.spindle_index_count = motion.spindle_index_count;
         sample.spindle_index_number = motion.spindle_index_number;
-        present |= hal::mask(hal::Present::spindle_count);
+        hal::set_present(sample, hal::Present::spindle_count);
     }
     for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
-        if (currents.has[1 + axis] && motion.has_velocity[axis]) {
-            sample.axis_current_A[axis] = currents.current_A[1 + axis];
-            sample.axis_velocity_mm_s[axis] = motion.velocity_mm_s[axis];
-            present |= hal::axis_mask(axis);
-        }
+        const bool has_current = currents.has[1 + axis];
+        const bool has_velocity = motion.has_velocity[axis];
+        sample.axis_current_A[axis] = has_current ? currents.current_A[1 + axis] : 0.0F;
+        sample.axis_velocity_mm_s[axis] = has_velocity ? motion.velocity_mm_s[axis] : 0.0F;
+        hal::set_known(sample, axis, has_current, has_velocity);
     }
-    sample.present = static_cast<std::uint8_t>(present);
     return sample;
 }
 

@@ -5,6 +5,11 @@
 
 namespace millforce::override_frame {
 
+bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id) {
+    return frame.id == heartbeat_id + node_id && !frame.extended && !frame.remote && frame.length == 1 &&
+           frame.data[0] == nmt_boot_up;
+}
+
 void OverrideSender::update(const hal::FeedOverride& feed_override, std::uint64_t time_us) {
     const bool is_urgent = !has_override_ || feed_override.hold != newest_.hold || feed_override.fault != newest_.fault;
     const bool is_new_tick = !has_override_ || feed_override.heartbeat != newest_.heartbeat;

@@ -4,6 +4,7 @@
 #include "estimation/cut_estimate.hpp"
 #include "estimation/cutting/engagement_peaks.hpp"
 #include "estimation/cutting/tooth_force.hpp"
+#include "estimation/cutting/total_force.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
@@ -74,13 +75,10 @@ class CutEstimator {
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
         return axes_[axis].friction_scale(positive);
     }
-    /// The total force's peak and its threshold, for the operator's eye and for the record: F_at κ and F_tooth,max g.
-    /// Not for the tick: about 300 single-tooth forces.
-    struct TotalForce {
-        Scalar peak_N{0};
-        Scalar limit_N{0};
-    };
-    [[nodiscard]] TotalForce total_force() const;
+    /// What the total force of estimate() is worked out of, by whoever shows it: TotalForce.
+    [[nodiscard]] TotalForceInput<Scalar> total_force_input() const {
+        return {estimate_.worst_tooth_force_N, peaks_.now().radial_immersion, peaks_.depth_mm(), peaks_.side()};
+    }
 
   private:
     using Averager = SynchronousAverage<Scalar, DriveSignals<Scalar>::channels>;
@@ -89,7 +87,6 @@ class CutEstimator {
     /// What the next slice does.
     enum class Stage : unsigned char { idle, engagement, peaks };
 
-    [[nodiscard]] PeakFactorSettings<Scalar> peak_settings(CutSide side) const;
     [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average(const Window& window) const;
     [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average_of_tooth(const Window& window) const;
     [[nodiscard]] static typename FeedDrive<Scalar>::Average axis_average(const Window& window, std::size_t axis);

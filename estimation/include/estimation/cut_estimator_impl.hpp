@@ -22,7 +22,7 @@ CutEstimator<Scalar>::CutEstimator(const CutEstimatorSettings<Scalar>& settings,
       per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
       spindle_(spindle),
       axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
-      peaks_(law, {peak_settings(settings.side), settings.largest_depth_mm, settings.assumed_immersion,
+      peaks_(law, {peak_factor_settings(settings, settings.side), settings.largest_depth_mm, settings.assumed_immersion,
                    settings.surge_immersion, settings.turn_immersion}),
       tooth_force_(settings, law),
       law_(law),
@@ -32,18 +32,6 @@ CutEstimator<Scalar>::CutEstimator(const CutEstimatorSettings<Scalar>& settings,
                .law_relative_sd = settings.law_relative_sd,
                .declared_depth_mm = settings.declared_depth_mm},
               settings.side) {}
-
-template <typename Scalar>
-PeakFactorSettings<Scalar> CutEstimator<Scalar>::peak_settings(CutSide side) const {
-    PeakFactorSettings<Scalar> peak;
-    peak.teeth = settings_.teeth;
-    peak.cutter_radius_mm = settings_.cutter_radius_mm;
-    peak.helix_rad = settings_.helix_rad;
-    peak.nominal_feed_per_tooth_mm = settings_.nominal_feed_per_tooth_mm;
-    peak.side = side;
-    peak.centre_offset_in_radii = settings_.centre_offset_in_radii;
-    return peak;
-}
 
 // One sample
 
@@ -277,14 +265,6 @@ bool CutEstimator<Scalar>::axes_rest() const {
         all_rest = all_rest && window_.mean[k] < rest_mm_s && -window_.mean[k] < rest_mm_s;
     }
     return all_rest;
-}
-
-template <typename Scalar>
-typename CutEstimator<Scalar>::TotalForce CutEstimator<Scalar>::total_force() const {
-    const PeakFactors<Scalar> factors =
-        peak_factors(law_, peak_settings(peaks_.side()), peaks_.now().radial_immersion, peaks_.depth_mm());
-    const Scalar peak_per_tooth = factors.threshold_factor();
-    return {estimate_.worst_tooth_force_N * peak_per_tooth, settings_.tooth_force_limit_N * peak_per_tooth};
 }
 
 }  // namespace millforce::estimation

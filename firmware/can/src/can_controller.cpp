@@ -17,17 +17,6 @@ cia402::BusSettings listening_for_sync(cia402::BusSettings settings) {
     return settings;
 }
 
-std::uint8_t complete_sample(const cia402::BusSettings& settings) {
-    std::uint8_t present = 0;
-    for (std::size_t role = 0; role < settings.drives.size(); ++role) {
-        const std::uint8_t of_spindle =
-            hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current);
-        const std::uint8_t of_role = role == 0 ? of_spindle : hal::axis_mask(role - 1);
-        present = static_cast<std::uint8_t>(present | (settings.drives[role].node_id != 0 ? of_role : 0U));
-    }
-    return present;
-}
-
 std::uint32_t own_heartbeat_id(const CanControllerSettings& settings) {
     return cia402::cob_id::heartbeat + settings.feed_override.node_id;
 }
@@ -54,7 +43,6 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
                              TickListener* listener)
     : settings_(settings),
       parameters_(parameters),
-      complete_(complete_sample(settings.drives)),
       is_running_(settings.begins_at_once),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
@@ -92,10 +80,6 @@ bool CanController::is_used(const hal::CanFrame& frame) const {
     return !frame.extended && !frame.remote && frame.id <= hal::largest_standard_can_id && used_ids_.test(frame.id);
 }
 
-bool CanController::is_boot_up(const hal::CanFrame& frame) const {
-    return frame.id == own_heartbeat_id(settings_) && frame.length == 1 && frame.data[0] == 0;
-}
-
 void CanController::advance_to(std::uint64_t time_us) {
     bus_time_us_ = std::max(bus_time_us_, time_us);
     bus_.poll(bus_time_us_);
@@ -110,7 +94,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
         return;
     }
     was_heard_ = true;
-    if (is_own && is_boot_up(frame)) {
+    if (is_own && override_frame::is_boot_up(frame, settings_.feed_override.node_id)) {
         begin();
     }
     if (!is_running_) {
@@ -129,6 +113,17 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
     program_receiver_.on_frame(frame, time_us);
     bus_.on_frame(frame, time_us);
     run_ticks();
+}
+
+void CanController::add(const hal::DriveSample& beside_bus) {
+    if (is_running_) {
+        bus_.add(beside_bus);
+        run_ticks();
+    }
+}
+
+bool CanController::has_complete_sample() const {
+    return (sample_.present & bus_.complete()) == bus_.complete();
 }
 
 void CanController::poll(std::uint64_t now_us) {
@@ -190,7 +185,7 @@ void CanController::run_ticks() {
 
 /// A sample that lacks something is left out: the next complete one spans its time.
 void CanController::tick_on_sample() {
-    if ((sample_.present & complete_) != complete_) {
+    if (!has_complete_sample()) {
         return;
     }
     has_begun_ = true;
@@ -255,7 +250,7 @@ bool CanController::is_at_rest() const {
     const auto rests = [](float velocity_mm_s) {
         return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
     };
-    return (sample_.present & complete_) == complete_ &&
+    return has_complete_sample() &&
            std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), rests);
 }
 
@@ -276,7 +271,7 @@ void CanController::judge(std::uint64_t now_us) {
         found.add(of_drive);
     }
     found.set(Condition::drive_not_enabled, is_any_drive_stopped());
-    found.set(Condition::input_incomplete, (sample_.present & complete_) != complete_);
+    found.set(Condition::input_incomplete, !has_complete_sample());
     found.set(Condition::input_stale, has_begun_ && (is_silent_ || bus_time_us_ > complete_time_us_ + stale_us_));
     const program_status::ProgramSource source = program_receiver_.source(bus_time_us_);
     found.set(Condition::program_unknown, source == program_status::ProgramSource::never_heard);

@@ -18,19 +18,6 @@ Parameters<float> capped(Parameters<float> parameters, float largest_override) {
     return parameters;
 }
 
-hal::DriveSample drives_of(const local_link::SampleMessage& m) {
-    hal::DriveSample sample;
-    sample.time_us = m.time_us;
-    sample.spindle_count = m.spindle_count;
-    sample.spindle_index_count = m.spindle_index_count;
-    sample.spindle_index_number = m.spindle_index_number;
-    sample.present = m.present;
-    sample.spindle_current_A = m.spindle_current_A;
-    sample.axis_current_A = m.axis_current_A;
-    sample.axis_velocity_mm_s = m.axis_velocity_mm_s;
-    return sample;
-}
-
 hal::ProgramStatus program_of(const local_link::SampleMessage& m) {
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = m.programmed_feed_mm_s;
@@ -59,7 +46,10 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     bridge_gap(message.time_us, program);
     reset_where_asked(message);
     finish_work(tick_);  // what was not done in time
-    output_ = tick_.step(drives_of(message), program);
+    drives_.on_message(message);
+    hal::DriveSample sample;
+    (void)drives_.take_sample(sample);  // each message is one
+    output_ = tick_.step(sample, program);
     answer = encode(answer_to(message.sequence));
     return local_link::MessageError::none;
 }

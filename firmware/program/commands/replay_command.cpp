@@ -17,8 +17,9 @@
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
+#include "firmware/tick.hpp"
+#include "firmware/tick_record.hpp"
 #include "firmware/wide_band_settings.hpp"
-#include "loop/override_source.hpp"
 #include "recording/recording.hpp"
 #include "replay/estimate_rows.hpp"
 #include "replay/replay_candump.hpp"
@@ -136,7 +137,8 @@ hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOpti
 int replay_table(const ReplayOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     RecordingReader recording(options.log, static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
-    sim::MillforceController controller(parameters);
+    firmware::ForceControlTick<float> tick(parameters);
+    const estimation::TotalForce<float> total = firmware::total_force(parameters);
     std::optional<AtomicFile> file;
     if (!options.output.empty()) {
         file.emplace(options.output);
@@ -155,13 +157,14 @@ int replay_table(const ReplayOptions& options) {
     double next_row_s = -std::numeric_limits<double>::infinity();
     while (recording.next()) {
         progress.update(recording.fraction_read());
-        const hal::FeedOverride output = controller.step(recording.sample(), program_of(recording, options));
+        const hal::FeedOverride output = tick.step(recording.sample(), program_of(recording, options));
+        if (tick.work_due()) {
+            tick.work();
+        }
         if (recording.time_s() >= next_row_s) {
-            sim::TracePoint point;
-            controller.describe(point);
-            write_estimate_row(out, recording.time_s(), point, output.ratio);
-            roughness.write(out, controller.roughness());
-            wide_band.write(out, controller.wide_band());
+            write_estimate_row(out, recording.time_s(), firmware::tick_record(tick, output, 0), total);
+            roughness.write(out, tick.roughness());
+            wide_band.write(out, tick.wide_band());
             out << '\n';
             next_row_s = recording.time_s() + options.interval_s;
             ++rows;
@@ -177,8 +180,7 @@ int replay_table(const ReplayOptions& options) {
     }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(),
-                   wide_band.summary(controller.wide_band()));
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), wide_band.summary(tick.wide_band()));
     } else {
         std::cout << held_back.str();
     }

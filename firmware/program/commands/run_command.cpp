@@ -81,8 +81,8 @@ int run_on_bus(const RunOptions& options) {
     const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0});
+    const auto journal = std::make_unique<Journal>(JournalSettings{
+        options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, firmware::total_force(parameters)});
     const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
                                                     CanDaemonSettings{!options.record.empty(), time});
     if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
@@ -118,7 +118,9 @@ void add_run(Command& program) {
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");
     command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
     command.option("--log", options->log, "Estimates and states as JSON lines").value_name("FILE.jsonl");
-    command.option("--record", options->record, "Every frame of the bus as a candump log, for 'millforce replay'")
+    command
+        .option("--record", options->record,
+                "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
         .value_name("FILE.log");
     add_bus_pace(command, options->pace);
     command.on_run([options] { return run_on_bus(*options); });

@@ -100,49 +100,30 @@ bool maps(const cia402::DriveSettings& drive, std::uint16_t index) {
     return false;
 }
 
-void check_local(const std::string& file, std::size_t place, const LocalDriveKeys& keys,
-                 const cia402::DriveSettings& drive, std::uint16_t motion) {
+/// The current of this drive, and its motion where it has a counter, come by this computer's own inputs. Where no PDO
+/// is left the drive is not on the bus.
+void take_from_bus(const std::string& file, std::size_t place, const LocalDriveKeys& keys,
+                   cia402::DriveSettings& drive) {
     const char* table = firmware::drive_tables[place];
-    if (drive.node_id == 0) {
-        refuse_local(file, place,
-                     fmt::format("expected node_id in [{}]: its values go over the bus as that node's", table));
-    }
-    if (drive.pdos[local_pdo].is_used()) {
-        refuse_local(file, place, fmt::format("[{}] has a tpdo4, which the converter's values go out with", table));
-    }
-    if (drive.write_mapping || drive.heartbeat_period_ms != 0) {
-        refuse_local(file, place, fmt::format("expected neither write_mapping nor heartbeat_period_ms in [{}]", table));
-    }
+    const std::uint16_t motion = place == 0 ? drive.count_object.index : cia402::object::velocity_actual;
     if (maps(drive, cia402::object::current_actual) || (keys.has_counter() && maps(drive, motion))) {
         refuse_local(file, place, fmt::format("a tpdo of [{}] tells the same, expected one of the two", table));
     }
+    const bool has_pdo = std::ranges::any_of(drive.pdos, [](const cia402::PdoMapping& pdo) { return pdo.is_used(); });
+    const bool is_on_bus = drive.node_id != 0 && has_pdo;
+    if (!is_on_bus && !keys.has_counter()) {
+        refuse_local(file, place,
+                     fmt::format("nothing tells its motion, expected count_file, or node_id and tpdo1 in [{}]", table));
+    }
+    drive.node_id = is_on_bus ? drive.node_id : std::uint8_t{0};
+    drive.gives_current = false;
+    drive.gives_motion = !keys.has_counter();
 }
 
-/// The drive's values, or some of them, come from this computer's converter: see LocalDrives.
-void make_local(const std::string& file, std::size_t place, const LocalDriveKeys& keys, float tpdo4_id,
-                cia402::DriveSettings& drive) {
-    const bool is_spindle = place == 0;
-    const std::uint16_t motion = is_spindle ? drive.count_object.index : cia402::object::velocity_actual;
-    check_local(file, place, keys, drive, motion);
-    cia402::PdoMapping& pdo = drive.pdos[local_pdo];
-    const bool has_others = drive.pdos[0].is_used() || drive.pdos[1].is_used() || drive.pdos[2].is_used();
-    pdo = {};
-    pdo.id = tpdo4_id > 0.0F ? static_cast<std::uint32_t>(std::lround(tpdo4_id)) : 0x480U + drive.node_id;
-    pdo.transmission_type = 1;
-    if (keys.has_counter()) {
-        pdo.objects[pdo.object_count++] = {motion, 0, 32};
-        drive.velocity_source = cia402::VelocitySource::velocity_actual;
-        drive.velocity_mm_s_per_unit = 0.001F;
-        drive.count_modulus = 0;
-        drive.count_reversed = false;
-    }
-    pdo.objects[pdo.object_count++] = {cia402::object::current_actual, 0, 32};
-    drive.current_source = cia402::CurrentSource::current_actual;
-    drive.current_basis = cia402::CurrentBasis::rms;
-    drive.current_reversed = false;
-    drive.rated_current_A = 1.0F;
-    drive.largest_share_of_rated = static_cast<float>(keys.largest_A);
-    drive.heartbeat_timeout_us = has_others ? drive.heartbeat_timeout_us : 0;
+std::uint8_t given_by(std::size_t place, const LocalDriveKeys& keys) {
+    const std::uint8_t count = keys.has_counter() ? hal::mask(hal::Present::spindle_count) : std::uint8_t{0};
+    return place == 0 ? static_cast<std::uint8_t>(hal::mask(hal::Present::spindle_current) | count)
+                      : hal::axis_mask(place - 1);
 }
 
 /// What is wrong, and what was expected.
@@ -220,11 +201,13 @@ std::optional<MachineBus> machine_bus(const std::string& file, const firmware::M
     firmware::CanControllerSettings settings = firmware::can_controller_settings(machine, objects);
     for (std::size_t k = 0; k < local.drives.size(); ++k) {
         if (local.drives[k].is_used()) {
-            make_local(file, k, local.drives[k], machine.bus.drives[k].tpdo_id[local_pdo], settings.drives.drives[k]);
+            take_from_bus(file, k, local.drives[k], settings.drives.drives[k]);
+            settings.drives.beside_bus =
+                static_cast<std::uint8_t>(settings.drives.beside_bus | given_by(k, local.drives[k]));
         }
     }
     const auto is_used = [](const cia402::DriveSettings& drive) { return drive.node_id != 0; };
-    if (std::ranges::none_of(settings.drives.drives, is_used)) {
+    if (std::ranges::none_of(settings.drives.drives, is_used) && settings.drives.beside_bus == 0) {
         return std::nullopt;
     }
     check_bus(file, settings.drives);

@@ -8,9 +8,6 @@
 
 namespace millforce::host {
 
-/// The PDO of a drive that the values of this computer's own converters and counters go out with: its TPDO 4.
-inline constexpr std::size_t local_pdo = 3;
-
 /// Who is on a machine's CAN bus, and how they speak: the [bus] tables of machine.toml; and the inputs and outputs of
 /// this computer that belong to it.
 struct MachineBus {

@@ -9,6 +9,7 @@
 #include "candump/log_line.hpp"
 #include "cia402/objects.hpp"
 #include "daemon/bus_names.hpp"
+#include "daemon/local_line.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::host {
@@ -30,7 +31,12 @@ class CandumpLines {
         }
         ++number_;
         bytes_ += text_.size() + 1;
-        line_ = candump::read_line(text_);
+        is_local_ = is_local_line(text_);
+        line_ = is_local_ ? candump::LogLine{.kind = candump::LineKind::blank} : candump::read_line(text_);
+        if (is_local_ && !read_local_line(text_, beside_bus_)) {
+            throw InputError(fmt::format("{}:{}: '{}', expected a line as 'millforce run --record' writes it", file_,
+                                         number_, shown(text_)));
+        }
         if (line_.kind == candump::LineKind::malformed) {
             throw InputError(fmt::format("{}:{}:{}: '{}', {}", file_, number_, line_.column, shown(text_),
                                          candump::expectation(line_.error)));
@@ -38,6 +44,9 @@ class CandumpLines {
         return true;
     }
     [[nodiscard]] const candump::LogLine& line() const { return line_; }
+    /// The line is no frame: it tells what a source beside the bus gave.
+    [[nodiscard]] bool is_local() const { return is_local_; }
+    [[nodiscard]] const hal::DriveSample& beside_bus() const { return beside_bus_; }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   private:
@@ -54,6 +63,8 @@ class CandumpLines {
     std::ifstream in_;
     std::string text_;
     candump::LogLine line_{};
+    bool is_local_ = false;
+    hal::DriveSample beside_bus_{};
     std::uint64_t number_ = 0;
     std::uint64_t bytes_ = 0;
 };
@@ -65,8 +76,6 @@ std::string joined_names(const std::set<std::string, std::less<>>& names) {
     }
     return list;
 }
-
-constexpr std::uint8_t boot_up = 0x00;
 
 }  // namespace
 
@@ -123,8 +132,7 @@ void CandumpReplay::survey() {
 }
 
 bool CandumpReplay::is_start(const hal::CanFrame& frame) const {
-    return frame.id == cia402::cob_id::heartbeat + settings_.bus.feed_override.node_id && !frame.extended &&
-           !frame.remote && frame.length == 1 && frame.data[0] == boot_up;
+    return override_frame::is_boot_up(frame, settings_.bus.feed_override.node_id);
 }
 
 /// An SDO answer with four bytes: 43 75 60 00 and the value.
@@ -155,7 +163,7 @@ void CandumpReplay::take_rated_values() {
         const bool by_torque = drive.current_source == cia402::CurrentSource::torque_actual;
         float& rated = by_torque ? drive.rated_torque_Nm : drive.rated_current_A;
         const std::uint32_t told = by_torque ? rated_torque_mNm_[role] : rated_current_mA_[role];
-        if (drive.node_id == 0 || rated > 0.0F) {
+        if (drive.node_id == 0 || !drive.gives_current || rated > 0.0F) {
             continue;
         }
         if (told == 0) {
@@ -181,6 +189,9 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
     controller_ = std::make_unique<firmware::CanController>(settings, settings_.parameters, &listener);
     while (lines.next()) {
         const candump::LogLine& line = lines.line();
+        if (lines.is_local()) {
+            controller_->add(lines.beside_bus());
+        }
         const bool is_asked = settings_.interface.empty() || line.interface == settings_.interface;
         if (line.kind == candump::LineKind::blank || !is_asked) {
             continue;

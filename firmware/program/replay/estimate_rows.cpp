@@ -5,16 +5,19 @@
 
 namespace millforce::host {
 
-void write_estimate_row(std::ostream& out, double time_s, const sim::TracePoint& p, float ratio) {
+void write_estimate_row(std::ostream& out, double time_s, const firmware::TickRecord& tick,
+                        const estimation::TotalForce<float>& total) {
+    const firmware::ShownForces shown = firmware::shown_forces(total, tick);
     std::string line = CsvWriter::cell(time_s);
     line += ',';
-    line += control::name(static_cast<control::CutState>(p.state));
-    for (const double estimate : {p.tangential_force_N, p.feed_force_N, p.radial_immersion, p.radial_immersion_sd,
-                                  p.axial_depth_mm, p.axial_depth_sd_mm, p.peak_force_N, p.force_limit_N}) {
+    line += control::name(static_cast<control::CutState>(tick.feed_override.state));
+    for (const float estimate :
+         {tick.tangential_force_N, tick.feed_force_N, tick.radial_immersion, tick.radial_immersion_sd,
+          tick.axial_depth_mm, tick.axial_depth_sd_mm, shown.peak_N, shown.limit_N}) {
         line += ',';
-        line += CsvWriter::cell(static_cast<float>(estimate));
+        line += CsvWriter::cell(estimate);
     }
-    out << line << ',' << CsvWriter::cell(ratio);
+    out << line << ',' << CsvWriter::cell(tick.feed_override.ratio);
 }
 
 }  // namespace millforce::host

@@ -10,7 +10,7 @@
 
 #include "estimation/surface/roughness.hpp"
 #include "files/csv.hpp"
-#include "report/run_result.hpp"
+#include "firmware/tick_record.hpp"
 
 /// The table of estimates that a replay writes, whatever it reads.
 
@@ -20,7 +20,8 @@ inline constexpr std::string_view estimate_header =
     "time_s,state,tangential_force_N,feed_force_N,radial_immersion,radial_immersion_sd,axial_depth_mm,"
     "axial_depth_sd_mm,peak_force_N,force_limit_N,override";
 
-void write_estimate_row(std::ostream& out, double time_s, const sim::TracePoint& p, float ratio);
+void write_estimate_row(std::ostream& out, double time_s, const firmware::TickRecord& tick,
+                        const estimation::TotalForce<float>& total);
 
 /// The columns of the roughness, where the tool has a model of it: value, 95 % interval, and 1 within the range of the
 /// model's tests or 0 outside.

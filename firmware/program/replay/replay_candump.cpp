@@ -14,7 +14,6 @@
 #include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
-#include "loop/override_source.hpp"
 #include "replay/candump_replay.hpp"
 #include "replay/estimate_rows.hpp"
 #include "replay/run_check.hpp"
@@ -80,6 +79,7 @@ int replay_candump(const ReplayCandumpOptions& options) {
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
     const auto parameters = read_parameters(options.machine, options.tool);
+    const estimation::TotalForce<float> total = firmware::total_force(parameters);
     RoughnessCells roughness(parameters.tool.roughness);
     out << estimate_header;
     roughness.write_header(out);
@@ -87,7 +87,7 @@ int replay_candump(const ReplayCandumpOptions& options) {
     Progress progress("replaying");
     std::optional<RunCheck> check;
     if (!options.run_log.empty()) {
-        check.emplace(options.run_log);
+        check.emplace(options.run_log, total);
     }
     TickEntries entries(run_log_interval_us);
     const auto interval_us = static_cast<std::uint64_t>(std::llround(options.interval_s * 1e6));
@@ -95,16 +95,14 @@ int replay_candump(const ReplayCandumpOptions& options) {
     std::size_t rows = 0;
     replay.run(
         [&](const firmware::CanController& controller) {
-            if (EstimateEntry entry; check && entries.add(controller, entry)) {
+            if (EstimateEntry entry; check && entries.add(controller.record(), entry)) {
                 check->add(entry);
             }
             if (controller.tick_time_us() < next_row_us) {
                 return;
             }
             next_row_us = controller.tick_time_us() + interval_us;
-            sim::TracePoint point;
-            sim::describe_tick(controller.controller(), point);
-            write_estimate_row(out, seconds_of(controller.tick_time_us()), point, controller.output().ratio);
+            write_estimate_row(out, seconds_of(controller.tick_time_us()), controller.record(), total);
             roughness.write(out, controller.controller().roughness());
             out << '\n';
             ++rows;

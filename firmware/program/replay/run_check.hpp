@@ -14,7 +14,7 @@ namespace millforce::host {
 class RunCheck {
   public:
     /// Throws InputError where there is no such file, or no estimate in it.
-    explicit RunCheck(const std::string& file);
+    RunCheck(const std::string& file, const estimation::TotalForce<float>& total);
 
     void add(const EstimateEntry& entry);
     /// After the replay. True where every estimate of the run's log came again.
@@ -25,6 +25,7 @@ class RunCheck {
     void next_expected();
 
     std::string file_;
+    estimation::TotalForce<float> total_;
     std::ifstream in_;
     std::string expected_;  ///< empty: all came again
     std::string got_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 /// What the machine tells the controller, once per sample. Plain data: a driver fills it, the tick reads it.
@@ -37,12 +38,60 @@ struct DriveSample {
     std::uint8_t spindle_index_number = 0;  ///< increases by one at each index pulse, wraps; constant: no index wired
 
     std::uint8_t present = 0;  ///< mask of Present
+    std::uint8_t part = 0;     ///< axes of which the current alone (bits 0…2) or the velocity alone (3…5) is known
 
     float spindle_current_A = 0.0F;
     std::array<float, axis_count> axis_current_A{};
     std::array<float, axis_count> axis_velocity_mm_s{};  ///< of the tool relative to the workpiece
     std::array<float, 2> force_N{};                      ///< of a force sensor: on the workpiece, along machine x and y
 };
+
+constexpr void set_present(DriveSample& sample, Present quantity) {
+    sample.present = static_cast<std::uint8_t>(sample.present | mask(quantity));
+}
+
+[[nodiscard]] constexpr bool knows_current(const DriveSample& sample, std::size_t axis) {
+    return (sample.present & axis_mask(axis)) != 0 || (sample.part & (1U << axis)) != 0;
+}
+[[nodiscard]] constexpr bool knows_velocity(const DriveSample& sample, std::size_t axis) {
+    return (sample.present & axis_mask(axis)) != 0 || (sample.part & (1U << (axis_count + axis))) != 0;
+}
+/// An axis is present where both are known.
+constexpr void set_known(DriveSample& sample, std::size_t axis, bool has_current, bool has_velocity) {
+    const bool is_whole = has_current && has_velocity;
+    const unsigned current = 1U << axis;
+    const unsigned velocity = 1U << (axis_count + axis);
+    const unsigned of_part = is_whole ? 0U : (has_current ? current : 0U) | (has_velocity ? velocity : 0U);
+    sample.part = static_cast<std::uint8_t>((sample.part & ~(current | velocity)) | of_part);
+    sample.present = static_cast<std::uint8_t>((sample.present & ~axis_mask(axis)) | (is_whole ? axis_mask(axis) : 0U));
+}
+
+/// Puts what another source knows of the same moment into a sample. The sample's time stays.
+constexpr void add(DriveSample& sample, const DriveSample& other) {
+    if ((other.present & mask(Present::spindle_count)) != 0) {
+        sample.spindle_count = other.spindle_count;
+        sample.spindle_index_count = other.spindle_index_count;
+        sample.spindle_index_number = other.spindle_index_number;
+        set_present(sample, Present::spindle_count);
+    }
+    if ((other.present & mask(Present::spindle_current)) != 0) {
+        sample.spindle_current_A = other.spindle_current_A;
+        set_present(sample, Present::spindle_current);
+    }
+    if ((other.present & mask(Present::force_sensor)) != 0) {
+        sample.force_N = other.force_N;
+        set_present(sample, Present::force_sensor);
+    }
+    for (std::size_t axis = 0; axis < axis_count; ++axis) {
+        const bool has_current = knows_current(other, axis);
+        const bool has_velocity = knows_velocity(other, axis);
+        sample.axis_current_A[axis] = has_current ? other.axis_current_A[axis] : sample.axis_current_A[axis];
+        sample.axis_velocity_mm_s[axis] =
+            has_velocity ? other.axis_velocity_mm_s[axis] : sample.axis_velocity_mm_s[axis];
+        set_known(sample, axis, has_current || knows_current(sample, axis),
+                  has_velocity || knows_velocity(sample, axis));
+    }
+}
 
 /// What the CNC and the operator tell, whenever it changes.
 struct ProgramStatus {

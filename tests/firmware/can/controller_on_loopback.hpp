@@ -32,15 +32,13 @@ struct LoggedFrame {
 class TickLog final : public firmware::TickListener {
   public:
     void on_tick(const firmware::CanController& controller) override {
-        sim::TracePoint point;
-        sim::describe_tick(controller.controller(), point);
-        std::string line = std::to_string(controller.tick_time_us());
-        for (const double value :
-             {point.tangential_force_N, point.feed_force_N, point.radial_immersion, point.axial_depth_mm,
-              point.peak_force_N, static_cast<double>(controller.output().ratio)}) {
+        const firmware::TickRecord tick = controller.record();
+        std::string line = std::to_string(tick.time_us);
+        for (const float value : {tick.tangential_force_N, tick.feed_force_N, tick.radial_immersion,
+                                  tick.axial_depth_mm, tick.total_force.tooth_force_N, tick.feed_override.ratio}) {
             line += ',' + host::CsvWriter::cell(value);
         }
-        lines.push_back(line + ',' + std::to_string(controller.output().state));
+        lines.push_back(line + ',' + std::to_string(tick.feed_override.state));
     }
     std::vector<std::string> lines{};
 };
@@ -85,7 +83,7 @@ class ControllerOnLoopback : public sim::OverrideSource {
         const override_frame::ReceivedOverride got = cnc.feed_override(now_us);
         return {got.ratio, got.hold, got.state, got.fault, 0};
     }
-    void describe(sim::TracePoint& point) const override { sim::describe_tick(controller.controller(), point); }
+    void describe(sim::TracePoint& point) const override { sim::describe(controller.record(), point); }
     [[nodiscard]] bool is_ready() const override { return cnc.feed_override(now_us).is_alive; }
 
     void run_us(std::uint64_t duration_us) {

@@ -10,8 +10,10 @@
 #include "cia402/drive_settings.hpp"
 #include "cia402/rejects.hpp"
 #include "cia402/sync_clock.hpp"
+#include "cia402/sync_producer.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
+#include "hal/drive_source.hpp"
 
 /// The drives of a machine on one CANopen bus: frames in, one hal::DriveSample per SYNC period and frames to send out.
 ///
@@ -21,6 +23,8 @@
 ///         while (bus.take_frame(frame)) { ... }      // send; what cannot be sent is dropped, the bus repeats itself
 ///         if (bus.take_sample(sample)) { ... }       // run the tick
 ///     }
+///
+/// What another source knows of a SYNC period (BusSettings::beside_bus) is given by add() once the SYNC is there.
 ///
 /// A pure state machine: no clock, no operating system, no heap, no exceptions. Times are µs of any clock that does not
 /// run backwards. Cost per frame: a search over at most 4 drives × 4 PDOs; 0.8 µs for a whole SYNC
@@ -40,7 +44,7 @@ struct BusHealth {
     std::uint32_t samples_incomplete = 0;  ///< handed over with a PDO missing
 };
 
-class DriveBus {
+class DriveBus final : public hal::DriveSource {
   public:
     static constexpr std::size_t filter_capacity = 1 + drive_capacity * (largest_pdo_count + 3);
 
@@ -48,10 +52,15 @@ class DriveBus {
     explicit DriveBus(const BusSettings& settings);
 
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
-    void poll(std::uint64_t time_us);
+    void poll(std::uint64_t time_us) override;
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
+    /// Of the SYNC period in work; without one it is not used.
+    void add(const hal::DriveSample& beside_bus);
     /// True once per SYNC period. The sample's time is when the drives latched it: see SyncClock.
-    [[nodiscard]] bool take_sample(hal::DriveSample& sample);
+    [[nodiscard]] bool take_sample(hal::DriveSample& sample) override;
+    /// Of all configured drives, and what is given beside the bus.
+    [[nodiscard]] std::uint8_t complete() const override { return complete_; }
+    [[nodiscard]] hal::SourceState state() const override;
     /// Drives have not answered the last SYNC yet.
     [[nodiscard]] bool is_collecting() const { return cycle_open_; }
     /// When poll() has something to do at the latest: the next SYNC, or the end of collection.
@@ -71,21 +80,23 @@ class DriveBus {
     void hand_over();
     void put(std::size_t role, const DriveReading& reading);
     [[nodiscard]] bool is_sync_pdo(std::size_t role, std::uint32_t id) const;
-    void produce_sync(std::uint64_t time_us);
     [[nodiscard]] bool is_complete() const;
 
     BusSettings settings_;
+    std::uint8_t complete_ = 0;
     std::array<DriveNode, drive_capacity> nodes_{};
     RejectCounters rejects_{};
     BusHealth health_{};
     SyncClock sync_clock_;
+    SyncProducer sync_producer_;
     hal::DriveSample sample_{};
+    hal::DriveSample beside_bus_{};  ///< of the SYNC period in work
+    bool has_beside_bus_ = false;
     bool sample_ready_ = false;
+    bool had_sample_ = false;
     bool cycle_open_ = false;
     bool had_sync_ = false;
-    bool sync_to_send_ = false;
     std::uint64_t sync_time_us_ = 0;  ///< by its stamp
-    std::uint64_t next_sync_us_ = 0;
 };
 
 }  // namespace millforce::cia402

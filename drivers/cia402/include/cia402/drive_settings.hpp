@@ -43,6 +43,10 @@ struct DriveSettings {
     /// TPDO 1…4 of the drive, by place.
     std::array<PdoMapping, largest_pdo_count> pdos{};
 
+    /// False: another source (hal::DriveSource) gives the current, or the count or velocity, and no PDO carries it.
+    bool gives_current = true;
+    bool gives_motion = true;
+
     CurrentSource current_source = CurrentSource::current_actual;
     CurrentBasis current_basis = CurrentBasis::rms;
     bool current_reversed = false;
@@ -82,12 +86,15 @@ struct BusSettings {
     std::uint32_t sync_period_us = 1000;
     /// A sample is handed over when all PDOs of its SYNC have arrived, at the latest after this time.
     std::uint32_t collect_us = 800;
+    /// Mask of hal::Present: what another source gives beside the bus, wholly or in part. A sample waits for it as for
+    /// a PDO; without any drive on the bus it is all of the sample.
+    std::uint8_t beside_bus = 0;
 };
 
 /// First thing that is wrong with the settings.
 enum class SettingsError : std::uint8_t {
     none,
-    no_drive,
+    no_drive,         ///< and nothing beside the bus
     node_id,          ///< above 127, or used twice
     pdo_mapping,      ///< see check(PdoMapping)
     id_used_twice,    ///< two PDOs, or a PDO and the SYNC, with one CAN id

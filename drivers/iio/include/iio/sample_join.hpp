@@ -28,8 +28,8 @@ struct MotionReading {
     std::array<float, hal::axis_count> velocity_mm_s{};
 };
 
-/// One sample of both. An axis is present where its current and its velocity are; what comes from the spindle counts
-/// by itself. The time is that of the currents: read the counters right after them.
+/// One sample of both. An axis of which one of the two is known is there in part (DriveSample::part). The time is that
+/// of the currents: read the counters right after them.
 [[nodiscard]] hal::DriveSample join(const CurrentReading& currents, const MotionReading& motion);
 
 }  // namespace millforce::iio

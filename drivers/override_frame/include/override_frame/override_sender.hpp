@@ -19,6 +19,9 @@ struct OverrideSenderSettings {
     std::uint32_t tick_timeout_us = 20'000;       ///< without a tick for so long the heartbeat says `stopped`
 };
 
+/// Whether a frame is the boot-up of this controller (CiA 301): its node's heartbeat with the state 0.
+[[nodiscard]] bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id);
+
 /// The controller's side. update() with each tick's output, poll() at least every period, then fetch what is to be
 /// sent, after both. If no ticks come it keeps sending with an unchanged counter: only the receiver can judge whether
 /// that is too long. A frame that could not be sent is dropped; the next one is newer. One thread.

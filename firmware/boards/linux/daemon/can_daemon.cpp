@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "cia402/objects.hpp"
-
 namespace millforce::host {
 
 namespace {
@@ -35,7 +33,7 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
       socket_(socket_settings(interface, controller_, settings.records)),
       clock_(settings.time, socket_.unix_offset_us()),
       sync_id_(bus.drives.sync_id),
-      heartbeat_id_(cia402::cob_id::heartbeat + bus.feed_override.node_id),
+      node_id_(bus.feed_override.node_id),
       local_drives_(bus),
       local_outputs_(bus.local) {}
 
@@ -72,11 +70,6 @@ bool CanDaemon::has_cycle_ended() const {
            (controller_.ticks() > 0 && !controller_.drives().is_collecting());
 }
 
-bool CanDaemon::is_boot_up(const socketcan::ReceivedFrame& received) const {
-    const hal::CanFrame& frame = received.frame;
-    return received.is_own && frame.id == heartbeat_id_ && frame.length == 1 && frame.data[0] == 0;
-}
-
 void CanDaemon::step() {
     const std::uint64_t before_us = now_us();
     socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
@@ -86,6 +79,7 @@ void CanDaemon::step() {
     controller_.poll(time_us);
     send_all();
     local_outputs_.poll(socketcan::monotonic_us());
+    record_ticks();
     controller_.hold_from_outside(local_outputs_.health().is_failed);
     firmware::finish_work(controller_);
     report(time_us);
@@ -102,25 +96,32 @@ void CanDaemon::end(std::uint64_t duration_us) {
 void CanDaemon::receive_all() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
-        const std::int64_t unix_us = static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us();
-        journal_.record(received.frame, static_cast<std::uint64_t>(unix_us));
+        const auto unix_us =
+            static_cast<std::uint64_t>(static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us());
+        journal_.record(received.frame, unix_us);
         clock_.on_frame(received.frame);
-        if (is_boot_up(received)) {
+        if (received.is_own && override_frame::is_boot_up(received.frame, node_id_)) {
             clock_.begin();
         }
+        controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);
         if (received.frame.id == sync_id_ && !received.frame.extended && !received.frame.remote) {
             sync_heard_us_ = socketcan::monotonic_us();
-            local_drives_.on_sync(socketcan::monotonic_us());
+            read_beside_bus(unix_us);
         }
-        controller_.on_frame(received.frame, clock_.of_monotonic(received.time_us), received.is_own);
+    }
+}
+
+void CanDaemon::read_beside_bus(std::uint64_t unix_us) {
+    hal::DriveSource& source = local_drives_;
+    source.poll(socketcan::monotonic_us());
+    if (hal::DriveSample sample; source.take_sample(sample)) {
+        journal_.record(sample, unix_us);
+        controller_.add(sample);
     }
 }
 
 void CanDaemon::send_all() {
     hal::CanFrame frame;
-    while (local_drives_.take_frame(frame)) {
-        socket_.send(frame);
-    }
     while (controller_.take_frame(frame)) {
         const bool is_new = frame.id == override_id_ && controller_.tick_time_us() != measured_tick_us_;
         if (socket_.send(frame) && is_new) {
@@ -133,9 +134,19 @@ void CanDaemon::send_all() {
 
 void CanDaemon::on_tick(const firmware::CanController& controller) {
     local_outputs_.update(controller.told(), socketcan::monotonic_us());
-    if (entries_.add(controller, newest_)) {
-        journal_.estimate(newest_);
+    if (unrecorded_count_ == unrecorded_.size()) {
+        record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
+    unrecorded_[unrecorded_count_++] = controller.record();
+}
+
+void CanDaemon::record_ticks() {
+    for (std::size_t k = 0; k < unrecorded_count_; ++k) {
+        if (entries_.add(unrecorded_[k], newest_)) {
+            journal_.estimate(newest_);
+        }
+    }
+    unrecorded_count_ = 0;
 }
 
 firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {

@@ -39,25 +39,28 @@ class CanDaemon final : private firmware::TickListener {
     void on_tick(const firmware::CanController& controller) override;
     void step();
     void receive_all();
+    void read_beside_bus(std::uint64_t unix_us);
     void send_all();
     void end(std::uint64_t duration_us);
+    void record_ticks();
     void report(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
     [[nodiscard]] std::uint64_t now_us() const;
     [[nodiscard]] bool has_cycle_ended() const;
-    [[nodiscard]] bool is_boot_up(const socketcan::ReceivedFrame& received) const;
     static socketcan::CanSocketSettings socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records);
 
     Journal& journal_;
     std::uint32_t override_id_;
     TickEntries entries_;
+    std::array<firmware::TickRecord, 16> unrecorded_{};  ///< ticks whose override is not out yet
+    std::size_t unrecorded_count_ = 0;
     firmware::CanController controller_;
     socketcan::CanSocket socket_;
     BusClock clock_;
     std::uint32_t sync_id_;
-    std::uint32_t heartbeat_id_;
+    std::uint8_t node_id_;
     std::uint64_t sync_heard_us_ = 0;  ///< on CLOCK_MONOTONIC
     LocalDrives local_drives_;
     LocalOutputs local_outputs_;

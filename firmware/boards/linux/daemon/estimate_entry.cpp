@@ -3,38 +3,36 @@
 
 #include <bit>
 
-#include "loop/override_source.hpp"
-
 namespace millforce::host {
 
 /// FNV-1a (64 bit) on words.
-void TickEntries::mix(std::uint64_t bits) {
+void TickEntries::mix(std::uint32_t high, std::uint32_t low) {
     constexpr std::uint64_t prime = 0x100'0000'01B3;
-    digest_ = (digest_ ^ bits) * prime;
+    digest_ = (digest_ ^ ((std::uint64_t{high} << 32U) | low)) * prime;
     digest_ ^= digest_ >> 32U;
 }
 
-bool TickEntries::add(const firmware::CanController& controller, EstimateEntry& entry) {
+bool TickEntries::add(const firmware::TickRecord& tick, EstimateEntry& entry) {
     constexpr std::uint64_t basis = 0xCBF2'9CE4'8422'2325;
-    const hal::FeedOverride& out = controller.output();
-    if (controller.ticks() <= 1) {
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+    const hal::FeedOverride& out = tick.feed_override;
+    if (out.heartbeat <= 1) {
         digest_ = basis;
         next_us_ = 0;
     }
-    sim::TracePoint point;
-    sim::describe_tick(controller.controller(), point);
-    mix((std::uint64_t{out.heartbeat} << 32U) | std::bit_cast<std::uint32_t>(out.ratio));
-    mix((std::uint64_t{out.state} << 16U) | (std::uint64_t{out.fault} << 8U) | (out.hold ? 1U : 0U));
-    for (const double value : {point.tangential_force_N, point.feed_force_N, point.radial_immersion,
-                               point.radial_immersion_sd, point.axial_depth_mm, point.axial_depth_sd_mm,
-                               point.tooth_force_N, point.peak_force_N, point.force_limit_N}) {
-        mix(value == value ? std::bit_cast<std::uint64_t>(value) : 0U);
-    }
-    if (controller.tick_time_us() < next_us_) {
+    mix(out.heartbeat, bits(out.ratio));
+    mix(tick.limit, (std::uint32_t{out.state} << 16U) | (std::uint32_t{out.fault} << 8U) | (out.hold ? 1U : 0U));
+    mix(bits(tick.tangential_force_N), bits(tick.feed_force_N));
+    mix(bits(tick.radial_immersion), bits(tick.radial_immersion_sd));
+    mix(bits(tick.axial_depth_mm), bits(tick.axial_depth_sd_mm));
+    mix(bits(tick.tooth_force_N), bits(tick.total_force.tooth_force_N));
+    mix(bits(tick.total_force.radial_immersion), bits(tick.total_force.axial_depth_mm));
+    mix(0, static_cast<std::uint32_t>(tick.total_force.side));
+    if (tick.time_us < next_us_) {
         return false;
     }
-    next_us_ = controller.tick_time_us() + interval_us_;
-    entry = {controller.tick_time_us(), digest_, point, out.ratio, out.hold};
+    next_us_ = tick.time_us + interval_us_;
+    entry = {digest_, tick};
     return true;
 }
 

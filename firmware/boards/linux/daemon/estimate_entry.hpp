@@ -3,18 +3,14 @@
 
 #include <cstdint>
 
-#include "firmware_can/can_controller.hpp"
-#include "report/run_result.hpp"
+#include "firmware/tick_record.hpp"
 
 namespace millforce::host {
 
 /// A tick at the controller's border, as a run's log and a replay have it.
 struct EstimateEntry {
-    std::uint64_t unix_us = 0;
     std::uint64_t digest = 0;  ///< of all ticks since the start, this one too
-    sim::TracePoint point{};
-    float override_ratio = 0.0F;
-    bool hold = true;
+    firmware::TickRecord tick{};
 };
 
 inline constexpr std::uint64_t run_log_interval_us = 20'000;
@@ -25,10 +21,10 @@ class TickEntries {
     explicit TickEntries(std::uint64_t interval_us) : interval_us_(interval_us) {}
 
     /// With each tick; true where it is an entry.
-    [[nodiscard]] bool add(const firmware::CanController& controller, EstimateEntry& entry);
+    [[nodiscard]] bool add(const firmware::TickRecord& tick, EstimateEntry& entry);
 
   private:
-    void mix(std::uint64_t bits);
+    void mix(std::uint32_t high, std::uint32_t low);
 
     std::uint64_t interval_us_;
     std::uint64_t next_us_ = 0;

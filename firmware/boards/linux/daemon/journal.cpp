@@ -9,6 +9,7 @@
 
 #include "daemon/candump_line.hpp"
 #include "daemon/json_lines.hpp"
+#include "daemon/local_line.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::host {
@@ -38,8 +39,21 @@ Journal::~Journal() {
 }
 
 void Journal::record(const hal::CanFrame& frame, std::uint64_t unix_us) {
-    if (record_ != nullptr && !frames_.push({unix_us, lost_frames_.load(std::memory_order_relaxed), frame})) {
-        lost_frames_.fetch_add(1, std::memory_order_relaxed);
+    push({unix_us, 0, frame});
+}
+
+void Journal::record(const hal::DriveSample& beside_bus, std::uint64_t unix_us) {
+    push({unix_us, 0, beside_bus});
+}
+
+void Journal::push(const RecordEntry& entry) {
+    if (record_ == nullptr) {
+        return;
+    }
+    RecordEntry numbered = entry;
+    numbered.lost_before = lost_records_.load(std::memory_order_relaxed);
+    if (!record_entries_.push(numbered)) {
+        lost_records_.fetch_add(1, std::memory_order_relaxed);
     }
 }
 
@@ -64,9 +78,9 @@ void Journal::run() {
 }
 
 void Journal::write_all() {
-    write_frames();
+    write_record();
     for (EstimateEntry entry; estimates_.pop(entry);) {
-        put(log_, json_line(entry));
+        put(log_, json_line(entry, settings_.total_force));
     }
     for (StatusEntry entry; statuses_.pop(entry);) {
         write_status(entry);
@@ -79,15 +93,19 @@ void Journal::write_all() {
     }
 }
 
-void Journal::write_frames() {
-    for (FrameEntry entry; frames_.pop(entry);) {
+void Journal::write_record() {
+    for (RecordEntry entry; record_entries_.pop(entry);) {
         if (entry.lost_before != told_lost_) {
             put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n",
                                      entry.lost_before - told_lost_));
             told_lost_ = entry.lost_before;
         }
-        put(record_, candump_line(entry.frame, entry.unix_us, settings_.interface));
-        ++recorded_;
+        if (const auto* frame = std::get_if<hal::CanFrame>(&entry.what)) {
+            put(record_, candump_line(*frame, entry.unix_us, settings_.interface));
+            ++recorded_;
+        } else {
+            put(record_, local_line(std::get<hal::DriveSample>(entry.what), entry.unix_us));
+        }
     }
 }
 
@@ -114,7 +132,7 @@ void Journal::finish() {
     }
     ended_.store(true);
     writer_.join();
-    if (const std::uint64_t unheard = lost_frames_ - told_lost_; unheard > 0) {
+    if (const std::uint64_t unheard = lost_records_ - told_lost_; unheard > 0) {
         put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n", unheard));
     }
     for (const File* file : {&record_, &log_}) {

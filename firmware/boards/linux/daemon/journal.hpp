@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <variant>
 
 #include "daemon/estimate_entry.hpp"
 #include "daemon/local_drives.hpp"
@@ -20,9 +21,10 @@ namespace millforce::host {
 
 struct JournalSettings {
     std::string interface;
-    std::string record_file;   ///< candump log of every frame; empty: none
-    std::string log_file;      ///< JSON lines; empty: none
-    bool status_line = false;  ///< on standard output, once a second
+    std::string record_file;                    ///< candump log of every frame, with local_line()s between; empty: none
+    std::string log_file;                       ///< JSON lines; empty: none
+    bool status_line = false;                   ///< on standard output, once a second
+    estimation::TotalForce<float> total_force;  ///< by the tool's parameters, for the log
 };
 
 /// How bus and drives are.
@@ -53,13 +55,15 @@ class Journal {
     Journal& operator=(const Journal&) = delete;
 
     void record(const hal::CanFrame& frame, std::uint64_t unix_us);
+    /// What a source beside the bus gave for the SYNC that was recorded last.
+    void record(const hal::DriveSample& beside_bus, std::uint64_t unix_us);
     void estimate(const EstimateEntry& entry);
     void status(const StatusEntry& entry);
 
     /// Writes what is left and closes the files.
     void finish();
     /// Frames and entries that did not fit, or could not be written; after finish().
-    [[nodiscard]] std::uint64_t lost() const { return lost_frames_ + lost_entries_; }
+    [[nodiscard]] std::uint64_t lost() const { return lost_records_ + lost_entries_; }
     [[nodiscard]] std::uint64_t recorded() const { return recorded_; }
     [[nodiscard]] bool write_failed() const { return write_failed_; }
     [[nodiscard]] bool has_log() const { return log_ != nullptr; }
@@ -69,26 +73,27 @@ class Journal {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     using File = std::unique_ptr<std::FILE, FileCloser>;
-    struct FrameEntry {
+    struct RecordEntry {
         std::uint64_t unix_us = 0;
         std::uint64_t lost_before = 0;
-        hal::CanFrame frame{};
+        std::variant<hal::CanFrame, hal::DriveSample> what{};
     };
 
     static File opened(const std::string& name);
     void run();
     void write_all();
-    void write_frames();
+    void push(const RecordEntry& entry);
+    void write_record();
     void write_status(const StatusEntry& entry);
     void put(const File& file, const std::string& text);
 
     JournalSettings settings_;
     File record_;
     File log_;
-    SpscRing<FrameEntry, 1U << 15U> frames_{};
+    SpscRing<RecordEntry, 1U << 15U> record_entries_{};
     SpscRing<EstimateEntry, 1U << 10U> estimates_{};
     SpscRing<StatusEntry, 1U << 6U> statuses_{};
-    std::atomic<std::uint64_t> lost_frames_{0};
+    std::atomic<std::uint64_t> lost_records_{0};
     std::atomic<std::uint64_t> lost_entries_{0};
     std::uint64_t told_lost_ = 0;
     std::uint64_t recorded_ = 0;

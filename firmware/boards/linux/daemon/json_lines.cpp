@@ -21,22 +21,26 @@ std::string time_of(std::uint64_t unix_us) {
 }
 
 /// With the digits of the estimates' CSV.
-std::string number_or_null(double value) {
-    const std::string cell = CsvWriter::cell(static_cast<float>(value));
+std::string number_or_null(float value) {
+    const std::string cell = CsvWriter::cell(value);
     return cell.empty() ? "null" : cell;
 }
 
-std::string estimate_members(const EstimateEntry& entry) {
-    const sim::TracePoint& p = entry.point;
-    std::string text = fmt::format(
-        R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
-        control::name(static_cast<control::CutState>(p.state)), control::name(static_cast<control::Limit>(p.limit)),
-        control::name(static_cast<control::Fault>(p.fault)), CsvWriter::cell(entry.override_ratio), entry.hold);
+std::string estimate_members(const EstimateEntry& entry, const estimation::TotalForce<float>& total) {
+    const firmware::TickRecord& tick = entry.tick;
+    const hal::FeedOverride& out = tick.feed_override;
+    const firmware::ShownForces shown = firmware::shown_forces(total, tick);
+    std::string text =
+        fmt::format(R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
+                    control::name(static_cast<control::CutState>(out.state)),
+                    control::name(static_cast<control::Limit>(tick.limit)),
+                    control::name(static_cast<control::Fault>(out.fault)), CsvWriter::cell(out.ratio), out.hold);
     for (const auto& [key, value] :
-         {std::pair{"tangential_force_N", p.tangential_force_N}, std::pair{"feed_force_N", p.feed_force_N},
-          std::pair{"radial_immersion", p.radial_immersion}, std::pair{"radial_immersion_sd", p.radial_immersion_sd},
-          std::pair{"axial_depth_mm", p.axial_depth_mm}, std::pair{"axial_depth_sd_mm", p.axial_depth_sd_mm},
-          std::pair{"peak_force_N", p.peak_force_N}, std::pair{"force_limit_N", p.force_limit_N}}) {
+         {std::pair{"tangential_force_N", tick.tangential_force_N}, std::pair{"feed_force_N", tick.feed_force_N},
+          std::pair{"radial_immersion", tick.radial_immersion},
+          std::pair{"radial_immersion_sd", tick.radial_immersion_sd}, std::pair{"axial_depth_mm", tick.axial_depth_mm},
+          std::pair{"axial_depth_sd_mm", tick.axial_depth_sd_mm}, std::pair{"peak_force_N", shown.peak_N},
+          std::pair{"force_limit_N", shown.limit_N}}) {
         text += fmt::format(R"(,"{}":{})", key, number_or_null(value));
     }
     return text + fmt::format(R"(,"digest":"{:016x}")", entry.digest);
@@ -114,8 +118,9 @@ std::string link_json(const socketcan::LinkHealth& link) {
 
 }  // namespace
 
-std::string json_line(const EstimateEntry& entry) {
-    return fmt::format("{{\"type\":\"estimate\",\"time_s\":{},{}}}\n", time_of(entry.unix_us), estimate_members(entry));
+std::string json_line(const EstimateEntry& entry, const estimation::TotalForce<float>& total) {
+    return fmt::format("{{\"type\":\"estimate\",\"time_s\":{},{}}}\n", time_of(entry.tick.time_us),
+                       estimate_members(entry, total));
 }
 
 std::string json_line(const StatusEntry& entry) {
@@ -172,20 +177,21 @@ std::string condition_list(const StatusEntry& entry) {
 }
 
 std::string status_line(const StatusEntry& entry) {
-    const sim::TracePoint& p = entry.newest.point;
-    const std::string force = CsvWriter::cell(static_cast<float>(p.tangential_force_N));
+    const firmware::TickRecord& tick = entry.newest.tick;
+    const hal::FeedOverride& out = tick.feed_override;
+    const std::string force = CsvWriter::cell(tick.tangential_force_N);
     const std::string conditions = condition_list(entry);
     std::string text = fmt::format("{}: {}, override {:.0f} %{}", name(entry.link.state),
-                                   control::name(static_cast<control::CutState>(p.state)),
-                                   100.0F * entry.newest.override_ratio, entry.newest.hold ? ", hold" : "");
+                                   control::name(static_cast<control::CutState>(out.state)), 100.0F * out.ratio,
+                                   out.hold ? ", hold" : "");
     if (!force.empty()) {
-        text += fmt::format(", F_t {:.0f} N", p.tangential_force_N);
+        text += fmt::format(", F_t {:.0f} N", tick.tangential_force_N);
     }
-    if (p.radial_immersion == p.radial_immersion) {
-        text += fmt::format(", immersion {:.2f}", p.radial_immersion);
+    if (tick.radial_immersion == tick.radial_immersion) {
+        text += fmt::format(", immersion {:.2f}", tick.radial_immersion);
     }
-    if (p.axial_depth_mm == p.axial_depth_mm) {
-        text += fmt::format(", depth {:.1f} mm", p.axial_depth_mm);
+    if (tick.axial_depth_mm == tick.axial_depth_mm) {
+        text += fmt::format(", depth {:.1f} mm", tick.axial_depth_mm);
     }
     return text + (conditions.empty() ? "" : "; " + conditions);
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "daemon/local_settings.hpp"
 #include "files/input_error.hpp"
@@ -12,20 +11,6 @@
 namespace millforce::host {
 
 namespace {
-
-/// Little-endian, as CANopen has it.
-void append(hal::CanFrame& frame, std::uint32_t value) {
-    for (unsigned k = 0; k < 4; ++k) {
-        frame.data[frame.length++] = static_cast<std::uint8_t>(value >> (8U * k));
-    }
-}
-
-/// Saturated; the controller's limits are far below.
-std::uint32_t milli(float value) {
-    constexpr float largest = 2e9F;
-    const float scaled = std::fmin(std::fmax(value * 1000.0F, -largest), largest);
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(scaled)));
-}
 
 iio::AdcSettings adc_settings(const LocalIoKeys& keys) {
     iio::AdcSettings settings;
@@ -67,63 +52,62 @@ const char* word(iio::AdcState state) {
 
 }  // namespace
 
-LocalDrives::LocalDrives(const MachineBus& bus) {
+LocalDrives::LocalDrives(const MachineBus& bus) : complete_(bus.drives.beside_bus) {
     if (!bus.local.has_inputs()) {
         return;
     }
     adc_.emplace(adc_settings(bus.local));
-    for (std::size_t place = 0; place < drives_.size(); ++place) {
+    for (std::size_t place = 0; place < counters_.size(); ++place) {
         const LocalDriveKeys& keys = bus.local.drives[place];
-        if (!keys.is_used()) {
-            continue;
+        if (keys.is_used() && keys.has_counter()) {
+            counters_[place].emplace(counter_settings(local_drive_tables[place], keys));
         }
-        drives_[place].id = bus.drives.drives[place].pdos[local_pdo].id;
-        if (keys.has_counter()) {
-            drives_[place].counter.emplace(counter_settings(local_drive_tables[place], keys));
+        if (place > 0) {
+            largest_velocity_mm_s_[place - 1] = bus.drives.drives[place].largest_velocity_mm_s;
         }
     }
 }
 
-void LocalDrives::on_sync(std::uint64_t now_us) {
+void LocalDrives::poll(std::uint64_t now_us) {
     if (!adc_) {
         return;
     }
-    outgoing_count_ = taken_ = 0;
     adc_->poll(now_us);
     iio::CurrentReading currents;
-    const bool has_currents = adc_->take(currents);
-    for (std::size_t place = 0; place < drives_.size(); ++place) {
-        if (has_currents) {
-            read(place, currents, now_us);
-        } else if (drives_[place].counter) {
-            (void)drives_[place].counter->read(now_us);  // stays in step
-        }
-    }
+    has_sample_ = adc_->take(currents);
+    had_sample_ = had_sample_ || has_sample_;
+    sample_ = iio::join(currents, read_motion(now_us));  // without currents, too: the counters stay in step
 }
 
-void LocalDrives::read(std::size_t place, const iio::CurrentReading& currents, std::uint64_t now_us) {
-    Drive& drive = drives_[place];
-    hal::CanFrame frame;
-    frame.id = drive.id;
-    if (drive.counter) {
-        const bool has_count = drive.counter->read(now_us);
-        if (!has_count || (place > 0 && !drive.counter->has_velocity())) {
-            return;
+iio::MotionReading LocalDrives::read_motion(std::uint64_t now_us) {
+    iio::MotionReading motion;
+    if (counters_[0]) {
+        iio::read_spindle(*counters_[0], now_us, motion);
+    }
+    for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
+        if (std::optional<iio::CounterInput>& counter = counters_[1 + axis]; counter) {
+            iio::read_axis(*counter, now_us, axis, motion);
+            motion.has_velocity[axis] =
+                motion.has_velocity[axis] && std::abs(motion.velocity_mm_s[axis]) <= largest_velocity_mm_s_[axis];
         }
-        append(frame, place == 0 ? drive.counter->count() : milli(drive.counter->velocity_mm_s()));
     }
-    if (drive.id != 0 && currents.has[place]) {
-        append(frame, milli(currents.current_A[place]));
-        outgoing_[outgoing_count_++] = frame;
-    }
+    return motion;
 }
 
-bool LocalDrives::take_frame(hal::CanFrame& frame) {
-    if (taken_ >= outgoing_count_) {
+bool LocalDrives::take_sample(hal::DriveSample& sample) {
+    if (!has_sample_) {
         return false;
     }
-    frame = outgoing_[taken_++];
+    has_sample_ = false;
+    sample = sample_;
     return true;
+}
+
+hal::SourceState LocalDrives::state() const {
+    if (!had_sample_) {
+        return hal::SourceState::waiting;
+    }
+    return health().is_failed ? hal::SourceState::silent : hal::SourceState::running;
 }
 
 LocalInputHealth LocalDrives::health() const {
@@ -137,9 +121,9 @@ LocalInputHealth LocalDrives::health() const {
         const bool has_file = adc.state != iio::AdcState::silent;
         return {true, word(adc.state), has_file ? adc.fault : iio::Fault{}};
     }
-    for (const Drive& drive : drives_) {
-        if (drive.counter && !drive.counter->health().is_ready) {
-            return {true, "no count", drive.counter->health().fault};
+    for (const std::optional<iio::CounterInput>& counter : counters_) {
+        if (counter && !counter->health().is_ready) {
+            return {true, "no count", counter->health().fault};
         }
     }
     return {};

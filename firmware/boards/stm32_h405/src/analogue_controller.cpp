@@ -15,10 +15,6 @@ namespace {
 constexpr std::uint32_t can_patience = 100'000;  // polls until the CAN controller counts as absent
 constexpr float at_rest_mm_s = 0.5F;
 
-stm32::EncoderSettings axis_encoder(const AxisWiring& axis) {
-    return {.reversed = axis.reversed};
-}
-
 float seconds(std::uint64_t microseconds) {
     return static_cast<float>(microseconds) * 1e-6F;
 }
@@ -28,12 +24,7 @@ float seconds(std::uint64_t microseconds) {
 AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wiring)
     : wiring_(wiring),
       pwr_(p.pwr),
-      spindle_(p.spindle_timer,
-               {.is_32_bit = true, .reversed = wiring.spindle_reversed, .has_index = wiring.has_index}),
-      axes_{stm32::Encoder(*p.axis_timers[0], axis_encoder(wiring.axes[0])),
-            stm32::Encoder(*p.axis_timers[1], axis_encoder(wiring.axes[1])),
-            stm32::Encoder(*p.axis_timers[2], axis_encoder(wiring.axes[2]))},
-      currents_(p.adc, p.adc_common, p.dma, wiring.currents),
+      drives_(p, wiring_),
       can_(p.can),
       watchdog_(p.watchdog),
       sender_(wiring.feed_override),
@@ -44,11 +35,7 @@ AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wirin
 void AnalogueController::start(const StartReport& report, const firmware::Parameters<float>& parameters,
                                std::uint64_t now_us) {
     tell_start(report);
-    spindle_.start();
-    for (stm32::Encoder& axis : axes_) {
-        axis.start();
-    }
-    currents_.start();
+    drives_.start();
     can_.start(wiring_.bit_rate, filters_);
     complete_us_ = now_us;
     next_tick_us_ = now_us + period_us_;  // the first scans are there by then
@@ -60,7 +47,7 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
     tick_.emplace(parameters);
     largest_ratio_ = parameters.machine.cnc.override_max;
     period_us_ = static_cast<std::uint32_t>(1e6F / parameters.machine.cnc.sample_rate_hz);
-    encoder_watch_ = EncoderWatch(static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
+    drives_.watch_spindle(static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
     watchdog_.start(wiring_.watchdog_us);
 }
 
@@ -109,7 +96,8 @@ void AnalogueController::send_frames() {
 }
 
 void AnalogueController::run_tick(std::uint64_t now_us) {
-    take_sample(now_us);
+    drives_.poll(now_us);
+    (void)drives_.take_sample(sample_);  // there is one after each poll()
     const bool is_supply_low = stm32::supply_is_low(pwr_);
     emergencies_.set(Reason::supply_low, is_supply_low, 0);
     hal::FeedOverride output = step(now_us);
@@ -124,31 +112,8 @@ void AnalogueController::run_tick(std::uint64_t now_us) {
     sender_.update(output_, now_us);
 }
 
-void AnalogueController::take_sample(std::uint64_t now_us) {
-    const stm32::ScanReading currents = currents_.take();
-    const stm32::EncoderReading spindle = spindle_.read();
-    hal::DriveSample sample;
-    sample.time_us = static_cast<std::uint32_t>(now_us);
-    sample.spindle_count = spindle.count;
-    sample.spindle_index_count = spindle.index_count;
-    sample.spindle_index_number = spindle.index_number;
-    sample.spindle_current_A = currents.current_A[0];
-    unsigned present = currents.has[0] ? hal::mask(hal::Present::spindle_current) : 0U;
-    if (!wiring_.has_index || encoder_watch_.is_plausible(spindle.count, spindle.index_count, spindle.index_number)) {
-        present |= hal::mask(hal::Present::spindle_count);
-    }
-    for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
-        sample.axis_current_A[axis] = currents.current_A[1U + axis];
-        sample.axis_velocity_mm_s[axis] =
-            velocities_[axis].update(axes_[axis].read().count, sample.time_us, wiring_.axes[axis].mm_per_count);
-        present |= currents.has[1U + axis] ? hal::axis_mask(axis) : 0U;
-    }
-    sample.present = static_cast<std::uint8_t>(present);
-    sample_ = sample;
-}
-
 bool AnalogueController::is_at_rest() const {
-    return sample_.present == hal::all_present &&
+    return sample_.present == drives_.complete() &&
            std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), [](float velocity_mm_s) {
                return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
            });
@@ -160,8 +125,8 @@ hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
         ++output.heartbeat;
         return output;
     }
-    const bool is_complete = sample_.present == hal::all_present && !stm32::supply_is_low(pwr_);
-    emergencies_.set(Reason::inputs_missing, sample_.present != hal::all_present, sample_.present);
+    const bool is_complete = sample_.present == drives_.complete() && !stm32::supply_is_low(pwr_);
+    emergencies_.set(Reason::inputs_missing, sample_.present != drives_.complete(), sample_.present);
     const hal::ProgramStatus program = program_.program(now_us);
     if (program_.take_reset() && is_at_rest()) {
         tick_->reset_fault();

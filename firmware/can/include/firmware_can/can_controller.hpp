@@ -6,9 +6,10 @@
 #include <span>
 
 #include "cia402/drive_bus.hpp"
+#include "cia402/sync_producer.hpp"
 #include "firmware/tick.hpp"
+#include "firmware/tick_record.hpp"
 #include "firmware_can/conditions.hpp"
-#include "firmware_can/sync_producer.hpp"
 #include "hal/can_frame.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_receiver.hpp"
@@ -17,26 +18,27 @@
 /// The daemon runs it over SocketCAN, the tests over a bus in memory, a replay over a log.
 ///
 ///     controller.on_frame(frame, time_us, is_own);     // every frame of the bus, the echo of its own SYNC too
+///     controller.add(sample);                          // after a SYNC: what another hal::DriveSource knows of it
 ///     controller.poll(now_us);                         // at least once per SYNC period; at next_event_us()
 ///     while (controller.take_frame(frame)) { ... }     // send
 ///     finish_work(controller);                         // what may take milliseconds, now that the override is out
 ///
-/// What the tick sees depends on the received frames, their order and their times alone: the same frames with the same
-/// times give the same estimates, bit for bit, however late they were fetched and however often poll() came. So that
-/// this holds by construction, the clock of poll() decides nothing that the tick sees: time passes with the frames of
-/// filters(), to which this controller's own override and heartbeat belong. What is due before a frame's time is done
-/// before the frame is looked at. A cycle begins when the own SYNC comes back from the bus, at its time, and the run
-/// begins, or begins anew, when the own boot-up comes back; it is repeated until then.
+/// What the tick sees depends on the received frames, their times, and the order of frames and added samples alone: the
+/// same of these give the same estimates, bit for bit, however late they were fetched and however often poll() came. So
+/// that this holds by construction, the clock of poll() decides nothing that the tick sees: time passes with the frames
+/// of filters(), to which this controller's own override and heartbeat belong. What is due before a frame's time is
+/// done before the frame is looked at. A cycle begins when the own SYNC comes back from the bus, at its time, and the
+/// run begins, or begins anew, when the own boot-up comes back; it is repeated until then.
 ///
 /// Where no frame comes at all, not even an own one, no override could reach the CNC by the bus either. After `stale_s`
 /// by the clock of poll() the override says hold, with a counter that stands still; when frames come again the tick
 /// finds the gap in their times, and its fault is latched.
 ///
-/// Supervision. A sample is complete where every configured drive told everything. The tick begins with the first
-/// complete one and sees complete ones only; what lacks something is left out. After five SYNC periods without a
-/// complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s` it faults and holds the
-/// feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as they do. A fault
-/// is latched until the CNC resets it (program status frame) with all axes at rest.
+/// Supervision. A sample is complete where every configured drive, and what is beside the bus, told everything. The
+/// tick begins with the first complete one and sees complete ones only; what lacks something is left out. After five
+/// SYNC periods without a complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s`
+/// it faults and holds the feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as
+/// they do. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
@@ -70,6 +72,8 @@ class CanController {
 
     /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
+    /// Of the newest SYNC: what drives.beside_bus names. Its own time is not used.
+    void add(const hal::DriveSample& beside_bus);
     void poll(std::uint64_t now_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
     /// The tick's work beside its steps, in slices. What is not done by then is done before the next sample, so that
@@ -93,6 +97,7 @@ class CanController {
     /// The output as the CNC is told it: with the holds that are none of the tick's.
     [[nodiscard]] hal::FeedOverride told() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
+    [[nodiscard]] TickRecord record() const { return tick_record(tick_, output_, tick_time_us_); }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
@@ -105,7 +110,6 @@ class CanController {
     void repeat_boot_up(std::uint64_t now_us);
     void watch_silence(std::uint64_t now_us);
     [[nodiscard]] bool is_used(const hal::CanFrame& frame) const;
-    [[nodiscard]] bool is_boot_up(const hal::CanFrame& frame) const;
     void advance_to(std::uint64_t time_us);
     void run_ticks();
     void tick_on_sample();
@@ -115,12 +119,12 @@ class CanController {
     void reset_fault_where_asked();
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] bool is_any_drive_stopped() const;
+    [[nodiscard]] bool has_complete_sample() const;
     void judge(std::uint64_t now_us);
 
     CanControllerSettings settings_;
     Parameters<float> parameters_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
-    std::uint8_t complete_;   ///< what a complete sample has present
     bool is_running_;         ///< the own boot-up was on the bus
     bool was_heard_ = false;  ///< a frame came since the last poll()
     bool has_begun_ = false;  ///< a complete sample came
@@ -130,7 +134,7 @@ class CanController {
     std::uint64_t stale_us_;
     std::uint64_t silent_after_us_;
     cia402::DriveBus bus_;
-    SyncProducer sync_;
+    cia402::SyncProducer sync_;
     program_status::ProgramStatusReceiver program_receiver_;
     override_frame::OverrideSender sender_;
     ForceControlTick<float> tick_;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "firmware/tick.hpp"
+#include "firmware_link/link_drives.hpp"
 #include "local_link/messages.hpp"
 
 /// The whole controller behind a local link, without the socket: the bytes of a sample in, the bytes of the override
@@ -43,6 +44,7 @@ class LinkController {
     void reset_where_asked(const local_link::SampleMessage& message);
     [[nodiscard]] local_link::OverrideMessage answer_to(std::uint32_t sequence) const;
 
+    LinkDrives drives_{};
     ForceControlTick<float> tick_;
     hal::FeedOverride output_{};
     float largest_override_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/local_drives.hpp"
 
-#include <vector>
-
 #include "cia402/drive_bus.hpp"
 #include "daemon/local_outputs.hpp"
 #include "drivers/iio/fake_iio.hpp"
@@ -27,41 +25,31 @@ class Bench {
         bus.local.drives[0] = {
             .current_channel = "voltage0", .count_file = tree.name("count"), .A_per_V = 10.0, .zero_V = 1.0};
         bus.local.drives[1] = {.current_channel = "voltage3", .count_file = "", .A_per_V = -2.0};
-        add_drive(0, 5, {{0x6064, 0, 32}, {0x6078, 0, 32}});
-        add_drive(1, 6, {{0x6078, 0, 32}});
         cia402::DriveSettings& x = bus.drives.drives[1];
+        x.node_id = 6;
+        x.gives_current = false;
         x.pdos[0].id = 0x186;
         x.pdos[0].objects[0] = {0x606C, 0, 32};
         x.pdos[0].object_count = 1;
         x.pdos[0].transmission_type = 1;
         x.velocity_mm_s_per_unit = 0.001F;
+        bus.drives.beside_bus = all_of_bench;
     }
 
-    void add_drive(std::size_t place, std::uint8_t node, const std::vector<cia402::MappedObject>& objects) {
-        cia402::DriveSettings& drive = bus.drives.drives[place];
-        drive.node_id = node;
-        drive.rated_current_A = 1.0F;
-        drive.largest_share_of_rated = 100.0F;
-        cia402::PdoMapping& pdo = drive.pdos[local_pdo];
-        pdo.id = 0x480U + node;
-        pdo.transmission_type = 1;
-        for (const cia402::MappedObject& object : objects) {
-            pdo.objects[pdo.object_count++] = object;
-        }
-    }
-
+    static constexpr std::uint8_t all_of_bench =
+        hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) | hal::axis_mask(0);
     iio::test::FakeTree tree{};
     MachineBus bus{};
 };
 
-/// One SYNC; the frames of this computer and of x's drive; the sample that the controller makes of them.
+/// One SYNC; what this computer reads, and the frame of x's drive; the sample that the controller makes of them.
 hal::DriveSample cycle(LocalDrives& local, cia402::DriveBus& bus, std::uint64_t time_us, bool has_x_drive = true) {
     hal::CanFrame sync;
     sync.id = 0x080;
     bus.on_frame(sync, time_us);
-    local.on_sync(time_us);
-    for (hal::CanFrame frame; local.take_frame(frame);) {
-        bus.on_frame(frame, time_us + 100);
+    local.poll(time_us);
+    if (hal::DriveSample beside_bus; local.take_sample(beside_bus)) {
+        bus.add(beside_bus);
     }
     if (has_x_drive) {
         hal::CanFrame velocity;
@@ -94,9 +82,9 @@ TEST(LocalDrives, give_the_controller_their_currents_and_counts_beside_what_a_dr
     DOUBLES_EQUAL(0.8, sample.axis_current_A[0], 1e-3);   // −200 · 2 mV · −2 A/V
     DOUBLES_EQUAL(10.0, sample.axis_velocity_mm_s[0], 1e-4);
     UNSIGNED_LONGS_EQUAL(546, sample.spindle_count - first.spindle_count);
-    const unsigned wanted =
-        hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) | hal::axis_mask(0);
-    UNSIGNED_LONGS_EQUAL(wanted, sample.present);
+    UNSIGNED_LONGS_EQUAL(Bench::all_of_bench, sample.present);
+    UNSIGNED_LONGS_EQUAL(Bench::all_of_bench, bus.complete());
+    CHECK(local.state() == hal::SourceState::running);
     CHECK_FALSE(local.health().is_failed);
 }
 
@@ -109,9 +97,11 @@ TEST(LocalDrives, that_cannot_be_read_are_absent_from_the_sample_and_told) {
     (void)cycle(local, bus, 11'000);
     bench.tree.write("adc/in_voltage0_raw", "broken\n");
     const hal::DriveSample sample = cycle(local, bus, 12'000);
-    UNSIGNED_LONGS_EQUAL(hal::axis_mask(0), sample.present);
+    const unsigned left = hal::mask(hal::Present::spindle_count) | hal::axis_mask(0);
+    UNSIGNED_LONGS_EQUAL(left, sample.present);
     bench.tree.write("adc/in_voltage3_raw", "broken\n");
     UNSIGNED_LONGS_EQUAL(0, cycle(local, bus, 40'000).present);
+    CHECK(local.state() == hal::SourceState::silent);
     CHECK(local.health().is_failed);
     STRCMP_EQUAL("silent", local.health().what);
     bench.tree.write("adc/in_voltage0_raw", "1500\n");
@@ -128,9 +118,10 @@ TEST(LocalDrives, without_their_device_say_which_file_is_missing) {
     Bench bench;
     bench.bus.local.device = bench.tree.name("none");
     LocalDrives local(bench.bus);
-    local.on_sync(10'000);
-    hal::CanFrame frame;
-    CHECK_FALSE(local.take_frame(frame));
+    local.poll(10'000);
+    hal::DriveSample sample;
+    CHECK_FALSE(local.take_sample(sample));
+    CHECK(local.state() == hal::SourceState::waiting);
     CHECK(local.health().is_failed);
     STRCMP_EQUAL("absent", local.health().what);
     CHECK(local.health().fault.error == iio::IioError::file_missing);

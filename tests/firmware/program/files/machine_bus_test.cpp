@@ -163,17 +163,16 @@ std::string local_error(const std::string& from, const std::string& to) {
 
 TEST_GROUP(LocalIoFile){};
 
-TEST(LocalIoFile, a_motor_with_a_converter_speaks_on_the_bus_with_the_fourth_pdo_of_its_node) {
+TEST(LocalIoFile, a_motor_with_a_converter_and_a_counter_is_not_on_the_bus_and_one_without_counter_keeps_its_pdos) {
     const MachineBus machine = read(local).value();
-    const cia402::DriveSettings& spindle_drive = machine.drives.drives[0];
-    UNSIGNED_LONGS_EQUAL(0x485, spindle_drive.pdos[local_pdo].id);
-    UNSIGNED_LONGS_EQUAL(2, spindle_drive.pdos[local_pdo].object_count);
-    UNSIGNED_LONGS_EQUAL(0x6064, spindle_drive.pdos[local_pdo].objects[0].index);
-    UNSIGNED_LONGS_EQUAL(0x6078, spindle_drive.pdos[local_pdo].objects[1].index);
-    DOUBLES_EQUAL(1.0, spindle_drive.rated_current_A, 0.0);  // so 0x6078 tells mA
+    UNSIGNED_LONGS_EQUAL(0, machine.drives.drives[0].node_id);
+    const unsigned given =
+        hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) | hal::axis_mask(0);
+    UNSIGNED_LONGS_EQUAL(given, machine.drives.beside_bus);
     const cia402::DriveSettings& x_drive = machine.drives.drives[1];
-    UNSIGNED_LONGS_EQUAL(1, x_drive.pdos[local_pdo].object_count);
-    DOUBLES_EQUAL(40.0, x_drive.largest_share_of_rated, 0.0);
+    UNSIGNED_LONGS_EQUAL(6, x_drive.node_id);
+    CHECK_FALSE(x_drive.gives_current);
+    CHECK(x_drive.gives_motion);
     DOUBLES_EQUAL(-0.002, x_drive.velocity_mm_s_per_unit, 1e-9);  // of the drive's own PDO
     UNSIGNED_LONGS_EQUAL(500'000, x_drive.heartbeat_timeout_us);
     CHECK(machine.local.has_voltage());
@@ -187,11 +186,8 @@ TEST(LocalIoFile, what_is_missing_or_told_twice_is_named_with_its_table_and_key)
     STRCMP_CONTAINS("[iio] device", local_error("device = \"/sys/bus/iio/devices/iio:device0\"\n", "").c_str());
     STRCMP_CONTAINS("iio.x: a tpdo of [bus.x] tells the same",
                     local_error("\"0x606C:32\"]", "\"0x606C:32\", \"0x6078:16\"]").c_str());
-    STRCMP_CONTAINS("iio.x: expected node_id in [bus.x]", local_error("node_id = 6\n", "").c_str());
-    STRCMP_CONTAINS("iio.x: [bus.x] has a tpdo4",
-                    local_error("heartbeat_timeout_ms = 500", "tpdo4 = [\"0x6077:16\"]").c_str());
-    STRCMP_CONTAINS("iio.x: expected neither write_mapping",
-                    local_error("heartbeat_timeout_ms = 500", "write_mapping = true").c_str());
+    STRCMP_CONTAINS("iio.x: nothing tells its motion", local_error("node_id = 6\n", "").c_str());
+    STRCMP_CONTAINS("bus.x: a needed object is in none of tpdo1", local_error(", \"0x606C:32\"", "").c_str());
     STRCMP_CONTAINS("did you mean largest_A?", local_error("A_per_V = 10", "A_per_V = 10\nlargest_a = 9").c_str());
     STRCMP_CONTAINS("override_voltage.channel",
                     local_error("iio:device1\"\nchannel = \"voltage0\"", "iio:device1\"").c_str());

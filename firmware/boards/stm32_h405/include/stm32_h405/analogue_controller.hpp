@@ -13,9 +13,8 @@
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_receiver.hpp"
 #include "stm32/clock.hpp"
-#include "stm32/timers.hpp"
 #include "stm32/watchdog.hpp"
-#include "stm32_h405/motion.hpp"
+#include "stm32_h405/analogue_drives.hpp"
 #include "stm32_h405/wiring.hpp"
 
 /// The controller on one chip: currents and encoders in, the override out on CAN. No interrupt: poll() in a loop.
@@ -78,7 +77,7 @@ class AnalogueController {
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
     [[nodiscard]] const stm32::CanController& can() const { return can_; }
-    [[nodiscard]] stm32::CurrentScan& currents() { return currents_; }
+    [[nodiscard]] stm32::CurrentScan& currents() { return drives_.currents(); }
     [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
 
   private:
@@ -87,23 +86,18 @@ class AnalogueController {
     void send_frames();
     bool send_last_words(emergency::Reason reason, std::uint32_t detail);
     void run_tick(std::uint64_t now_us);
-    void take_sample(std::uint64_t now_us);
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] hal::FeedOverride step(std::uint64_t now_us);
     [[nodiscard]] bool is_healthy(const hal::FeedOverride& output) const;
 
     Wiring wiring_;
     stm32::PwrRegisters& pwr_;
-    stm32::Encoder spindle_;
-    std::array<stm32::Encoder, hal::axis_count> axes_;
-    stm32::CurrentScan currents_;
+    AnalogueDrives drives_;
     stm32::CanController can_;
     stm32::Watchdog watchdog_;
     override_frame::OverrideSender sender_;
     program_status::ProgramStatusReceiver program_;
     emergency::Emergencies emergencies_;
-    std::array<AxisVelocity, hal::axis_count> velocities_{};
-    EncoderWatch encoder_watch_{0};
     std::array<hal::CanFilter, 1> filters_;
 
     std::optional<Tick> tick_{};

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware_can/sync_producer.hpp"
+#include "cia402/sync_producer.hpp"
 
-namespace millforce::firmware {
+namespace millforce::cia402 {
 
-void SyncProducer::poll(std::uint64_t now_us) {
+bool SyncProducer::poll(std::uint64_t now_us) {
     const bool is_first_or_clock_was_set = next_us_ == 0 || next_us_ > now_us + 2ULL * period_us_;
     if (is_first_or_clock_was_set) {
         next_us_ = now_us;
     }
     if (now_us < next_us_) {
-        return;
+        return false;
     }
     const std::uint64_t late_periods = (now_us - next_us_) / period_us_;
     skipped_ += static_cast<std::uint32_t>(late_periods);
@@ -19,6 +19,7 @@ void SyncProducer::poll(std::uint64_t now_us) {
         ++skipped_;
     }
     due_ = true;
+    return true;
 }
 
 bool SyncProducer::take_frame(hal::CanFrame& frame) {
@@ -31,4 +32,4 @@ bool SyncProducer::take_frame(hal::CanFrame& frame) {
     return true;
 }
 
-}  // namespace millforce::firmware
+}  // namespace millforce::cia402

@@ -5,14 +5,15 @@
 
 #include "hal/can_frame.hpp"
 
-namespace millforce::firmware {
+namespace millforce::cia402 {
 
-/// When to send SYNC. A period that was missed is skipped, not made up for. One thread.
+/// When to send SYNC (CiA 301). A period that was missed is skipped, not made up for. One thread.
 class SyncProducer {
   public:
     SyncProducer(std::uint32_t id, std::uint32_t period_us) : id_(id), period_us_(period_us) {}
 
-    void poll(std::uint64_t now_us);
+    /// True where a SYNC falls due.
+    bool poll(std::uint64_t now_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
     [[nodiscard]] std::uint64_t next_us() const { return next_us_; }
     [[nodiscard]] std::uint32_t skipped() const { return skipped_; }
@@ -25,4 +26,4 @@ class SyncProducer {
     bool due_ = false;
 };
 
-}  // namespace millforce::firmware
+}  // namespace millforce::cia402

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "estimation/cutting/total_force.hpp"
+#include "firmware/parameters.hpp"
+#include "hal/feed_override.hpp"
+
+/// One tick for a record: what the tick knows anyway. Everything else (the total force, units and words for a person)
+/// is worked out from it by whoever shows it, outside the real-time path.
+
+namespace millforce::firmware {
+
+/// Plain data, float whatever the tick computes in.
+struct TickRecord {
+    static constexpr float no_estimate = std::numeric_limits<float>::quiet_NaN();
+
+    std::uint64_t time_us = 0;
+    hal::FeedOverride feed_override{};  ///< as the tick gave it
+    std::uint8_t limit = 0;             ///< control::Limit
+
+    float tangential_force_N = no_estimate;
+    float feed_force_N = no_estimate;
+    float radial_immersion = no_estimate;  ///< this and all below: in contact only
+    float radial_immersion_sd = no_estimate;
+    float axial_depth_mm = no_estimate;
+    float axial_depth_sd_mm = no_estimate;
+    float tooth_force_N = no_estimate;  ///< peak of one tooth, or its upper bound
+    estimation::TotalForceInput<float> total_force{};
+
+    [[nodiscard]] bool has_tooth_force() const { return tooth_force_N == tooth_force_N; }
+};
+
+/// Of the newest step of a ForceControlTick. Cost: some 20 copies, no arithmetic.
+template <typename Tick>
+[[nodiscard]] TickRecord tick_record(const Tick& tick, const hal::FeedOverride& output, std::uint64_t time_us);
+
+/// Peak and threshold of the total force for a record, NaN where it has no tooth force. Cost: that of
+/// estimation::TotalForce.
+struct ShownForces {
+    float peak_N = TickRecord::no_estimate;
+    float limit_N = TickRecord::no_estimate;
+};
+template <typename Scalar>
+[[nodiscard]] estimation::TotalForce<Scalar> total_force(const Parameters<Scalar>& parameters) {
+    return {estimator_settings(parameters), parameters.tool.law};
+}
+[[nodiscard]] ShownForces shown_forces(const estimation::TotalForce<float>& total, const TickRecord& record);
+
+}  // namespace millforce::firmware
