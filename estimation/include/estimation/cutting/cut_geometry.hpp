@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/circle.hpp"
 #include "estimation/number/elementary.hpp"
+#include "estimation/number/measurement.hpp"
 
 /// Engagement of a milling cutter as two angles, and the one-parameter families that a radial width selects.
 ///
@@ -10,13 +12,6 @@
 /// The radial immersion is R_r = a_e/R, 0…2.
 
 namespace millforce::estimation {
-
-template <typename Scalar>
-inline constexpr Scalar pi = static_cast<Scalar>(3.14159265358979323846L);
-template <typename Scalar>
-inline constexpr Scalar turn_rad = static_cast<Scalar>(6.28318530717958647692L);  ///< 2π
-template <typename Scalar>
-inline constexpr Scalar turns_per_rad = static_cast<Scalar>(0.159154943091895336L);  ///< 1/2π
 
 /// Which edge of the cut is fixed while its width varies.
 enum class CutSide : unsigned char {
@@ -38,20 +33,16 @@ struct EngagementAngles {
 /// centre_offset ± R_r/2 (in cutter radii, positive on the φ = 0 side), clipped to the cutter.
 /// `unknown` is treated as down. Immersion outside 0…2 is clipped.
 template <typename Scalar>
-[[gnu::cold]] EngagementAngles<Scalar> engagement_angles(CutSide side, Scalar radial_immersion,
-                                                         Scalar centre_offset_in_radii = 0) {
+EngagementAngles<Scalar> engagement_angles(CutSide side, Scalar radial_immersion, Scalar centre_offset_in_radii = 0) {
     using elementary::acos;
-    const auto clip = [](Scalar value, Scalar low, Scalar high) {
-        return value < low ? low : (value > high ? high : value);
-    };
-    const Scalar immersion = clip(radial_immersion, Scalar(0), Scalar(2));
+    const Scalar immersion = clamp(radial_immersion, Scalar(0), Scalar(2));
     switch (side) {
         case CutSide::up:
             return {Scalar(0), acos(Scalar(1) - immersion)};
         case CutSide::centred: {
             const Scalar half = immersion * Scalar(0.5);
-            return {acos(clip(centre_offset_in_radii + half, Scalar(-1), Scalar(1))),
-                    acos(clip(centre_offset_in_radii - half, Scalar(-1), Scalar(1)))};
+            return {acos(clamp(centre_offset_in_radii + half, Scalar(-1), Scalar(1))),
+                    acos(clamp(centre_offset_in_radii - half, Scalar(-1), Scalar(1)))};
         }
         case CutSide::down:
         case CutSide::unknown:

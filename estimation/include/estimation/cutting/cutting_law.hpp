@@ -82,7 +82,7 @@ struct EngagementIntegrals {
 };
 
 template <typename Scalar>
-[[gnu::cold]] EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles) {
+EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles) {
     using elementary::cos;
     using elementary::sin;
     const Scalar delta = angles.exit_rad - angles.entry_rad;
@@ -118,8 +118,7 @@ struct CuttingCoefficients {
 };
 
 template <typename Scalar>
-[[gnu::cold]] CuttingCoefficients<Scalar> cutting_coefficients(const CuttingLaw<Scalar>& law,
-                                                               Scalar chip_thickness_mm) {
+CuttingCoefficients<Scalar> cutting_coefficients(const CuttingLaw<Scalar>& law, Scalar chip_thickness_mm) {
     using elementary::exp;
     using elementary::log;
     if (!(chip_thickness_mm > Scalar(0))) {
@@ -128,7 +127,6 @@ template <typename Scalar>
     const Scalar ln_t = log(chip_thickness_mm);
     const Scalar distance =
         law.reference_chip_thickness_mm > Scalar(0) ? ln_t - log(law.reference_chip_thickness_mm) : Scalar(0);
-    const auto square = [](Scalar value) { return value * value; };
     return {law.k_s_N_per_mm2 * exp(law.p_s * ln_t), law.k_1 * exp(law.p_1 * ln_t),
             square(law.K_s_relative_sd) + square(law.K_s_exponent_sd * distance),
             square(law.r_1_relative_sd) + square(law.r_1_exponent_sd * distance)};
@@ -166,7 +164,7 @@ AverageForcesWithDoubt<Scalar> average_forces_with_doubt(const CuttingLaw<Scalar
         return result;
     }
     result.coefficients = cutting_coefficients(law, t_a);
-    const Scalar per_pitch = cut.axial_depth_mm * cut.teeth / (Scalar(2) * pi<Scalar>);
+    const Scalar per_pitch = cut.axial_depth_mm * cut.teeth / turn_rad<Scalar>;
     const Scalar G = result.coefficients.K_s_N_per_mm2 * cut.feed_per_tooth_mm * per_pitch;
     const Scalar E_t = law.K_te_N_per_mm * per_pitch;
     const Scalar E_r = law.K_re_N_per_mm * per_pitch;

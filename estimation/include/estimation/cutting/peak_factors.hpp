@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/cutting/cutting_law.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 #include "estimation/number/stored.hpp"
 
@@ -29,7 +30,7 @@ struct PeakFactorSettings {
     Scalar teeth{4};
     Scalar cutter_radius_mm{5};
     Scalar helix_rad{0};
-    Scalar nominal_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};
+    Scalar nominal_feed_per_tooth_mm{literal<Scalar>(0.05L)};
     CutSide side = CutSide::down;
     Scalar centre_offset_in_radii{0};
 };
@@ -41,13 +42,15 @@ struct PeakFactors {
     [[nodiscard]] Scalar threshold_factor() const { return total / tooth; }
 };
 
+/// What an edge sweeps at least: with less, the force of a straight edge is that of its limit and not 0/0.
+template <typename Scalar>
+inline constexpr Scalar straight_sweep_rad = literal<Scalar>(0.001L);
+
 /// In-plane force of one tooth whose tip stands at θ (the tip leads; the edge above it lags by the helix).
 template <typename Scalar>
-[[gnu::cold]] AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm,
-                                                       Scalar axial_depth_mm, Scalar sweep_rad,
-                                                       EngagementAngles<Scalar> engagement, Scalar tip_angle_rad) {
-    constexpr Scalar least_sweep = static_cast<Scalar>(1e-3L);  // a straight edge: the limit of a small helix
-    const Scalar sweep = sweep_rad > least_sweep ? sweep_rad : least_sweep;
+AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm, Scalar axial_depth_mm,
+                                         Scalar sweep_rad, EngagementAngles<Scalar> engagement, Scalar tip_angle_rad) {
+    const Scalar sweep = sweep_rad > straight_sweep_rad<Scalar> ? sweep_rad : straight_sweep_rad<Scalar>;
     const Scalar low = tip_angle_rad - sweep > engagement.entry_rad ? tip_angle_rad - sweep : engagement.entry_rad;
     const Scalar high = tip_angle_rad < engagement.exit_rad ? tip_angle_rad : engagement.exit_rad;
     const EngagementIntegrals<Scalar> in_cut = engagement_integrals(EngagementAngles<Scalar>{low, high});
@@ -67,9 +70,8 @@ template <typename Scalar>
 /// κ and τ by search over one pitch and one tooth's passage (Steps values each). About Steps·(N + 1) single-tooth
 /// forces: for set-up, not for the tick.
 template <typename Scalar, int Steps = 72>
-[[gnu::cold]] PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law,
-                                               const PeakFactorSettings<Scalar>& settings, Scalar radial_immersion,
-                                               Scalar axial_depth_mm) {
+PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
+                                 Scalar radial_immersion, Scalar axial_depth_mm) {
     using elementary::tan;
     using std::sqrt;
     const EngagementAngles<Scalar> engagement =
@@ -83,7 +85,7 @@ template <typename Scalar, int Steps = 72>
     const auto tooth_at = [&](Scalar tip) { return single_tooth_force(law, feed, depth_mm, sweep, engagement, tip); };
     const Scalar first = engagement.entry_rad;
     const Scalar passage = engagement.exit_rad + sweep - first;
-    const Scalar pitch = Scalar(2) * pi<Scalar> / settings.teeth;
+    const Scalar pitch = turn_rad<Scalar> / settings.teeth;
     const int behind = static_cast<int>(passage / pitch) + 1;
     Scalar tooth_squared{0};
     Scalar total_squared{0};
@@ -108,8 +110,7 @@ template <typename Scalar, int Steps = 72>
         look_at_total(first + pitch * Scalar(k) / Scalar(Steps));
     }
     // Where an edge has just come in whole, or just begins to leave, the force may have a corner between two steps.
-    constexpr Scalar straight_sweep = static_cast<Scalar>(1e-3L);
-    const Scalar whole = first + (sweep > straight_sweep ? sweep : straight_sweep);
+    const Scalar whole = first + (sweep > straight_sweep_rad<Scalar> ? sweep : straight_sweep_rad<Scalar>);
     for (const Scalar corner : {whole, engagement.exit_rad}) {
         look_at_tooth(corner);
         const auto pitches = static_cast<int>((corner - first) / pitch);
@@ -135,7 +136,7 @@ class ToothPeakTable {
   public:
     ToothPeakTable() = default;
 
-    [[gnu::cold]] void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
+    void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
         using elementary::tan;
         sweep_rad_per_mm_ = tan(settings.helix_rad) / settings.cutter_radius_mm;
         side_ = settings.side;
@@ -162,8 +163,7 @@ class ToothPeakTable {
 
     /// The same where θ is known as well, R_r = 1 − cos θ. Some 40 operations but for CutSide::centred, which takes two
     /// arc cosines.
-    [[nodiscard, gnu::noinline]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion,
-                                                 Scalar axial_depth_mm) const {
+    [[nodiscard]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion, Scalar axial_depth_mm) const {
         const Scalar immersion = clamp(radial_immersion, least_immersion, Scalar(2));
         const Scalar theta = clamp(theta_rad, first_rad, pi<Scalar>);
         const Scalar engagement_rad = side_ == CutSide::centred ? engagement_at(immersion) : theta;
@@ -184,13 +184,15 @@ class ToothPeakTable {
         Scalar share;
     };
 
-    static constexpr Scalar first_rad = static_cast<Scalar>(0.2L);
-    static constexpr Scalar least_immersion = static_cast<Scalar>(0.0199334222L);  // 1 − cos 0.2
+    /// The first node's engagement: of a narrower cut τ R_r hardly changes.
+    static constexpr Scalar first_rad = literal<Scalar>(0.2L);
+    static constexpr Scalar least_immersion = literal<Scalar>(0.0199334222L);  // 1 − cos 0.2
     static constexpr Scalar step_rad = (pi<Scalar> - first_rad) / static_cast<Scalar>(ImmersionNodes - 1);
     static constexpr Scalar steps_per_rad = Scalar(1) / step_rad;
     static constexpr int corner_index = (SweepNodes - 1) / 2;
     static constexpr Scalar corner_node = static_cast<Scalar>(corner_index);
-    static constexpr Scalar most_sweeps = static_cast<Scalar>(20);
+    /// The last node's q: of a longer edge τ q hardly changes.
+    static constexpr Scalar most_sweeps = Scalar(20);
     static constexpr Scalar least_inverse = Scalar(1) / most_sweeps;
     static constexpr Scalar nodes_per_inverse = corner_node / (Scalar(1) - least_inverse);
 
@@ -200,7 +202,8 @@ class ToothPeakTable {
     }
     [[nodiscard]] static Scalar sweeps_of(Scalar node) {
         if (node <= corner_node) {
-            return node > Scalar(0) ? node / corner_node : static_cast<Scalar>(1e-3L);  // no depth, no force
+            constexpr Scalar shallowest = literal<Scalar>(0.001L);  // in place of 0: no depth, no force
+            return node > Scalar(0) ? node / corner_node : shallowest;
         }
         const Scalar beyond = (node - corner_node) / corner_node;
         return Scalar(1) / (Scalar(1) - beyond * (Scalar(1) - least_inverse));

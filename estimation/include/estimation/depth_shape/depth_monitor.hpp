@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/depth_shape/flute_profile_fit.hpp"
+#include "estimation/number/literal.hpp"
 
 namespace millforce::estimation {
 
@@ -52,7 +53,7 @@ class DepthMonitor {
 
     /// Learns where the teeth stand against the encoder's zero from a profile of known depths, for all that follow
     /// with this tool in this holder. False: no complete profile, or it does not tell.
-    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = static_cast<Scalar>(0.005L)) {
+    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = literal<Scalar>(0.005L)) {
         if (!profile_.complete()) {
             return false;
         }

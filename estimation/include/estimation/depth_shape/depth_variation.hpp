@@ -3,6 +3,7 @@
 
 #include "estimation/depth_shape/cut_category.hpp"
 #include "estimation/depth_shape/flute_profile.hpp"
+#include "estimation/number/literal.hpp"
 
 #include <array>
 #include <cmath>
@@ -124,7 +125,7 @@ class ForceIndexFinder {
     /// Where the force has come down to its valley: the corner itself, or where flutes do not overlap the begin of the
     /// floor before it. The chip ends thin there, so that the force has no corner.
     [[nodiscard]] Scalar begin_of_valley(Scalar valley, int valley_bin, int lowest, int highest) const {
-        const Scalar level = at(lowest) + static_cast<Scalar>(0.003L) * (at(highest) - at(lowest));
+        const Scalar level = at(lowest) + literal<Scalar>(0.003L) * (at(highest) - at(lowest));
         int floor_bins = 0;
         while (floor_bins < Bins && at(valley_bin - span_ - floor_bins) <= level) {
             ++floor_bins;
@@ -144,7 +145,7 @@ class ForceIndexFinder {
 
     /// The maximum as the centre of what stands above 0.98 of it, counted from the middle of the profile's range.
     [[nodiscard]] Scalar smooth_peak(int highest, Scalar middle) const {
-        const Scalar level = middle + static_cast<Scalar>(0.98L) * (at(highest) - middle);
+        const Scalar level = middle + literal<Scalar>(0.98L) * (at(highest) - middle);
         return centre(highest, [&](int b) { return at(b) - level; });
     }
 
@@ -209,7 +210,7 @@ struct DepthVariationSettings {
     Scalar specific_energy_N_mm2{0};  ///< K of Eq. 9
     Characteristics characteristics = Characteristics::published;
     Scalar largest_variation = Scalar(0.5F);
-    Scalar normal_variation = static_cast<Scalar>(0.1L);
+    Scalar normal_variation = literal<Scalar>(0.1L);
 };
 
 /// K of Eq. 9 from a cut of known depths.

@@ -3,6 +3,7 @@
 
 #include "estimation/cutting/cut_geometry.hpp"
 #include "estimation/depth_shape/detail/phasor.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <Eigen/Core>
@@ -181,7 +182,7 @@ ProfileSpectrum<Scalar, Harmonics> profile_spectrum(const FluteAverage<Scalar, C
     using std::sin;
     ProfileSpectrum<Scalar, Harmonics> spectrum;
     spectrum.spindle_speed_rev_s = average.spindle_speed_rev_s;
-    constexpr Scalar below_nyquist = static_cast<Scalar>(0.45L);
+    constexpr Scalar below_nyquist = literal<Scalar>(0.45L);
     const Scalar told = below_nyquist * average.samples_per_pitch;
     spectrum.highest =
         average.samples_per_pitch > Scalar(0) && told < Scalar(Harmonics) ? static_cast<int>(told) : Harmonics;

@@ -4,6 +4,7 @@
 #include "estimation/depth_shape/cut_category.hpp"
 #include "estimation/depth_shape/detail/flute_spectrum_fit.hpp"
 #include "estimation/depth_shape/flute_profile.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 #include "estimation/signal/low_pass.hpp"
 
@@ -68,11 +69,11 @@ struct FluteProfileFitSettings {
     LowPass<Scalar> low_pass{};
     /// Angle of a tooth's tip at the encoder's zero, 0…2π/N; not valid: unknown, then found with the depths.
     Measurement<Scalar> tip_angle_rad{};
-    Scalar line_error = static_cast<Scalar>(0.003L);               ///< what a Fourier line may be wrong by, of itself
-    Scalar floor_error = static_cast<Scalar>(0.001L);              ///< and of the whole profile's rms
-    Scalar largest_relative_sd = static_cast<Scalar>(0.1L);        ///< of a depth; above: no estimate of it
-    Scalar largest_tip_angle_sd_rad = static_cast<Scalar>(0.05L);  ///< above: nothing learnt
-    Scalar smallest_ripple = static_cast<Scalar>(0.002L);  ///< of the whole profile; below it there is no shape to fit
+    Scalar line_error = literal<Scalar>(0.003L);               ///< what a Fourier line may be wrong by, of itself
+    Scalar floor_error = literal<Scalar>(0.001L);              ///< and of the whole profile's rms
+    Scalar largest_relative_sd = literal<Scalar>(0.1L);        ///< of a depth; above: no estimate of it
+    Scalar largest_tip_angle_sd_rad = literal<Scalar>(0.05L);  ///< above: nothing learnt
+    Scalar smallest_ripple = literal<Scalar>(0.002L);  ///< of the whole profile; below it there is no shape to fit
 };
 
 template <typename Scalar>
@@ -102,7 +103,7 @@ class FluteProfileFit {
         }
         const Estimate down = estimate_side(spectrum, CutSide::down);
         const Estimate up = estimate_side(spectrum, CutSide::up);
-        constexpr Scalar clearly_better = static_cast<Scalar>(0.7L);
+        constexpr Scalar clearly_better = literal<Scalar>(0.7L);
         Estimate better = down.misfit <= up.misfit ? down : up;
         if (better.misfit > clearly_better * (down.misfit <= up.misfit ? up : down).misfit) {
             better.side = CutSide::unknown;
@@ -171,7 +172,7 @@ class FluteProfileFit {
     }
     /// A harmonic of which the low-pass leaves less than a fifth is not used: its response is not known well enough.
     [[nodiscard]] bool passes(const Spectrum& spectrum, int k) const {
-        return squared_length(response(spectrum, k)) > static_cast<Scalar>(0.04L);
+        return squared_length(response(spectrum, k)) > literal<Scalar>(0.04L);
     }
 
     [[nodiscard]] Measured measured_lines(const Spectrum& spectrum, const Model& model) const {

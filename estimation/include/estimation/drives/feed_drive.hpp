@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <array>
@@ -27,7 +28,8 @@ struct FrictionCurrent {
 template <typename Scalar>
 class FrictionScale {
   public:
-    static constexpr Scalar correlation = static_cast<Scalar>(0.95L);
+    /// ρ: nearly one, since the causes are common; the rest is what each direction has of its own.
+    static constexpr Scalar correlation = literal<Scalar>(0.95L);
 
     FrictionScale() = default;
     FrictionScale(Scalar relative_sd, Scalar walk_per_sqrt_s)
@@ -83,12 +85,11 @@ struct FeedDriveParameters {
     Scalar K_x5_N_m_per_min{0};     ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
     Scalar mass_kg{0};              ///< moved mass, with the motor's inertia reflected
     Scalar velocity_floor_mm_s{1};  ///< below it there is no estimate: friction is undefined at rest
-    Scalar gain_relative_sd{static_cast<Scalar>(0.03L)};           ///< of K_x4, from its calibration
-    Scalar friction_relative_sd{static_cast<Scalar>(0.2L)};        ///< of I_f before the first re-zeroing in air
-    Scalar friction_walk_per_sqrt_s{static_cast<Scalar>(0.002L)};  ///< drift of I_f, relative
-    Scalar friction_ripple_A{
-        static_cast<Scalar>(0.05L)};                 ///< position-dependent part of friction that no average removes
-    Scalar current_sd_A{static_cast<Scalar>(0.1L)};  ///< noise of one current sample
+    Scalar gain_relative_sd{literal<Scalar>(0.03L)};           ///< of K_x4, from its calibration
+    Scalar friction_relative_sd{literal<Scalar>(0.2L)};        ///< of I_f before the first re-zeroing in air
+    Scalar friction_walk_per_sqrt_s{literal<Scalar>(0.002L)};  ///< drift of I_f, relative
+    Scalar friction_ripple_A{literal<Scalar>(0.05L)};  ///< position-dependent part of friction that no average removes
+    Scalar current_sd_A{literal<Scalar>(0.1L)};        ///< noise of one current sample
 };
 
 /// Mean force of the cut along one feed axis from its motor current.
@@ -138,7 +139,7 @@ class FeedDrive {
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 
     /// The tool is known to be in air: the current is friction, weight and inertia alone.
-    [[gnu::cold]] void rezero(const Average& average) {
+    void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
         if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
             return;
@@ -165,19 +166,21 @@ class FeedDrive {
 
     /// Moving, and at nearly the same speed throughout the average.
     [[nodiscard]] bool is_steady(const Average& average) const {
+        constexpr Scalar steady_share = literal<Scalar>(0.1L);  // by which the speed may change
         const Scalar change = average.acceleration_mm_s2 * average.duration_s;
-        return is_moving(average) && square(change) < square(static_cast<Scalar>(0.1L) * average.velocity_mm_s);
+        return is_moving(average) && square(change) < square(steady_share * average.velocity_mm_s);
     }
 
   private:
     /// Of M dv/dt: what the slope of an average misses of an acceleration that changes within it.
-    static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
+    static constexpr Scalar inertia_share_in_doubt = literal<Scalar>(0.15L);
 
     [[nodiscard]] static std::size_t direction(const Average& average) {
         return average.velocity_mm_s > Scalar(0) ? 1U : 0U;
     }
     [[nodiscard]] static Scalar velocity_m_per_min(const Average& average) {
-        return average.velocity_mm_s * static_cast<Scalar>(0.06L);
+        constexpr Scalar m_per_min = literal<Scalar>(0.06L);  // of 1 mm/s
+        return average.velocity_mm_s * m_per_min;
     }
     [[nodiscard]] Scalar signed_friction_A(const Average& average) const {
         const Scalar w = velocity_m_per_min(average);
@@ -190,7 +193,8 @@ class FeedDrive {
         return K_x5 == Scalar(0) ? Scalar(0) : K_x5 / velocity_m_per_min(average);
     }
     [[nodiscard]] Scalar inertial_force_N(const Average& average) const {
-        return parameters_.mass_kg * average.acceleration_mm_s2 * static_cast<Scalar>(0.001L);
+        constexpr Scalar m_per_mm = literal<Scalar>(0.001L);
+        return parameters_.mass_kg * average.acceleration_mm_s2 * m_per_mm;
     }
     [[nodiscard]] Scalar current_variance_A2(const Average& average) const {
         return square(parameters_.current_sd_A) / average.samples + square(parameters_.friction_ripple_A);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 /// Force of the cut along one feed axis, sample by sample, for what happens within a tooth period.
@@ -22,7 +23,7 @@ template <typename Scalar>
 struct FeedForceObserverSettings {
     Scalar K_x4_N_per_A{0};
     Scalar mass_kg{0};
-    Scalar least_velocity_mm_s{static_cast<Scalar>(0.02L)};
+    Scalar least_velocity_mm_s{literal<Scalar>(0.02L)};  ///< a slower axis counts as standing
 };
 
 template <typename Scalar>
@@ -42,9 +43,9 @@ class FeedForceObserver {
         }
         if (seen_ >= 2) {
             const Scalar acceleration_mm_s2 = (velocity_mm_s - before_last_mm_s_) / (dt_s + last_dt_s_);
+            constexpr Scalar m_per_mm = literal<Scalar>(0.001L);
             force.valid = true;
-            force.value =
-                settings_.K_x4_N_per_A * last_A_ - settings_.mass_kg * acceleration_mm_s2 * static_cast<Scalar>(1e-3L);
+            force.value = settings_.K_x4_N_per_A * last_A_ - settings_.mass_kg * acceleration_mm_s2 * m_per_mm;
         }
         seen_ += seen_ < 2 ? 1 : 0;
         before_last_mm_s_ = last_mm_s_;

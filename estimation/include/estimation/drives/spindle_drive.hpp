@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/drives/warm_up_tracker.hpp"
+#include "estimation/number/literal.hpp"
 
 namespace millforce::estimation {
 
@@ -12,13 +13,13 @@ struct SpindleDriveParameters {
     Scalar idle_torque_slope_Nm_s{0};  ///< growth of the idle torque with speed, N·m per rad/s
     Scalar inertia_kg_m2{0};           ///< J of spindle, rotor and tool
     Scalar base_speed_rad_s{0};        ///< above it K_t1 falls as base/ω (constant power); 0: never
-    Scalar gain_relative_sd{static_cast<Scalar>(0.02L)};  ///< of K_t1, from its calibration
-    Scalar idle_torque_sd_Nm{static_cast<Scalar>(0.2L)};  ///< of the idle torque before the first re-zeroing in air
-    Scalar idle_walk_Nm_per_sqrt_s{static_cast<Scalar>(0.01L)};  ///< drift of the idle torque
+    Scalar gain_relative_sd{literal<Scalar>(0.02L)};         ///< of K_t1, from its calibration
+    Scalar idle_torque_sd_Nm{literal<Scalar>(0.2L)};         ///< of the idle torque before the first re-zeroing in air
+    Scalar idle_walk_Nm_per_sqrt_s{literal<Scalar>(0.01L)};  ///< drift of the idle torque
     Scalar warm_up_torque_Nm{0};  ///< idle torque of the cold spindle above that of the warm one
     Scalar warm_up_torque_sd_Nm{0};
-    Scalar warm_up_time_s{0};                        ///< time constant of the warming; 0: not known
-    Scalar current_sd_A{static_cast<Scalar>(0.1L)};  ///< noise of one current sample
+    Scalar warm_up_time_s{0};                    ///< time constant of the warming; 0: not known
+    Scalar current_sd_A{literal<Scalar>(0.1L)};  ///< noise of one current sample
 };
 
 /// Mean tangential force from the spindle's motor current.
@@ -65,7 +66,7 @@ class SpindleDrive {
 
     /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of
     /// its inertia's torque a share is in doubt.
-    [[gnu::cold]] void rezero(const Average& average) {
+    void rezero(const Average& average) {
         if (!is_usable(average)) {
             return;
         }
@@ -84,7 +85,7 @@ class SpindleDrive {
 
   private:
     /// Of J dω/dt: what J is off by, and what the slope of an average misses of an acceleration that changes within it.
-    static constexpr Scalar inertia_share_in_doubt = static_cast<Scalar>(0.15L);
+    static constexpr Scalar inertia_share_in_doubt = literal<Scalar>(0.15L);
 
     [[nodiscard]] static bool is_usable(const Average& average) {
         return average.present && average.samples > Scalar(0) && average.speed_rad_s > Scalar(0);

@@ -45,7 +45,8 @@ class WarmUpTracker {
             return;
         }
         const Scalar fall = dt_s / settings_.time_constant_s;
-        const Scalar kept = fall < Scalar(0.5F) ? Scalar(1) - fall : Scalar(0.5F);
+        constexpr Scalar least_kept = Scalar(0.5F);  // of a step, so that a long one does not change the sign
+        const Scalar kept = fall < least_kept ? Scalar(1) - fall : least_kept;
         w_ *= kept;
         P_bw_ *= kept;
         P_ww_ *= square(kept);

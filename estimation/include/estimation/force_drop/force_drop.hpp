@@ -5,6 +5,7 @@
 #include "estimation/force_drop/force_drop_detector.hpp"
 #include "estimation/force_drop/force_drop_immersion.hpp"
 #include "estimation/number/elementary.hpp"
+#include "estimation/number/literal.hpp"
 
 #include <array>
 #include <cmath>
@@ -121,7 +122,7 @@ class ForceDrop {
             return;
         }
         estimate_from(jump_, feed_per_tooth_mm, first_rad);
-        const Scalar reach = static_cast<Scalar>(0.2L) * first_rad;
+        const Scalar reach = literal<Scalar>(0.2L) * first_rad;
         if (other_edge_acts_between(first_rad - reach, first_rad + reach)) {
             close_other_edge(first_rad, reach, feed_per_tooth_mm);
         }
@@ -165,7 +166,7 @@ class ForceDrop {
     /// Puts the other edge where it would be at θ, takes it off, and solves.
     Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first) {
         using elementary::sin;
-        constexpr Scalar doubt_in_taken_off = static_cast<Scalar>(0.5L);
+        constexpr Scalar doubt_in_taken_off = literal<Scalar>(0.5L);
         jump_ = detector_.detect_near(profile_, first.angle_rev, other_edge(theta_rad, feed_per_tooth_mm));
         jump_.x_N.variance += square(doubt_in_taken_off * (jump_.x_N.value - first.x_N.value));
         jump_.y_N.variance += square(doubt_in_taken_off * (jump_.y_N.value - first.y_N.value));
@@ -185,7 +186,7 @@ class ForceDrop {
         return square(closure.excess_rad) / (closure.variance + square(place_sd_rad)) +
                Scalar(1.5F) * (closure.residual_N2 / least_residual_N2 - Scalar(1));
     }
-    static constexpr Scalar place_sd_rad = static_cast<Scalar>(0.03L);
+    static constexpr Scalar place_sd_rad = literal<Scalar>(0.03L);
 
     void close_other_edge(Scalar first_rad, Scalar reach_rad, Scalar feed_per_tooth_mm) {
         const ForceJump<Scalar> first = jump_;
@@ -231,7 +232,7 @@ class ForceDrop {
     /// Another immersion, far off, that explains drop and signal nearly as well. In down milling the force that the
     /// other tooth takes along at its exit points as the jump does, and the two are told apart less well.
     [[nodiscard]] bool is_ambiguous(const Closures& tried, const Closure& best) const {
-        constexpr Scalar far_rad = static_cast<Scalar>(0.12L);
+        constexpr Scalar far_rad = literal<Scalar>(0.12L);
         const Scalar nearly = measurement_.side == CutSide::up ? Scalar(0.5F) : Scalar(1.25F);
         const Scalar least = least_residual_N2(tried);
         bool ambiguous = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 #include "estimation/signal/low_pass_response.hpp"
 #include "estimation/signal/revolution_profile.hpp"
@@ -40,11 +41,11 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct ForceDropDetectorSettings {
-    int teeth{3};                                                ///< N, 1…12, equally spaced
-    LowPassResponse<Scalar> response{};                          ///< from force to sample
-    Scalar window_rev{static_cast<Scalar>(12.0L / 360)};         ///< signal used on either side, after settling
-    Scalar least_significance{4};                                ///< jump over its standard deviation
-    Scalar largest_settling_pitches{static_cast<Scalar>(0.3L)};  ///< beyond it jumps of neighbours run together
+    int teeth{3};                                            ///< N, 1…12, equally spaced
+    LowPassResponse<Scalar> response{};                      ///< from force to sample
+    Scalar window_rev{literal<Scalar>(12.0L / 360.0L)};      ///< signal used on either side, after settling
+    Scalar least_significance{4};                            ///< jump over its standard deviation
+    Scalar largest_settling_pitches{literal<Scalar>(0.3L)};  ///< beyond it jumps of neighbours run together
 };
 
 /// A jump and change of slope elsewhere in the pitch, known from the model.
@@ -318,7 +319,7 @@ class ForceDropDetector {
             const Scalar sample_variance =
                 (residual_N2 > Scalar(0) ? residual_N2 : Scalar(0)) / Scalar(fit.free_points);
             const Scalar variance =
-                sample_variance * inflation * fit.step_gain / Scalar(settings_.teeth) + static_cast<Scalar>(1e-12L);
+                sample_variance * inflation * fit.step_gain / Scalar(settings_.teeth) + literal<Scalar>(1e-12L);
             return Measurement<Scalar>{true, step, variance, variance};
         };
         jump.x_N = measured(fit.step_x_N, fit.residual_x_N2);

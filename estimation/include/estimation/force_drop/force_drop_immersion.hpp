@@ -3,6 +3,7 @@
 
 #include "estimation/force_drop/force_drop_law.hpp"
 #include "estimation/number/elementary.hpp"
+#include "estimation/number/literal.hpp"
 
 #include <array>
 #include <cmath>
@@ -34,9 +35,9 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct ForceDropImmersionSettings {
-    Scalar largest_disagreement{4};                 ///< of the two roots, in standard deviations
-    Scalar largest_sd{static_cast<Scalar>(0.15L)};  ///< immersion known less well than this is no estimate
-    Scalar largest_relative_sd{static_cast<Scalar>(0.2L)};
+    Scalar largest_disagreement{4};             ///< of the two roots, in standard deviations
+    Scalar largest_sd{literal<Scalar>(0.15L)};  ///< immersion known less well than this is no estimate
+    Scalar largest_relative_sd{literal<Scalar>(0.2L)};
 };
 
 /// A root of one of the equations.
@@ -211,7 +212,7 @@ class ForceDropImmersion {
     [[nodiscard]] Scalar close_bracket(Equation equation, const ForceDropInputs<Scalar>& in,
                                        const ForceDropMeasurement<Scalar>& m, Point low, Point high) const {
         constexpr int most_steps = 12;
-        constexpr Scalar close_enough_rad = static_cast<Scalar>(2e-6L);
+        constexpr Scalar close_enough_rad = literal<Scalar>(2e-6L);
         int stayed = 0;
         for (int k = 0; k < most_steps && high.theta_rad - low.theta_rad > close_enough_rad; ++k) {
             const Scalar theta = (low.theta_rad * high.value - high.theta_rad * low.value) / (high.value - low.value);
@@ -263,7 +264,7 @@ class ForceDropImmersion {
         if (!root.valid) {
             return;
         }
-        constexpr Scalar step_rad = static_cast<Scalar>(0.01L);
+        constexpr Scalar step_rad = literal<Scalar>(0.01L);
         const ForceDropInputs<Scalar> in = inputs_of(m);
         const Value above = residual(equation, in, m, root.theta_rad + step_rad);
         const Value below = residual(equation, in, m, root.theta_rad - step_rad);

@@ -4,6 +4,7 @@
 #include "estimation/cutting/cut_geometry.hpp"
 #include "estimation/cutting/cutting_law.hpp"
 #include "estimation/number/elementary.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <Eigen/Core>
@@ -63,15 +64,15 @@ struct ForceDropLaw {
     Scalar other_slope_x{0};  ///< per radian; counted positive for up milling, with the opposite sign for down milling
     Scalar other_slope_y{0};
 
-    Scalar smallest_immersion{static_cast<Scalar>(0.1L)};  ///< calibrated range, widened a little: no estimate outside
-    Scalar largest_immersion{static_cast<Scalar>(0.95L)};
+    Scalar smallest_immersion{literal<Scalar>(0.1L)};  ///< calibrated range, widened a little: no estimate outside
+    Scalar largest_immersion{literal<Scalar>(0.95L)};
 };
 
 /// What c multiplies.
 template <typename Scalar>
 Eigen::Matrix<Scalar, 3, 1> pressure_regressors(Scalar one_minus_immersion, Scalar feed_per_tooth_mm) {
     using elementary::log;
-    return {Scalar(1), one_minus_immersion, log(feed_per_tooth_mm / static_cast<Scalar>(0.15L))};
+    return {Scalar(1), one_minus_immersion, log(feed_per_tooth_mm / literal<Scalar>(0.15L))};
 }
 
 /// Jump and averages of one tooth period, as tooth force: positive where teeth push.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <concepts>
-#include <cstdint>
 
 /// Elementary functions in float that give the same bits on every processor.
 ///
@@ -17,145 +15,18 @@
 ///
 /// Error in units in the last place, and range: sin, cos 1.5 for |x| ≤ 100 rad (absolute beyond: 1e-7 per 100 rad),
 /// tan 4, acos 2, exp 1.5 (0 below −87, infinite above 88.7), log 1.5. NaN gives NaN. Cost on a Cortex-M4F: 25…50
-/// instructions. Coefficients: interpolation at Chebyshev nodes. They are called, not inlined: an image of the tick is
-/// some 8 KB smaller for it.
+/// instructions. Bodies: src/elementary.cpp.
 
 namespace millforce::estimation::elementary {
 
-namespace detail {
+float sin(float x);
+float cos(float x);
+float tan(float x);
+float acos(float x);  ///< NaN outside −1…1
+float exp(float x);
+float log(float x);  ///< −infinity for 0, NaN below
 
-/// x as a number of quarter turns and the angle that is left, |left| ≤ π/4.
-struct QuarterTurns {
-    std::int32_t count;
-    float left_rad;
-};
-
-inline float rounded(float value) {
-    constexpr float shift = 12582912.0F;  // 1.5·2²³: what is added to it is rounded to a whole number
-    return (value + shift) - shift;
-}
-
-inline QuarterTurns quarter_turns(float x) {
-    // π/2 in three parts, the first two short enough for exact products with a count of up to 2¹⁰.
-    constexpr float part_1 = 1.5703125F;
-    constexpr float part_2 = 4.83751296997070312e-4F;
-    constexpr float part_3 = 7.54978995489188216e-8F;
-    constexpr float most = 1e6F;
-    if (!(x < most && x > -most)) {
-        return {0, x - x};  // NaN for what is no number; 0 where no digit of the angle is left
-    }
-    const float count = rounded(x * 0.636619772F);
-    const float left = ((x - count * part_1) - count * part_2) - count * part_3;
-    return {static_cast<std::int32_t>(count), left};
-}
-
-inline float sine_of_small(float x) {
-    const float w = x * x;
-    return x + x * w * (-0.16666664662F + w * (0.0083327482706F + w * -0.00019587890880F));
-}
-
-inline float cosine_of_small(float x) {
-    const float w = x * x;
-    return 1.0F - (0.5F * w - w * w * (0.041666664660F + w * (-0.0013888303036F + w * 0.000024547942085F)));
-}
-
-inline float sine(QuarterTurns angle) {
-    const float size = (angle.count & 1) == 0 ? sine_of_small(angle.left_rad) : cosine_of_small(angle.left_rad);
-    return (angle.count & 2) == 0 ? size : -size;
-}
-
-/// asin x for |x| ≤ ½.
-inline float arc_sine_of_small(float x) {
-    const float w = x * x;
-    const float series =
-        0.16666672415F + w * (0.074988550727F + w * (0.045001380064F + w * (0.026554542234F + w * 0.038085023517F)));
-    return x + x * w * series;
-}
-
-}  // namespace detail
-
-[[gnu::noinline]] inline float sin(float x) {
-    return detail::sine(detail::quarter_turns(x));
-}
-
-[[gnu::noinline]] inline float cos(float x) {
-    detail::QuarterTurns angle = detail::quarter_turns(x);
-    ++angle.count;
-    return detail::sine(angle);
-}
-
-[[gnu::noinline]] inline float tan(float x) {
-    detail::QuarterTurns angle = detail::quarter_turns(x);
-    const float sine = detail::sine(angle);
-    ++angle.count;
-    return sine / detail::sine(angle);
-}
-
-/// NaN outside −1…1.
-[[gnu::noinline]] inline float acos(float x) {
-    constexpr float half_pi = 1.57079632679F;
-    constexpr float pi = 3.14159265359F;
-    if (x > -0.5F && x < 0.5F) {
-        return half_pi - detail::arc_sine_of_small(x);
-    }
-    const float half = 2.0F * detail::arc_sine_of_small(std::sqrt(0.5F * (1.0F - (x < 0.0F ? -x : x))));
-    return x < 0.0F ? pi - half : half;
-}
-
-[[gnu::noinline]] inline float exp(float x) {
-    constexpr float ln_2_high = 0.693359375F;
-    constexpr float ln_2_low = -2.12194440055e-4F;
-    if (!(x < 88.7F)) {
-        return x - x == 0.0F || x > 0.0F ? HUGE_VALF : x;
-    }
-    if (x < -87.0F) {
-        return 0.0F;
-    }
-    const float power = detail::rounded(x * 1.44269504089F);
-    const float r = (x - power * ln_2_high) - power * ln_2_low;
-    const float series =
-        0.5F + r * (0.16666666667F +
-                    r * (0.041666554662F + r * (0.0083333208921F + r * (0.0013926176120F + r * 0.00019882690044F))));
-    const float mantissa = 1.0F + (r + r * r * series);
-    // The exponent is raised as a number of bits; 2^128 would not fit, so half of it goes by a product.
-    const auto half_power = static_cast<std::int32_t>(power) / 2;
-    const auto rest = static_cast<std::int32_t>(power) - half_power;
-    const auto power_of_two = [](std::int32_t e) {
-        return std::bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23U);
-    };
-    return mantissa * power_of_two(half_power) * power_of_two(rest);
-}
-
-/// −infinity for 0, NaN below.
-[[gnu::noinline]] inline float log(float x) {
-    constexpr float ln_2_high = 0.693359375F;
-    constexpr float ln_2_low = -2.12194440055e-4F;
-    if (!(x > 0.0F)) {
-        return x < 0.0F || x != x ? std::bit_cast<float>(0x7FC0'0000U) : -HUGE_VALF;
-    }
-    if (x - x != 0.0F) {
-        return x;
-    }
-    constexpr float least_normal = 1.17549435e-38F;
-    constexpr float up = 8388608.0F;  // 2²³
-    const bool is_tiny = x < least_normal;
-    const auto bits = std::bit_cast<std::uint32_t>(is_tiny ? x * up : x);
-    // Exponent and mantissa so that the mantissa is √½…√2.
-    const std::uint32_t shifted = bits - 0x3F35'04F3U;
-    const auto exponent = static_cast<std::int32_t>(shifted) >> 23;
-    const float mantissa = std::bit_cast<float>(bits - (static_cast<std::uint32_t>(exponent) << 23U));
-    const float f = mantissa - 1.0F;
-    const float s = f / (2.0F + f);
-    const float w = s * s;
-    const float series = w * (0.33333333277F + w * (0.20000060920F + w * (0.14275410408F + w * 0.11665233610F)));
-    // ln(1 + f) = 2 s + 2 s·series, with 2 s = f − s f.
-    const float half_square = 0.5F * f * f;
-    const float mantissa_log = f - (half_square - s * (half_square + 2.0F * series));
-    const auto e = static_cast<float>(is_tiny ? exponent - 23 : exponent);
-    return e * ln_2_high + (mantissa_log + e * ln_2_low);
-}
-
-// Clang-format keeps these one to a line.
+// Other types are a host's, which asks for accuracy and not for the same bits everywhere.
 template <std::floating_point Other>
 Other sin(Other x) {
     return std::sin(x);

@@ -72,7 +72,7 @@ class FixedPoint {
         return static_cast<Integer>(raw_ / detail::raw_one);
     }
 
-    constexpr FixedPoint operator-() const { return from_raw(detail::negate<Policy>(raw_)); }
+    constexpr FixedPoint operator-() const { return from_raw(detail::subtract<Policy>(0, raw_)); }
     constexpr FixedPoint operator+() const { return *this; }
     friend constexpr FixedPoint operator+(FixedPoint a, FixedPoint b) {
         return seen(detail::add<Policy>(a.raw_, b.raw_));
@@ -81,7 +81,7 @@ class FixedPoint {
         return seen(detail::subtract<Policy>(a.raw_, b.raw_));
     }
     friend constexpr FixedPoint operator*(FixedPoint a, FixedPoint b) {
-        return seen(detail::multiply<Policy>(a.raw_, b.raw_));
+        return seen(detail::multiply_by_words<Policy>(a.raw_, b.raw_));
     }
     friend constexpr FixedPoint operator/(FixedPoint a, FixedPoint b) {
         return seen(detail::divide<Policy>(a.raw_, b.raw_));
@@ -92,11 +92,6 @@ class FixedPoint {
     constexpr FixedPoint& operator/=(FixedPoint other) { return *this = *this / other; }
     friend constexpr auto operator<=>(FixedPoint a, FixedPoint b) = default;
 
-    /// a b without a call, for the few products of each sample.
-    [[gnu::always_inline]] friend constexpr FixedPoint product(FixedPoint a, FixedPoint b) {
-        return seen(detail::multiply_inlined<Policy>(a.raw_, b.raw_));
-    }
-    friend constexpr FixedPoint halved(FixedPoint x) { return from_raw((x.raw_ + 1) >> 1U); }
     friend constexpr FixedPoint abs(FixedPoint x) { return x.raw_ < 0 ? -x : x; }
     friend constexpr FixedPoint sqrt(FixedPoint x) { return seen(detail::raw_sqrt(x.raw_)); }
     friend constexpr FixedPoint sin(FixedPoint x) { return seen(detail::raw_sin(x.raw_)); }
@@ -163,7 +158,7 @@ class FixedPoint {
         if (up > 31U) [[unlikely]] {
             return out_of_range(exponent, negative);
         }
-        return detail::signed_raw(detail::joined(mantissa >> 1U >> (31U - up), mantissa << up), negative);
+        return detail::signed_raw(std::uint64_t{mantissa} << up, negative);
     }
     static constexpr Raw out_of_range(std::uint32_t exponent, bool negative) {
         constexpr std::uint32_t of_no_number = 0xFF;

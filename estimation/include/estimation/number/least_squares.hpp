@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/finite.hpp"
+#include "estimation/number/literal.hpp"
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -124,11 +127,10 @@ class LeastSquares {
 
 template <typename Scalar, int N>
 bool LeastSquares<Scalar, N>::rotate(Vector x, Scalar y, Scalar weight) {
-    using std::isfinite;
     using std::sqrt;
     x *= weight;
     y *= weight;
-    if (!isfinite(x.squaredNorm()) || !isfinite(y * y)) {
+    if (!is_finite(x.squaredNorm()) || !is_finite(y * y)) {
         return false;
     }
     for (int k = 0; k < N; ++k) {
@@ -178,7 +180,7 @@ LeastSquaresSolution<Scalar, N> LeastSquares<Scalar, N>::solve(Scalar condition_
     solution.condition_number = smallest > Scalar(0) ? largest / smallest : infinity;
 
     // A parameter with more than this share in a direction that the rows do not see is not determined by them.
-    const Scalar smallest_share = Scalar(0.03F);
+    constexpr Scalar smallest_share = literal<Scalar>(0.03L);
     Matrix root = Matrix::Zero();  // V Σ⁺, so that (XᵀX)⁺ = root rootᵀ
     Vector unscaled = Vector::Zero();
     Scalar explained{0};

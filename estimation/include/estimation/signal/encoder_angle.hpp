@@ -98,7 +98,7 @@ class EncoderAngle {
         const bool first_index = last_index_number_ == 0;
         last_index_number_ = index_number;
         const std::uint32_t remainder = modulo(index_count - zero_count_);
-        const std::uint32_t tolerance = counts_per_rev_ / 1024U + 1U;
+        const std::uint32_t tolerance = counts_per_rev_ / index_tolerances_per_rev + 1U;
         if (remainder > tolerance && counts_per_rev_ - remainder > tolerance) {
             reading.event = first_index ? EncoderEvent::index_found : EncoderEvent::index_slipped;
         }
@@ -111,6 +111,9 @@ class EncoderAngle {
         const std::int32_t rest = static_cast<std::int32_t>(difference) % period;
         return static_cast<std::uint32_t>(rest < 0 ? rest + period : rest);
     }
+
+    /// A third of a degree, for the width of the index pulse.
+    static constexpr std::uint32_t index_tolerances_per_rev = 1024;
 
     std::uint32_t counts_per_rev_;
     std::int32_t too_many_;  // counts between two readings: 0.45 revolutions

@@ -2,18 +2,20 @@
 #pragma once
 
 #include "estimation/engagement/engagement_estimate.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <cmath>
 
 namespace millforce::estimation {
 
-/// Within 3.6 degrees.
+/// The same straight move of the path: within 3.6 degrees.
 template <typename Scalar>
 [[nodiscard]] constexpr bool feed_in_one_direction(const AverageForceMeasurement<Scalar>& a,
                                                    const AverageForceMeasurement<Scalar>& b) {
     const Scalar along = a.feed_direction_x * b.feed_direction_x + a.feed_direction_y * b.feed_direction_y;
-    return along > static_cast<Scalar>(0.998L);
+    constexpr Scalar cosine_of_widest = literal<Scalar>(0.998L);
+    return along > cosine_of_widest;
 }
 
 /// Averages over as many revolutions as the cut stays the same.
@@ -53,9 +55,9 @@ class ForceMemory {
 
   private:
     static constexpr int longest_revolutions = 8;
-    static constexpr Scalar forgotten_revolutions = static_cast<Scalar>(0.01L);
-    static constexpr Scalar whole_deviations = static_cast<Scalar>(2);
-    static constexpr Scalar nothing_deviations = static_cast<Scalar>(4);
+    static constexpr Scalar forgotten_revolutions = literal<Scalar>(0.01L);
+    static constexpr Scalar whole_deviations = Scalar(2);
+    static constexpr Scalar nothing_deviations = Scalar(4);
 
     /// Variance of a force's difference from its memory, over the variance of its noise.
     [[nodiscard]] Scalar variance_per_noise() const { return Scalar(1) + Scalar(1) / revolutions_; }

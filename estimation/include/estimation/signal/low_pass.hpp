@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/cutting/cut_geometry.hpp"
 #include "estimation/depth_shape/detail/phasor.hpp"
+#include "estimation/number/circle.hpp"
 
 #include <cmath>
 

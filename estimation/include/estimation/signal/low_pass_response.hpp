@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/circle.hpp"
+#include "estimation/number/literal.hpp"
+
 #include <cmath>
 
 /// How a force sensor or a drive smears a jump of force: a low-pass of second order,
@@ -16,7 +19,7 @@ namespace millforce::estimation {
 template <typename Scalar>
 struct LowPassResponse {
     Scalar corner_hz{300};
-    Scalar damping{static_cast<Scalar>(0.70710678L)};  ///< ζ
+    Scalar damping{literal<Scalar>(0.70710678118654752L)};  ///< ζ = 1/√2: Butterworth
 
     struct At {
         Scalar step{0};    ///< of 1 from t = 0
@@ -51,12 +54,12 @@ struct LowPassResponse {
     /// Samples of white noise that passed the filter tell as much as this many independent ones, per sample: the
     /// share of the band that is left. Noise bandwidth of the filter: πf/(4ζ).
     [[nodiscard]] Scalar independent_share(Scalar sample_rate_hz) const {
-        const Scalar share = static_cast<Scalar>(1.5707963L) * corner_hz / (damping * sample_rate_hz);
+        const Scalar share = pi<Scalar> * corner_hz / (Scalar(2) * damping * sample_rate_hz);
         return share < Scalar(1) ? share : Scalar(1);
     }
 
   private:
-    [[nodiscard]] Scalar omega_rad_s() const { return static_cast<Scalar>(6.2831853L) * corner_hz; }
+    [[nodiscard]] Scalar omega_rad_s() const { return turn_rad<Scalar> * corner_hz; }
 };
 
 }  // namespace millforce::estimation

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/literal.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +23,8 @@ class RevolutionProfile {
 
   public:
     static constexpr int bins = Bins;
-    static constexpr Scalar largest_step_rev = static_cast<Scalar>(0.05L);
+    /// 18 degrees: over a longer way the force is no straight line.
+    static constexpr Scalar largest_step_rev = literal<Scalar>(0.05L);
 
     explicit RevolutionProfile(int revolutions = 1) : revolutions_(revolutions > 0 ? revolutions : 1) {}
 
@@ -34,7 +37,7 @@ class RevolutionProfile {
     /// Samples that follow belong to the next revolutions.
     bool add(Scalar angle_rev, Scalar dt_s, Scalar fx_N, Scalar fy_N) {
         Scalar turned_rev = angle_rev - previous_rev_;
-        turned_rev += turned_rev < static_cast<Scalar>(-0.5L) ? Scalar(1) : Scalar(0);
+        turned_rev += turned_rev < -half_rev ? Scalar(1) : Scalar(0);
         if (!started_ || !(turned_rev >= Scalar(0)) || turned_rev > largest_step_rev || !(dt_s > Scalar(0))) {
             start(angle_rev, fx_N, fy_N);
             return false;
@@ -63,6 +66,8 @@ class RevolutionProfile {
     [[nodiscard]] int revolutions() const { return revolutions_; }
 
   private:
+    static constexpr Scalar half_rev = Scalar(0.5F);
+
     static std::size_t wrapped(int bin) {
         const int rest = bin % Bins;
         return static_cast<std::size_t>(rest < 0 ? rest + Bins : rest);
@@ -84,9 +89,8 @@ class RevolutionProfile {
     /// Grid points are counted on, so that rounding can neither lose one nor fill it twice.
     void fill_passed(Scalar angle_rev, Scalar turned_rev, Scalar fx_N, Scalar fy_N) {
         Scalar behind = angle_rev * Scalar(Bins) - Scalar(wrapped(next_bin_));  // how far the grid point lies behind
-        constexpr Scalar half_rev = Scalar(Bins) * Scalar(0.5F);
-        behind += behind < -half_rev ? Scalar(Bins) : Scalar(0);
-        behind -= behind > half_rev ? Scalar(Bins) : Scalar(0);
+        behind += behind < -half_rev * Scalar(Bins) ? Scalar(Bins) : Scalar(0);
+        behind -= behind > half_rev * Scalar(Bins) ? Scalar(Bins) : Scalar(0);
         const Scalar step = turned_rev * Scalar(Bins);
         for (; behind >= Scalar(0) && step > Scalar(0); behind -= Scalar(1), ++next_bin_) {
             const Scalar share = behind < step ? Scalar(1) - behind / step : Scalar(0);

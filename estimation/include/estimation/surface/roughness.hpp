@@ -2,6 +2,8 @@
 #pragma once
 
 #include "estimation/number/elementary.hpp"
+#include "estimation/number/finite.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <array>
@@ -72,6 +74,10 @@ struct RoughnessModel {
     static constexpr std::size_t pair(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
 };
 
+/// The two-sided 95 % quantile of the normal distribution.
+template <typename Scalar>
+inline constexpr Scalar normal_975 = literal<Scalar>(1.9599640L);
+
 /// The two-sided 95 % quantile of Student's t. Cornish–Fisher to the fourth order (Abramowitz & Stegun 26.7.5), exact
 /// for 1 and 2 degrees of freedom; from 3 on within 0.13 %, from 10 on within 0.002 %. NaN below 1.
 template <typename Scalar>
@@ -81,13 +87,12 @@ Scalar student_t_975(Scalar degrees_of_freedom) {
         return std::numeric_limits<Scalar>::quiet_NaN();
     }
     if (nu < Scalar(3)) {
-        return nu < Scalar(2) ? static_cast<Scalar>(12.706205L) : static_cast<Scalar>(4.302653L);
+        return nu < Scalar(2) ? literal<Scalar>(12.706205L) : literal<Scalar>(4.302653L);
     }
     const Scalar x = Scalar(1) / nu;
-    return static_cast<Scalar>(1.9599640L) +
-           x * (static_cast<Scalar>(2.3722712L) +
-                x * (static_cast<Scalar>(2.8224986L) +
-                     x * (static_cast<Scalar>(2.5558497L) + x * static_cast<Scalar>(1.5895341L))));
+    return normal_975<Scalar> + x * (literal<Scalar>(2.3722712L) +
+                                     x * (literal<Scalar>(2.8224986L) +
+                                          x * (literal<Scalar>(2.5558497L) + x * literal<Scalar>(1.5895341L))));
 }
 
 /// |F_x/F_z| with its variance. No estimate where either force is none or lies within three standard deviations of
@@ -96,7 +101,7 @@ template <typename Scalar>
 Measurement<Scalar> force_ratio(const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z) {
     const auto is_clear = [](const Measurement<Scalar>& f) {
         constexpr Scalar least_significance{3};
-        return f.valid && f.variance >= Scalar(0) && square(f.value) - square(f.value) == Scalar(0) &&
+        return f.valid && f.variance >= Scalar(0) && is_finite(square(f.value)) &&
                square(f.value) > square(least_significance) * f.variance && square(f.value) > Scalar(0);
     };
     if (!is_clear(f_x) || !is_clear(f_z)) {
@@ -132,7 +137,7 @@ template <typename Scalar>
 class RoughnessPredictor {
   public:
     RoughnessPredictor() = default;
-    [[gnu::cold]] explicit RoughnessPredictor(const RoughnessModel<Scalar>& model);
+    explicit RoughnessPredictor(const RoughnessModel<Scalar>& model);
 
     [[nodiscard]] bool has_model() const { return has_model_; }
     [[nodiscard]] bool has_interval() const { return has_interval_; }
@@ -167,16 +172,18 @@ class RoughnessPredictor {
     /// No ceiling without an interval, without a told range of feeds, or where R does not grow with the feed (a₂ ≤ 0:
     /// a slower feed would not help). Cost: 18 times 15 products and a root, and
     /// two predictions.
-    [[nodiscard, gnu::cold]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
-                                                      const Measurement<Scalar>& f_z, Scalar limit_um) const;
+    [[nodiscard]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
+                                           const Measurement<Scalar>& f_z, Scalar limit_um) const;
 
   private:
     static constexpr std::size_t count = static_cast<std::size_t>(roughness_variable_count);
+    /// What a drive holds of a programmed speed or feed: no cut in the loop has the tests' numbers to the digit.
+    static constexpr Scalar tolerance = literal<Scalar>(0.01L);
 
-    [[nodiscard, gnu::cold]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
-                                                                       Scalar ratio_ln_variance) const;
-    [[nodiscard, gnu::cold]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
-                                                        Scalar ratio_ln_variance) const;
+    [[nodiscard]] RoughnessPrediction<Scalar> prediction_of(const RoughnessConditions<Scalar>& cut,
+                                                            Scalar ratio_ln_variance) const;
+    [[nodiscard]] Scalar highest_feed_within(Scalar ln_limit, RoughnessValues<Scalar> z,
+                                             Scalar ratio_ln_variance) const;
     [[nodiscard]] static bool are_usable(const RoughnessConditions<Scalar>& cut);
     [[nodiscard]] RoughnessValues<Scalar> logarithms(const RoughnessConditions<Scalar>& cut) const;
     [[nodiscard]] Scalar ln_roughness(const RoughnessValues<Scalar>& z) const;
@@ -195,7 +202,7 @@ class RoughnessPredictor {
 template <typename Scalar>
 RoughnessPredictor<Scalar>::RoughnessPredictor(const RoughnessModel<Scalar>& model) : model_(model) {
     using elementary::log;
-    const auto is_positive = [](Scalar value) { return value > Scalar(0) && value - value == Scalar(0); };
+    const auto is_positive = [](Scalar value) { return value > Scalar(0) && is_finite(value); };
     has_model_ = is_positive(model.constant_um);
     if (!has_model_) {
         return;
@@ -208,7 +215,7 @@ RoughnessPredictor<Scalar>::RoughnessPredictor(const RoughnessModel<Scalar>& mod
         ln_reference_[j] = is_given ? log(model.reference[j]) : Scalar(0);
         ln_at_reference_um_ += model.exponent[j] * ln_reference_[j];
     }
-    has_model_ = ln_at_reference_um_ - ln_at_reference_um_ == Scalar(0);
+    has_model_ = is_finite(ln_at_reference_um_);
     has_interval_ = has_model_ && has_references && is_positive(model.residual_ln_sd) && is_positive(model.tests) &&
                     model.degrees_of_freedom >= Scalar(1);
     t_ = has_interval_ ? student_t_975(model.degrees_of_freedom) : Scalar(0);
@@ -217,7 +224,7 @@ RoughnessPredictor<Scalar>::RoughnessPredictor(const RoughnessModel<Scalar>& mod
 template <typename Scalar>
 bool RoughnessPredictor<Scalar>::are_usable(const RoughnessConditions<Scalar>& cut) {
     for (const Scalar value : cut) {
-        if (!(value > Scalar(0)) || !(value - value == Scalar(0))) {
+        if (!(value > Scalar(0)) || !is_finite(value)) {
             return false;
         }
     }
@@ -258,16 +265,13 @@ Scalar RoughnessPredictor<Scalar>::leverage(const RoughnessValues<Scalar>& z) co
 template <typename Scalar>
 Scalar RoughnessPredictor<Scalar>::half_interval(Scalar leverage, Scalar ratio_ln_variance) const {
     using std::sqrt;
-    constexpr Scalar normal_975 = static_cast<Scalar>(1.9599640L);
     return sqrt(square(t_ * model_.residual_ln_sd) * (Scalar(1) + leverage) +
-                square(normal_975 * model_.exponent[roughness_force_ratio]) * ratio_ln_variance);
+                square(normal_975<Scalar> * model_.exponent[roughness_force_ratio]) * ratio_ln_variance);
 }
 
 template <typename Scalar>
 void RoughnessPredictor<Scalar>::compare_with_tests(const RoughnessConditions<Scalar>& cut,
                                                     RoughnessPrediction<Scalar>& prediction) const {
-    // What a drive holds of a programmed speed or feed: no cut in the loop has the tests' numbers to the digit.
-    constexpr Scalar tolerance = static_cast<Scalar>(0.01L);
     for (std::size_t j = 0; j < count; ++j) {
         const unsigned bit = 1U << static_cast<unsigned>(j);
         if (!(model_.maximum[j] > Scalar(0))) {
@@ -278,7 +282,8 @@ void RoughnessPredictor<Scalar>::compare_with_tests(const RoughnessConditions<Sc
         }
     }
     const bool is_told = prediction.has_interval && model_.largest_leverage > Scalar(0);
-    if (is_told && prediction.leverage > model_.largest_leverage * (Scalar(1) + Scalar(5) * tolerance)) {
+    constexpr Scalar of_all_variables = Scalar(roughness_variable_count) * tolerance;
+    if (is_told && prediction.leverage > model_.largest_leverage * (Scalar(1) + of_all_variables)) {
         prediction.outside |= RoughnessPrediction<Scalar>::hidden_extrapolation;
     }
 }
@@ -294,13 +299,13 @@ RoughnessPrediction<Scalar> RoughnessPredictor<Scalar>::prediction_of(const Roug
     const RoughnessValues<Scalar> z = logarithms(cut);
     const Scalar ln_R = ln_roughness(z);
     prediction.roughness_um = exp(ln_R);
-    prediction.valid = prediction.roughness_um - prediction.roughness_um == Scalar(0);
+    prediction.valid = is_finite(prediction.roughness_um);
     if (has_interval_) {
         prediction.leverage = leverage(z);
         const Scalar half = half_interval(prediction.leverage, ratio_ln_variance);
         prediction.low_um = exp(ln_R - half);
         prediction.high_um = exp(ln_R + half);
-        prediction.has_interval = prediction.valid && prediction.high_um - prediction.high_um == Scalar(0);
+        prediction.has_interval = prediction.valid && is_finite(prediction.high_um);
     }
     compare_with_tests(cut, prediction);
     return prediction;
@@ -324,7 +329,7 @@ Scalar RoughnessPredictor<Scalar>::highest_feed_within(Scalar ln_limit, Roughnes
     if (!keeps_limit(kept)) {
         return kept - Scalar(1);
     }
-    constexpr int halvings = 16;
+    constexpr int halvings = 16;  // 2⁻¹⁶ of the fitted range of feeds, as a logarithm
     for (int k = 0; k < halvings; ++k) {
         const Scalar middle = Scalar(0.5F) * (kept + broken);
         (keeps_limit(middle) ? kept : broken) = middle;
@@ -351,7 +356,7 @@ typename RoughnessPredictor<Scalar>::FeedCeiling RoughnessPredictor<Scalar>::fee
     const Scalar feed =
         exp(highest_feed_within(log(limit_um), logarithms(cut), ratio_ln_variance) + ln_reference_[roughness_feed]);
     FeedCeiling ceiling;
-    ceiling.reachable = feed > lowest * (Scalar(1) - static_cast<Scalar>(0.01L));
+    ceiling.reachable = feed > lowest * (Scalar(1) - tolerance);
     ceiling.feed_mm_rev = clamp(feed, lowest, highest);
     cut[roughness_feed] = ceiling.feed_mm_rev;
     const RoughnessPrediction<Scalar> there = prediction_of(cut, ratio_ln_variance);

@@ -3,6 +3,7 @@
 
 #include "estimation/cutting/cut_geometry.hpp"
 #include "estimation/depth_shape/detail/phasor.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 #include <array>
@@ -111,8 +112,7 @@ class FluteSpectrum {
   private:
     /// Where the hats end, in feeds per tooth.
     [[nodiscard]] static Scalar knot(std::size_t index) {
-        constexpr Scalar knots[laws - 2] = {static_cast<Scalar>(0.1L), static_cast<Scalar>(0.3L),
-                                            static_cast<Scalar>(0.6L)};
+        constexpr Scalar knots[laws - 2] = {literal<Scalar>(0.1L), literal<Scalar>(0.3L), literal<Scalar>(0.6L)};
         return knots[index - 2];
     }
 

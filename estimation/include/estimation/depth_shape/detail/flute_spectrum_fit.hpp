@@ -3,6 +3,7 @@
 
 #include "estimation/depth_shape/detail/flute_spectrum.hpp"
 #include "estimation/number/least_squares.hpp"
+#include "estimation/number/literal.hpp"
 
 #include <Eigen/Core>
 
@@ -145,7 +146,7 @@ class FluteSpectrumFit {
   private:
     static constexpr int linear = 2 * static_cast<int>(Model::laws);
     /// Residuals far below the assumed errors are luck as well: two minima must differ by more than this allows.
-    static constexpr Scalar smallest_residual_variance = static_cast<Scalar>(0.03L);
+    static constexpr Scalar smallest_residual_variance = literal<Scalar>(0.03L);
     static constexpr Scalar condition_limit = Scalar(1e6F);
     using LinearFit = LeastSquares<Scalar, linear>;
     using JointFit = LeastSquares<Scalar, linear + 3>;
@@ -180,7 +181,7 @@ class FluteSpectrumFit {
     template <typename Fit>
     static void add_law_priors(Fit& fit, Scalar scale) {
         constexpr Scalar edge_share = Scalar(2);
-        constexpr Scalar hat_share = static_cast<Scalar>(0.3L);
+        constexpr Scalar hat_share = literal<Scalar>(0.3L);
         for (int j = 2; j < linear; ++j) {
             fit.add_prior(j, Scalar(0), Scalar(1) / (scale * (j < 4 ? edge_share : hat_share)));
         }
@@ -278,7 +279,7 @@ class FluteSpectrumFit {
     bool step(const Point& change, const FluteLimits<Scalar>& limits, const FluteKnowledge<Scalar>& knowledge,
               Scalar scale, State& state, Minimum& minimum) const {
         constexpr int most_halvings = 5;
-        constexpr Scalar longest_rad = static_cast<Scalar>(0.2L);
+        constexpr Scalar longest_rad = literal<Scalar>(0.2L);
         Scalar share{1};
         for (int halving = 0; halving < most_halvings; ++halving) {
             Point trial = minimum.point;
@@ -289,13 +290,13 @@ class FluteSpectrumFit {
             State at_trial = state_at(trial);
             const Scalar misfit = linear_fit(at_trial, scale).residual_sum_of_squares() + distance(trial, knowledge);
             if (misfit < minimum.misfit) {
-                const bool go_on = minimum.misfit - misfit > static_cast<Scalar>(1e-4L) * misfit;
+                const bool go_on = minimum.misfit - misfit > literal<Scalar>(1e-4L) * misfit;
                 minimum.misfit = misfit;
                 minimum.point = trial;
                 state = at_trial;
                 return go_on;
             }
-            share *= static_cast<Scalar>(0.4L);
+            share *= literal<Scalar>(0.4L);
         }
         return false;
     }

@@ -57,7 +57,8 @@ constexpr Octant octant_of(Raw angle_rad) {
     constexpr std::uint64_t turns_per_rad = 0x28BE'60DB'9391'054AULL;  // 2⁶⁴/2π
     const std::uint64_t x = magnitude(angle_rad);
     // Turns modulo 1 in Q64: the whole turns fall off the upper end.
-    const std::uint64_t turns = high_word(x) * turns_per_rad + scaled(std::uint64_t{low_word(x)} << 32U, turns_per_rad);
+    const std::uint64_t turns =
+        high_word(x) * turns_per_rad + wide_product(std::uint64_t{low_word(x)} << 32U, turns_per_rad).high;
     const std::uint64_t turned = angle_rad < 0 ? std::uint64_t{0} - turns : turns;
     const auto quarter = static_cast<unsigned>((turned + (1ULL << 61U)) >> 62U);
     const auto left = static_cast<std::int64_t>(turned - (std::uint64_t{quarter} << 62U));
@@ -80,49 +81,13 @@ constexpr Raw sine_of(Octant angle) {
     return raw_of_q31((angle.quarter & 2U) == 0U ? value : -value);
 }
 
-MILLFORCE_CALLED constexpr Raw raw_sin(Raw angle_rad) {
+constexpr Raw raw_sin(Raw angle_rad) {
     return sine_of(octant_of(angle_rad));
 }
-MILLFORCE_CALLED constexpr Raw raw_cos(Raw angle_rad) {
+constexpr Raw raw_cos(Raw angle_rad) {
     Octant angle = octant_of(angle_rad);
     angle.quarter = (angle.quarter + 1U) & 3U;
     return sine_of(angle);
-}
-
-/// √x to 32 significant bits, x ≥ 0. Newton's iteration for 1/√m on the leading 32 bits, and one correction of √m
-/// itself.
-MILLFORCE_CALLED constexpr Raw raw_sqrt(Raw x) {
-    if (x <= 0) {
-        return 0;
-    }
-    // x = m 4^e with m of 62 or 63 bits, so that √m has 31 or 32.
-    const auto shift = static_cast<unsigned>(std::countl_zero(static_cast<std::uint64_t>(x))) & ~1U;
-    const std::uint64_t m = static_cast<std::uint64_t>(x) << shift;
-    const auto top = high_word(m);  // Q32: ¼ … 1
-    // 1/√top in Q30 to 24 bits, from a line that is 9 % off at most.
-    std::uint32_t y = 0x887E'0000U - high_word(product(top, 0x4DFE'0000U));
-    for (int round = 0; round < 3; ++round) {
-        const std::uint32_t y2 = high_word(product(y, y));                              // Q28
-        const std::uint32_t rest = 0xC000'0000U - (high_word(product(y2, top)) << 2U);  // 3 − m y² in Q30
-        y = high_word(product(y, rest) << 1U);
-    }
-    std::uint64_t root = product(top, y) >> 30U;
-    // √m = root + (m − root²)/(2 √m), but for a unit.
-    const auto miss = static_cast<std::int32_t>(static_cast<std::int64_t>(m - root * root) >> 16U);
-    const std::int64_t correction = (std::int64_t{miss} * static_cast<std::int32_t>(y >> 1U)) >> 46U;
-    root += static_cast<std::uint64_t>(correction);
-    root = root > 0xFFFF'FFFFULL ? 0xFFFF'FFFFULL : root;
-    while (root * root > m) {
-        --root;
-    }
-    while (root < 0xFFFF'FFFFULL && (root + 1U) * (root + 1U) <= m) {
-        ++root;
-    }
-    root += m - root * root > root ? 1U : 0U;
-    // √x in raw is √(x 2³²) = √m 2^(16 − shift/2).
-    const int up = 16 - static_cast<int>(shift / 2U);
-    return up >= 0 ? static_cast<Raw>(root << static_cast<unsigned>(up))
-                   : static_cast<Raw>((root + (1ULL << static_cast<unsigned>(-up - 1))) >> static_cast<unsigned>(-up));
 }
 
 /// atan(r)/r over r² for r ≤ tan(π/8): 2.2e-11.
@@ -139,8 +104,7 @@ constexpr Fraction share_of(std::uint32_t a, std::uint32_t b) {
     if (a >= b) {
         return INT32_MAX;
     }
-    const auto shift = static_cast<unsigned>(std::countl_zero(b));
-    return static_cast<Fraction>(divide_normalised(a << shift, 0, Divisor(b << shift)).quotient >> 1U);
+    return static_cast<Fraction>((std::uint64_t{a} << 31U) / b);
 }
 
 /// atan(small/large) for 0 ≤ small ≤ large, large > 0.
@@ -149,7 +113,7 @@ constexpr Raw arc_tangent(std::uint64_t small, std::uint64_t large) {
     const auto shift = static_cast<unsigned>(std::countl_zero(large));
     const std::uint32_t a = high_word(small << shift);
     const std::uint32_t b = high_word(large << shift);
-    const bool beyond_eighth = a > high_word(product(b, static_cast<std::uint32_t>(tan_of_eighth)) << 1U);
+    const bool beyond_eighth = a > high_word(std::uint64_t{b} * static_cast<std::uint32_t>(tan_of_eighth) << 1U);
     // atan r = π/4 − atan((1 − r)/(1 + r))
     const std::uint32_t numerator = beyond_eighth ? (b - a) >> 1U : a;
     const std::uint32_t denominator = beyond_eighth ? static_cast<std::uint32_t>((std::uint64_t{a} + b) >> 1U) : b;
@@ -159,7 +123,7 @@ constexpr Raw arc_tangent(std::uint64_t small, std::uint64_t large) {
 }
 
 /// −π…π; 0 for (0, 0).
-MILLFORCE_CALLED constexpr Raw raw_atan2(Raw y, Raw x) {
+constexpr Raw raw_atan2(Raw y, Raw x) {
     const std::uint64_t across = magnitude(y);
     const std::uint64_t along = magnitude(x);
     if (across == 0 && along == 0) {
@@ -171,8 +135,8 @@ MILLFORCE_CALLED constexpr Raw raw_atan2(Raw y, Raw x) {
 }
 
 /// 0…π, for −1 ≤ x ≤ 1. By the half-angle, exact where x is next to ±1.
-MILLFORCE_CALLED constexpr Raw raw_acos(Raw x) {
-    const Raw sine = raw_sqrt(multiply<NeverSaturates>(raw_one - x, raw_one + x));
+constexpr Raw raw_acos(Raw x) {
+    const Raw sine = raw_sqrt(multiply_by_words<NeverSaturates>(raw_one - x, raw_one + x));
     return raw_atan2(sine, x);
 }
 
@@ -201,12 +165,12 @@ constexpr Raw power_of_two_of(Raw e) {
 constexpr Raw log2e_times(Raw x) {
     constexpr std::uint64_t log2e_minus_one = 0x7154'7652'B82F'E177ULL;  // (log₂ e − 1) 2⁶⁴
     const std::uint64_t m = magnitude(x);
-    return signed_raw(m + scaled(m, log2e_minus_one), x < 0);
+    return signed_raw(m + wide_product(m, log2e_minus_one).high, x < 0);
 }
 
 /// eˣ; below −22.5 it is 0.
 template <typename Policy>
-MILLFORCE_CALLED constexpr Raw raw_exp(Raw x) {
+constexpr Raw raw_exp(Raw x) {
     constexpr Raw highest = 22 * raw_one;
     constexpr Raw lowest = -23 * raw_one;
     if (x >= highest) {
@@ -222,7 +186,7 @@ inline constexpr std::array<Fraction, 5> arc_tanh_over_s{q31(0.50000000000208989
 
 /// ln x, x > 0; for x ≤ 0 the logarithm of half the resolution, saturated.
 template <typename Policy>
-MILLFORCE_CALLED constexpr Raw raw_log(Raw x) {
+constexpr Raw raw_log(Raw x) {
     constexpr Raw lowest = -98242467570;  // ln 2⁻³³
     if (x <= 0) {
         Policy::saturated();
