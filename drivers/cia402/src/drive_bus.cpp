@@ -101,7 +101,6 @@ void DriveBus::begin_cycle(std::uint64_t time_us) {
         node.begin_cycle();
     }
     has_beside_bus_ = false;
-    beside_bus_ = {};
     sync_time_us_ = time_us;
     sync_clock_.on_sync(time_us);
     had_sync_ = true;
@@ -128,7 +127,7 @@ void DriveBus::add(const hal::DriveSample& beside_bus) {
     if (!cycle_open_) {
         return;
     }
-    hal::add(beside_bus_, beside_bus);
+    beside_bus_ = beside_bus;
     has_beside_bus_ = true;
     if (is_complete()) {
         hand_over();
@@ -144,7 +143,9 @@ void DriveBus::hand_over() {
         nodes_[k].end_cycle();
         put(k, reading);
     }
-    hal::add(sample_, beside_bus_);
+    if (has_beside_bus_) {
+        hal::add(sample_, beside_bus_);
+    }
     if ((sample_.present & hal::mask(hal::Present::spindle_count)) != 0) {
         sync_clock_.on_count(sample_.spindle_count);
     }

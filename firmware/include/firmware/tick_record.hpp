@@ -37,16 +37,17 @@ struct TickRecord {
 template <typename Tick>
 [[nodiscard]] TickRecord tick_record(const Tick& tick, const hal::FeedOverride& output, std::uint64_t time_us);
 
-/// Peak and threshold of the total force for a record, NaN where it has no tooth force. Cost: that of
-/// estimation::TotalForce.
-struct ShownForces {
-    float peak_N = TickRecord::no_estimate;
-    float limit_N = TickRecord::no_estimate;
-};
 template <typename Scalar>
 [[nodiscard]] estimation::TotalForce<Scalar> total_force(const Parameters<Scalar>& parameters) {
     return {estimator_settings(parameters), parameters.tool.law};
 }
+
+/// Peak and threshold of the total force; NaN for a record without a tooth force.
+struct ShownForces {
+    float peak_N = TickRecord::no_estimate;
+    float limit_N = TickRecord::no_estimate;
+};
+/// Cost: that of TotalForce::of(), not for the real-time path.
 [[nodiscard]] ShownForces shown_forces(const estimation::TotalForce<float>& total, const TickRecord& record);
 
 }  // namespace millforce::firmware

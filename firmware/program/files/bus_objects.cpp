@@ -113,7 +113,7 @@ void take_from_bus(const std::string& file, std::size_t place, const LocalDriveK
     const bool is_on_bus = drive.node_id != 0 && has_pdo;
     if (!is_on_bus && !keys.has_counter()) {
         refuse_local(file, place,
-                     fmt::format("nothing tells its motion, expected count_file, or node_id and tpdo1 in [{}]", table));
+                     fmt::format("its motion is missing, expected count_file, or node_id and tpdo1 in [{}]", table));
     }
     drive.node_id = is_on_bus ? drive.node_id : std::uint8_t{0};
     drive.gives_current = false;

@@ -40,7 +40,7 @@ class DriveSource {
     [[nodiscard]] virtual bool take_sample(DriveSample& sample) = 0;
     /// Mask of Present: what this source, perhaps with another one, gives when all is well.
     [[nodiscard]] virtual std::uint8_t complete() const = 0;
-    /// Why it is so is told by each source's own health.
+    /// For the supervisor; each source's own health says why.
     [[nodiscard]] virtual SourceState state() const = 0;
 
   protected:

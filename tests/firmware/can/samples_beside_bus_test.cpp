@@ -44,7 +44,7 @@ hal::DriveSample sample_of(int cycle, bool has_x_current) {
 }
 
 /// SYNC every millisecond, and what is beside the bus right after it.
-void run(CanController& controller, int first, int cycles, bool has_x_current, bool polls_late = false) {
+void sync_and_add(CanController& controller, int first, int cycles, bool has_x_current, bool polls_late = false) {
     for (int cycle = first; cycle < first + cycles; ++cycle) {
         const std::uint64_t time_us = start_us + 1000U * static_cast<unsigned>(cycle);
         hal::CanFrame sync;
@@ -65,7 +65,7 @@ TEST_GROUP(SamplesBesideBus){};
 TEST(SamplesBesideBus, a_machine_without_a_drive_on_its_bus_ticks_once_per_sync) {
     TickTimes ticks;
     CanController controller(nothing_on_the_bus(), a_mill(), &ticks);
-    run(controller, 0, 200, true);
+    sync_and_add(controller, 0, 200, true);
     UNSIGNED_LONGS_EQUAL(200, ticks.records.size());
     CHECK_FALSE(controller.conditions().has(firmware::Condition::input_incomplete));
     DOUBLES_EQUAL(5.3, controller.sample().spindle_current_A, 1e-5);
@@ -76,8 +76,8 @@ TEST(SamplesBesideBus, frames_and_samples_in_their_order_give_the_same_ticks_how
     TickTimes late;
     CanController one(nothing_on_the_bus(), a_mill(), &in_time);
     CanController other(nothing_on_the_bus(), a_mill(), &late);
-    run(one, 0, 500, true);
-    run(other, 0, 500, true, true);
+    sync_and_add(one, 0, 500, true);
+    sync_and_add(other, 0, 500, true, true);
     UNSIGNED_LONGS_EQUAL(in_time.records.size(), late.records.size());
     for (std::size_t k = 0; k < late.records.size(); ++k) {
         CHECK(in_time.records[k].time_us == late.records[k].time_us);
@@ -87,9 +87,9 @@ TEST(SamplesBesideBus, frames_and_samples_in_their_order_give_the_same_ticks_how
 
 TEST(SamplesBesideBus, a_current_that_stays_away_is_incomplete_input_and_then_the_fault_stale_input) {
     CanController controller(nothing_on_the_bus(), a_mill());
-    run(controller, 0, 100, true);
+    sync_and_add(controller, 0, 100, true);
     CHECK_FALSE(controller.output().fault != 0);
-    run(controller, 100, 300, false);
+    sync_and_add(controller, 100, 300, false);
     CHECK(controller.conditions().has(firmware::Condition::input_incomplete));
     UNSIGNED_LONGS_EQUAL(static_cast<unsigned>(control::Fault::stale_input), controller.output().fault);
     CHECK(controller.output().hold);

@@ -54,7 +54,7 @@ class DriveBus final : public hal::DriveSource {
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
     void poll(std::uint64_t time_us) override;
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
-    /// Of the SYNC period in work; without one it is not used.
+    /// What another source gives for the SYNC period in work; the last one counts. Not used where no period is open.
     void add(const hal::DriveSample& beside_bus);
     /// True once per SYNC period. The sample's time is when the drives latched it: see SyncClock.
     [[nodiscard]] bool take_sample(hal::DriveSample& sample) override;

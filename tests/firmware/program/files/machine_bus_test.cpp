@@ -186,7 +186,7 @@ TEST(LocalIoFile, what_is_missing_or_told_twice_is_named_with_its_table_and_key)
     STRCMP_CONTAINS("[iio] device", local_error("device = \"/sys/bus/iio/devices/iio:device0\"\n", "").c_str());
     STRCMP_CONTAINS("iio.x: a tpdo of [bus.x] tells the same",
                     local_error("\"0x606C:32\"]", "\"0x606C:32\", \"0x6078:16\"]").c_str());
-    STRCMP_CONTAINS("iio.x: nothing tells its motion", local_error("node_id = 6\n", "").c_str());
+    STRCMP_CONTAINS("iio.x: its motion is missing", local_error("node_id = 6\n", "").c_str());
     STRCMP_CONTAINS("bus.x: a needed object is in none of tpdo1", local_error(", \"0x606C:32\"", "").c_str());
     STRCMP_CONTAINS("did you mean largest_A?", local_error("A_per_V = 10", "A_per_V = 10\nlargest_a = 9").c_str());
     STRCMP_CONTAINS("override_voltage.channel",
