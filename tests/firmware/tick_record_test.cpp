@@ -16,12 +16,13 @@ namespace {
 struct Run {
     explicit Run(int samples) {
         for (int k = 0; k < samples; ++k) {
-            output = tick.step(instructions::sample_of(k, parameters, cut), instructions::program_at(k, cut));
+            output = firmware::step_and_work(tick, instructions::sample_of(k, parameters, cut),
+                                             instructions::program_at(k, cut));
         }
     }
     [[nodiscard]] TickRecord record() const { return firmware::tick_record(tick, output, 12'345); }
 
-    static constexpr const instructions::Cut& cut = instructions::fast_cut;
+    static constexpr const instructions::Cut& cut = instructions::fast_widening_cut;
     firmware::Parameters<float> parameters = instructions::machine_and_tool();
     firmware::ForceControlTick<float> tick{parameters};
     hal::FeedOverride output{};

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# CMake toolchain file for bare-metal Arm: MILLFORCE_CPU is cortex-m3, cortex-m4f, cortex-m7 or cortex-r5f.
+# CMake toolchain file for bare-metal Arm: MILLFORCE_CPU is cortex-m3, cortex-m4f or cortex-r5f.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
@@ -8,17 +8,15 @@ set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
 
-set(MILLFORCE_CPU "cortex-m4f" CACHE STRING "cortex-m3, cortex-m4f, cortex-m7 or cortex-r5f")
+set(MILLFORCE_CPU "cortex-m4f" CACHE STRING "cortex-m3, cortex-m4f or cortex-r5f")
 if(MILLFORCE_CPU STREQUAL "cortex-m3")
     set(cpu_flags "-mcpu=cortex-m3 -mthumb -mfloat-abi=soft")
 elseif(MILLFORCE_CPU STREQUAL "cortex-m4f")
     set(cpu_flags "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard")
-elseif(MILLFORCE_CPU STREQUAL "cortex-m7")
-    set(cpu_flags "-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard")
 elseif(MILLFORCE_CPU STREQUAL "cortex-r5f")
     set(cpu_flags "-mcpu=cortex-r5 -marm -mfpu=vfpv3-d16 -mfloat-abi=hard")
 else()
-    message(FATAL_ERROR "MILLFORCE_CPU is '${MILLFORCE_CPU}', expected cortex-m3, cortex-m4f, cortex-m7 or cortex-r5f")
+    message(FATAL_ERROR "MILLFORCE_CPU is '${MILLFORCE_CPU}', expected cortex-m3, cortex-m4f or cortex-r5f")
 endif()
 
 # What the core is built with on the host too (MillforceTargets.cmake) and, for images, what sheds unused code.
