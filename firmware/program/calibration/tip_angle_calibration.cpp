@@ -59,7 +59,8 @@ std::vector<TipAngle> angles_of(const ForceShapeCalibrationOptions& options,
         if (!forces.valid || forces.is_new_frame) {
             monitors[k].restart();
         }
-        if (forces.valid && monitors[k].add(dt_s, forces.angle_rev * estimation::turn_rad<float>, forces.along_N, forces.across_N) &&
+        if (forces.valid &&
+            monitors[k].add(dt_s, forces.angle_rev * estimation::turn_rad<float>, forces.along_N, forces.across_N) &&
             !angles[k].valid) {
             const estimation::DepthsOfCut<float> known{static_cast<float>(cuts[k].axial_depth_mm),
                                                        static_cast<float>(cuts[k].radial_width_mm)};
