@@ -178,7 +178,8 @@ void RoughnessFitSolver::fill_model(const Solution& solution) {
         ln_C -= model.exponent[k] * mean_ln_[k];
         to_C(1 + j) = -mean_ln_[k];
         for (int i = 0; i <= j; ++i) {
-            model.leverage[model.pair(k, static_cast<std::size_t>(i))] = is_held(i) ? 0.0 : inverse_(1 + j, 1 + i);
+            model.leverage[RoughnessModel<double>::pair(k, static_cast<std::size_t>(i))] =
+                is_held(i) ? 0.0 : inverse_(1 + j, 1 + i);
         }
     }
     model.constant_um = std::exp(ln_C);
