@@ -46,7 +46,7 @@ hal::DriveSample sample_of(int cycle, bool has_x_current) {
 /// SYNC every millisecond, and what is beside the bus right after it.
 void sync_and_add(CanController& controller, int first, int cycles, bool has_x_current, bool polls_late = false) {
     for (int cycle = first; cycle < first + cycles; ++cycle) {
-        const std::uint64_t time_us = start_us + 1000U * static_cast<unsigned>(cycle);
+        const std::uint64_t time_us = start_us + 1000 * static_cast<std::uint64_t>(cycle);
         hal::CanFrame sync;
         sync.id = 0x080;
         if (polls_late) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/local_line.hpp"
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 #include <CppUTest/TestHarness.h>
 
@@ -11,7 +12,7 @@ using namespace millforce::host;
 namespace {
 
 bool same_bits(float a, float b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
 hal::DriveSample read(const std::string& line) {
