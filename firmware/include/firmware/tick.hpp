@@ -348,8 +348,7 @@ class ForceControlTick {
         input_.rapid = program.rapid;
         input_.feed_hold = program.feed_hold;
         control_ = controller_.step(input_);
-        const bool cuts = control_.state == control::CutState::entry || control_.state == control::CutState::in_cut;
-        is_steady_ = cuts && !control_.fading && !control_.rising;
+        is_steady_ = control::is_cutting(control_.state) && !control_.fading && !control_.rising;
     }
 
     hal::FeedOverride output() {

@@ -14,6 +14,8 @@ namespace millforce::estimation {
 template <typename Scalar>
 inline constexpr Scalar pi = static_cast<Scalar>(3.14159265358979323846L);
 template <typename Scalar>
+inline constexpr Scalar turn_rad = static_cast<Scalar>(6.28318530717958647692L);  ///< 2π
+template <typename Scalar>
 inline constexpr Scalar turns_per_rad = static_cast<Scalar>(0.159154943091895336L);  ///< 1/2π
 
 /// Which edge of the cut is fixed while its width varies.
