@@ -3,19 +3,55 @@
 
 #include <cstdint>
 
+/// The names that the controller shows: where the tool stands (CutState), why the controller has given up (Fault), and
+/// what holds the override down (Limit). Their numbers go out over CAN and into records: append, never renumber.
+
 namespace millforce::control {
 
-/// Where the tool is in relation to the cut, as far as the forces tell. Each line says how the state is entered and
-/// how it is left.
+/// Where the tool stands in relation to the cut, as the forces show it. CutStates (cut_states.hpp) moves between them.
+/// Any state but `fault` is left for `hold` while the feed is held, and for `fault` by each of the faults below.
 enum class CutState : std::uint8_t {
-    air = 0,  ///< start; from `exit` after the exit travel without contact or a sharp turn. Left by contact → entry.
-    entry = 1,   ///< contact, from air, exit or hold. Left after entry revolutions and travel → in_cut, or → exit.
-    in_cut = 2,  ///< a full window of cutting is behind. Left by lost contact → exit, no estimate for long → hold.
-    exit = 3,  ///< contact lost. Left by contact → entry (if it had cut: at that feed), by the exit travel or a turn →
-               ///< air.
-    hold = 4,   ///< nothing to judge by, or the feed is held: the override is not raised. Left when estimates return.
-    fault = 5,  ///< latched. Left only by reset(), at standstill.
+    /// No contact.
+    /// Entered: at the start, and from `exit` after the exit travel without contact or at a sharp turn of the path.
+    /// Left: contact → entry.
+    air = 0,
+
+    /// The cutter enters the workpiece, and its engagement still grows.
+    /// Entered: by contact, from air, exit or hold.
+    /// Left: after the entry revolutions and the entry travel, both → in_cut; contact lost → exit; no estimate for
+    /// longer than no_estimate_hold_s → hold.
+    entry = 1,
+
+    /// The cutter is in the cut, and the estimate describes it.
+    /// Entered: from entry alone.
+    /// Left: contact lost → exit; no estimate for longer than no_estimate_hold_s → hold.
+    in_cut = 2,
+
+    /// Contact was lost: the end of a cut or a gap in it. The feed of the cut is kept, not raised.
+    /// Entered: from entry or in_cut by lost contact, and from hold by an estimate without contact.
+    /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air.
+    exit = 3,
+
+    /// There is nothing to judge by, or the feed is held: the override is not raised.
+    /// Entered: from any state but fault while the feed is held, from entry or in_cut for want of an estimate.
+    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit.
+    hold = 4,
+
+    /// The controller has given up: lowest override, feed held.
+    /// Entered: from any state, by a Fault.
+    /// Left: by FeedController::reset() alone, → air.
+    fault = 5,
 };
+
+/// The tool cuts, as far as the forces show: the law is in charge, and a rise needs a fresh estimate.
+[[nodiscard]] constexpr bool is_cutting(CutState state) {
+    return state == CutState::entry || state == CutState::in_cut;
+}
+
+/// The forces show no contact: the law has nothing to say.
+[[nodiscard]] constexpr bool is_out_of_cut(CutState state) {
+    return state == CutState::air || state == CutState::exit;
+}
 
 /// Why the controller has given up. Latched; every fault ends at the minimum override with the feed held.
 enum class Fault : std::uint8_t {

@@ -2,43 +2,48 @@
 #pragma once
 
 #include "control/cut_state.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
+#include "estimation/number/finite.hpp"
+#include "estimation/number/literal.hpp"
 
 /// What the feed controller (feed_controller.hpp) is set up with, what it is given at each step and what it answers.
+/// Its parts (cut states, feed law, ceilings) are given the same, and StepMotion. They keep no copy of the parameters:
+/// there is one, the controller's.
 
 namespace millforce::control {
+
+using estimation::literal;
 
 template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{1000};  ///< F_tooth,max
     Scalar setpoint_share{
-        static_cast<Scalar>(0.97L)};  ///< of the limit that steady cutting is held at; the rest is for noise
-    Scalar caution_sd{
-        static_cast<Scalar>(0.75L)};  ///< standard deviations of the tooth's force that are counted on top of it
-    Scalar override_min{static_cast<Scalar>(0.1L)};
-    Scalar override_max{static_cast<Scalar>(1.5L)};
-    Scalar recovery_per_rev{static_cast<Scalar>(0.25L)};         ///< share of the way up that one revolution goes
-    Scalar slew_up_per_s{2};                                     ///< largest rise of the override per second
-    Scalar slew_down_per_s{40};                                  ///< largest fall
-    Scalar entry_feed_per_tooth_mm{static_cast<Scalar>(0.05L)};  ///< ceiling from contact until the estimate stands
+        literal<Scalar>(0.97L)};       ///< of the limit that steady cutting is held at; the rest is for noise
+    Scalar caution_sd{Scalar(0.75F)};  ///< standard deviations of the tooth's force that are counted on top of it
+    Scalar override_min{literal<Scalar>(0.1L)};
+    Scalar override_max{Scalar(1.5F)};
+    Scalar recovery_per_rev{Scalar(0.25F)};                  ///< share of the way up that one revolution goes
+    Scalar slew_up_per_s{2};                                 ///< largest rise of the override per second
+    Scalar slew_down_per_s{40};                              ///< largest fall
+    Scalar entry_feed_per_tooth_mm{literal<Scalar>(0.05L)};  ///< ceiling from contact until the estimate stands
     Scalar air_feed_per_tooth_mm{
-        static_cast<Scalar>(0.05L)};         ///< ceiling in air: the feed at which the tool may meet the workpiece
+        literal<Scalar>(0.05L)};             ///< ceiling in air: the feed at which the tool may meet the workpiece
     Scalar highest_programmed_feed_mm_s{0};  ///< highest F of the program; 0: learnt as blocks come
-    Scalar max_feed_per_tooth_mm{static_cast<Scalar>(0.2L)};  ///< what the tool's edge and chip space allow
+    Scalar max_feed_per_tooth_mm{literal<Scalar>(0.2L)};  ///< what the tool's edge and chip space allow
     Scalar entry_revolutions{2};
     Scalar entry_travel_mm{5};         ///< … and this travel: until then the engagement still grows (cutter radius)
     Scalar exit_travel_mm{2};          ///< without contact before `exit` becomes `air`
     Scalar contact_force_N{40};        ///< F_at that counts as contact, beside its noise
     Scalar contact_significance{4};    ///< … and this many standard deviations
     Scalar surge_radial_immersion{0};  ///< largest immersion that may come without warning; 0: none does
-    Scalar surge_share{static_cast<Scalar>(1.03L)};  ///< of the limit that such a surge may reach
-    Scalar turn_radial_immersion{2};                 ///< … after a sharp turn of the path; 0: a turn changes nothing
-    Scalar turn_travel_mm{2};                        ///< for so long after a turn
-    Scalar overload_share{
-        static_cast<Scalar>(1.35L)};  ///< of the limit above which the feed is held and the fault latched
-    Scalar overload_revolutions{3};   ///< for so long, though the override already falls
-    Scalar Ra_limit_um{0};            ///< that the predicted R_a's upper bound may reach; 0: none
-    Scalar no_estimate_hold_s{static_cast<Scalar>(0.5L)};  ///< in cut without estimate for longer: state hold
-    Scalar stale_s{static_cast<Scalar>(0.05L)};            ///< without a sample for longer: fault
+    Scalar surge_share{literal<Scalar>(1.03L)};     ///< of the limit that such a surge may reach
+    Scalar turn_radial_immersion{2};                ///< … after a sharp turn of the path; 0: a turn changes nothing
+    Scalar turn_travel_mm{2};                       ///< for so long after a turn
+    Scalar overload_share{literal<Scalar>(1.35L)};  ///< of the limit above which the feed is held and the fault latched
+    Scalar overload_revolutions{3};                 ///< for so long, though the override already falls
+    Scalar Ra_limit_um{0};                          ///< that the predicted R_a's upper bound may reach; 0: none
+    Scalar no_estimate_hold_s{Scalar(0.5F)};        ///< in cut without estimate for longer: state hold
+    Scalar stale_s{literal<Scalar>(0.05L)};         ///< without a sample for longer: fault
     Scalar teeth{4};
     bool monitor_only{false};  ///< estimate and watch, leave the override to the operator
 };
@@ -60,7 +65,7 @@ struct CutEstimateForControl {
     Scalar surge_cutting_share{1};      ///< the same after a surge
     Scalar turn_ratio{1};               ///< as surge_ratio, to turn_radial_immersion
     Scalar turn_cutting_share{1};
-    Scalar feed_exponent{static_cast<Scalar>(0.75L)};  ///< 1 + p_s
+    Scalar feed_exponent{Scalar(0.75F)};  ///< 1 + p_s
     Scalar section_mm2{0};        ///< of the cut, width × depth: its trend is watched, not its size; 0: not known
     Scalar section_noise_mm2{0};  ///< the part of its deviation that differs from one window to the next
     Scalar feed_mm_s{0};          ///< path speed over the same window
@@ -78,7 +83,7 @@ struct SurfaceForControl {
 
 template <typename Scalar>
 struct ControlInput {
-    Scalar dt_s{static_cast<Scalar>(0.001L)};
+    Scalar dt_s{literal<Scalar>(0.001L)};
     Scalar programmed_feed_mm_s{0};
     Scalar operator_override{1};
     Scalar path_speed_mm_s{0};
@@ -92,6 +97,16 @@ struct ControlInput {
     SurfaceForControl<Scalar> surface{};
 };
 
+/// What has passed since the last step, worked out once for all parts of the controller. Finite whatever comes in.
+template <typename Scalar>
+struct StepMotion {
+    Scalar dt_s{0};             ///< 0…1; a step of unknown, negative or absurd length counts as 0
+    Scalar path_speed_mm_s{0};  ///< 0 where it is not known
+    Scalar travel_mm{0};        ///< path_speed_mm_s · dt_s
+    Scalar tooth_period_s{0};   ///< 2π/(z ω); 0 where the spindle's speed is not known
+    bool turned = false;        ///< a sharp turn of the path is noticed in this step (path_turn.hpp)
+};
+
 template <typename Scalar>
 struct ControlOutput {
     Scalar ratio{0};
@@ -102,5 +117,35 @@ struct ControlOutput {
     bool fading = false;  ///< the section of the cut falls: the tool leaves, or the part ends
     bool rising = false;  ///< the override is on its way up, by more than a quarter
 };
+
+/// `ratio` within the override's range. NaN becomes the minimum.
+template <typename Scalar>
+[[nodiscard]] Scalar bounded(const FeedControllerParameters<Scalar>& parameters, Scalar ratio) {
+    if (!(ratio >= parameters.override_min)) {
+        return parameters.override_min;
+    }
+    return ratio > parameters.override_max ? parameters.override_max : ratio;
+}
+
+/// A feed or a speed that can be divided by: > 0, neither infinite nor NaN.
+template <typename Scalar>
+[[nodiscard]] bool is_known(Scalar feed_or_speed) {
+    return feed_or_speed > Scalar(0) && estimation::is_finite(feed_or_speed);
+}
+
+/// The programmed feed and the spindle's speed are known: a feed can be turned into an override.
+template <typename Scalar>
+[[nodiscard]] bool feed_and_speed_are_known(const ControlInput<Scalar>& input) {
+    return is_known(input.programmed_feed_mm_s) && is_known(input.cut.spindle_speed_rad_s);
+}
+
+/// The override at which the teeth take `feed_per_tooth_mm` each: f_z z n/F. Needs feed_and_speed_are_known.
+template <typename Scalar>
+[[nodiscard]] Scalar override_of_feed_per_tooth(Scalar feed_per_tooth_mm, Scalar teeth,
+                                                const ControlInput<Scalar>& input) {
+    const Scalar feed_mm_s =
+        feed_per_tooth_mm * teeth * input.cut.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
+    return feed_mm_s / input.programmed_feed_mm_s;
+}
 
 }  // namespace millforce::control

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instantiates the controller for float, so that the core's compiler flags and warnings see all of it.
-#include "control/feed_controller.hpp"
+#include "control/feed_controller_impl.hpp"
 
 namespace millforce::control {
 
 template class FeedController<float>;
+template class FeedController<estimation::Fixed>;
 
 }  // namespace millforce::control

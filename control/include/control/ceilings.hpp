@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "control/cut_state.hpp"
+#include "control/cut_trend.hpp"
+#include "control/feed_controller_data.hpp"
+#include "estimation/number/finite.hpp"
+#include "estimation/number/fixed_point.hpp"
+
+/// The ceilings of the override. Each says how fast the feed may be for one reason, and the lowest wins; its Limit is
+/// the reason that is shown. f_z: feed per tooth, z: teeth, n: revolutions per second, F: the programmed feed.
+///
+///   air        f_z,air z n/F · F/F_highest: the tool may meet the workpiece at any moment, and the next block's F acts
+///              at once, the override on it only after the latency. Also while the tool plunges (limit entry_feed, and
+///              at most 1): the law does not describe that.
+///   entry      the larger of f_z,entry z n/F and, behind a gap in a cut, the override that the tool came with
+///   exit       the override that contact was lost with
+///   feed per tooth   f_z,max z n/F: what edge and chip space allow
+///   force      the demand of the law (feed_law.hpp)
+///   surge      the override at which a surge to surge_radial_immersion would reach surge_share of the limit, by the
+///   law
+///              with F · surge_ratio. While the cut grows, the surge is under way: then also the override at the last
+///              estimate before the growth, until it is over (cut_trend.hpp).
+///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
+///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
+///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way
+///   operator   the operator's override below 1; NaN or infinite counts as 0
+///
+/// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed or speed is not known, in a
+/// cut without a tooth force, without a prediction of R_a that is asked for, and in state hold. In a cut that fades it
+/// is one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
+///
+/// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. What has to stand from one estimate
+/// to the next is a named member, override_before_growth_ for instance: the override at that moment.
+///
+/// The result is within [override_min, override_max]. A ceiling that is NaN counts as 0. Cost: some 60 operations, six
+/// divisions; at a fresh estimate two of the law's override_for. Not thread-safe.
+
+namespace millforce::control {
+
+/// A ceiling of the override and the reason for it.
+template <typename Scalar>
+struct Ceiling {
+    Scalar override_ratio{0};
+    Limit limit = Limit::none;
+
+    /// Among equal ceilings the first is the reason.
+    void lower_to(Scalar ceiling, Limit reason) {
+        if (!(override_ratio <= ceiling)) {
+            override_ratio = estimation::is_finite(ceiling) ? ceiling : Scalar(0);
+            limit = reason;
+        }
+    }
+};
+
+template <typename Scalar>
+class Ceilings {
+  public:
+    using Parameters = FeedControllerParameters<Scalar>;
+
+    /// Where the rest of the controller stands in this step.
+    struct Situation {
+        CutState state = CutState::air;
+        bool has_cut = false;      ///< CutStates::has_cut
+        Scalar override_ratio{0};  ///< of the last step
+        Scalar force_demand{0};    ///< FeedLaw::demand
+    };
+
+    /// The state has changed, at this override.
+    void enter_state(Scalar override_ratio) { override_at_state_entry_ = override_ratio; }
+
+    void follow(const Parameters& parameters, const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion,
+                const Situation& situation);
+    [[nodiscard]] Ceiling<Scalar> lowest(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                         const Situation& situation) const;
+
+    /// The section of the cut falls.
+    [[nodiscard]] bool is_fading() const { return trend_.fading(); }
+
+  private:
+    void follow_program(const Parameters& parameters, const ControlInput<Scalar>& input);
+    void follow_surge(const Parameters& parameters, const ControlInput<Scalar>& input, const Situation& situation);
+    void follow_turn(const Parameters& parameters, const ControlInput<Scalar>& input, bool turned);
+    void follow_surface(const ControlInput<Scalar>& input);
+
+    [[nodiscard]] Ceiling<Scalar> lowest_in_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                                 const Situation& situation) const;
+    void lower_by_state(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
+                        const Situation& situation) const;
+    void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
+                      const Situation& situation) const;
+    [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
+
+    Scalar highest_programmed_feed_mm_s_{0};
+    Scalar override_at_state_entry_{0};
+    Scalar surge_ceiling_{0};
+    CutTrend<Scalar> trend_{};
+    Scalar travel_since_estimate_mm_{0};
+    Scalar override_before_growth_{0};  // at the last estimate that showed none
+    Scalar turn_travel_left_mm_{0};
+    Scalar turn_ceiling_{0};
+    Scalar surface_ceiling_{0};
+};
+
+extern template class Ceilings<float>;
+extern template class Ceilings<estimation::Fixed>;
+
+}  // namespace millforce::control

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Bodies of ceilings.hpp. Only src/ceilings.cpp includes them.
+
+#include "control/ceilings.hpp"
+#include "control/feed_law.hpp"
+#include "estimation/number/finite.hpp"
+
+namespace millforce::control {
+
+template <typename Scalar>
+static bool predicts_a_ceiling(const SurfaceForControl<Scalar>& surface) {
+    return surface.valid && is_known(surface.feed_ceiling_mm_s);
+}
+
+// ---- Following -------------------------------------------------------------------------------------------------
+
+template <typename Scalar>
+void Ceilings<Scalar>::follow(const Parameters& parameters, const ControlInput<Scalar>& input,
+                              const StepMotion<Scalar>& motion, const Situation& situation) {
+    follow_program(parameters, input);
+    travel_since_estimate_mm_ += motion.travel_mm;
+    const Scalar left_mm = turn_travel_left_mm_ - motion.travel_mm;
+    turn_travel_left_mm_ = motion.turned ? parameters.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
+    if (!feed_and_speed_are_known(input)) {
+        return;
+    }
+    if (is_out_of_cut(situation.state)) {
+        surge_ceiling_ = parameters.override_max;
+        surface_ceiling_ = parameters.override_max;
+        trend_.clear();
+        return;
+    }
+    follow_surge(parameters, input, situation);
+    follow_turn(parameters, input, motion.turned);
+    follow_surface(input);
+}
+
+template <typename Scalar>
+void Ceilings<Scalar>::follow_program(const Parameters& parameters, const ControlInput<Scalar>& input) {
+    const auto raise_to = [this](Scalar feed_mm_s) {
+        highest_programmed_feed_mm_s_ =
+            feed_mm_s > highest_programmed_feed_mm_s_ ? feed_mm_s : highest_programmed_feed_mm_s_;
+    };
+    raise_to(parameters.highest_programmed_feed_mm_s);
+    if (is_known(input.programmed_feed_mm_s) && !input.rapid) {
+        raise_to(input.programmed_feed_mm_s);
+    }
+}
+
+template <typename Scalar>
+void Ceilings<Scalar>::follow_surge(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                    const Situation& situation) {
+    const CutEstimateForControl<Scalar>& cut = input.cut;
+    if (!cut.fresh) {
+        return;
+    }
+    if (FeedLaw<Scalar>::applies_to(cut)) {
+        const bool may_surge = parameters.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1);
+        surge_ceiling_ =
+            may_surge ? FeedLaw<Scalar>::override_for(
+                            parameters, input,
+                            {parameters.surge_share, cut.tooth_force_N * cut.surge_ratio, cut.surge_cutting_share})
+                      : parameters.override_max;
+        trend_.update(cut.section_mm2, cut.section_noise_mm2, travel_since_estimate_mm_);
+        travel_since_estimate_mm_ = Scalar(0);
+        if (situation.state != CutState::in_cut) {
+            trend_.forget_growth();  // an entry has its own ceiling
+        }
+    }
+    if (!surge_is_under_way(parameters)) {
+        override_before_growth_ = situation.override_ratio;
+    }
+}
+
+template <typename Scalar>
+void Ceilings<Scalar>::follow_turn(const Parameters& parameters, const ControlInput<Scalar>& input, bool turned) {
+    const CutEstimateForControl<Scalar>& cut = input.cut;
+    if (!(turn_travel_left_mm_ > Scalar(0)) || !(parameters.turn_radial_immersion > Scalar(0))) {
+        turn_ceiling_ = parameters.override_max;
+        return;
+    }
+    const bool is_usable = FeedLaw<Scalar>::applies_to(cut) && estimation::is_finite(cut.turn_ratio) &&
+                           estimation::is_finite(cut.turn_cutting_share);
+    if (is_usable && (turned || cut.fresh)) {
+        turn_ceiling_ = cut.turn_ratio > Scalar(1)
+                            ? FeedLaw<Scalar>::override_for(
+                                  parameters, input,
+                                  {parameters.surge_share, cut.tooth_force_N * cut.turn_ratio, cut.turn_cutting_share})
+                            : parameters.override_max;
+    }
+}
+
+/// Outside the range of the model's tests its ceiling may fall but not rise.
+template <typename Scalar>
+void Ceilings<Scalar>::follow_surface(const ControlInput<Scalar>& input) {
+    const SurfaceForControl<Scalar>& surface = input.surface;
+    if (input.cut.fresh && predicts_a_ceiling(surface)) {
+        const Scalar ceiling = surface.feed_ceiling_mm_s / input.programmed_feed_mm_s;
+        surface_ceiling_ = surface.in_range || ceiling < surface_ceiling_ ? ceiling : surface_ceiling_;
+    }
+}
+
+// ---- The lowest ------------------------------------------------------------------------------------------------
+
+template <typename Scalar>
+Ceiling<Scalar> Ceilings<Scalar>::lowest(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                         const Situation& situation) const {
+    Ceiling<Scalar> lowest =
+        input.rapid ? Ceiling<Scalar>{Scalar(1), Limit::none} : lowest_in_feed(parameters, input, situation);
+    if (situation.state == CutState::hold) {
+        lowest.lower_to(situation.override_ratio, Limit::no_estimate);
+    }
+    if (!estimation::is_finite(input.operator_override)) {
+        lowest.lower_to(Scalar(0), Limit::operator_limit);
+    } else if (input.operator_override < Scalar(1)) {
+        lowest.lower_to(input.operator_override, Limit::operator_limit);
+    }
+    if (lowest.override_ratio <= parameters.override_min && lowest.limit != Limit::operator_limit) {
+        lowest.limit = Limit::override_min;
+    }
+    lowest.override_ratio = bounded(parameters, lowest.override_ratio);
+    return lowest;
+}
+
+/// The present override comes last: it is the reason only where it is lower than all that the feed has reached.
+template <typename Scalar>
+Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                                 const Situation& situation) const {
+    Ceiling<Scalar> lowest{parameters.override_max, Limit::override_max};
+    if (!feed_and_speed_are_known(input)) {
+        lowest.lower_to(situation.override_ratio, Limit::no_estimate);
+        return lowest;
+    }
+    lower_by_state(lowest, parameters, input, situation);
+    lowest.lower_to(override_of_feed_per_tooth(parameters.max_feed_per_tooth_mm, parameters.teeth, input),
+                    Limit::feed_per_tooth);
+    if (!is_out_of_cut(situation.state)) {
+        lower_in_cut(lowest, parameters, input, situation);
+    }
+    return lowest;
+}
+
+template <typename Scalar>
+void Ceilings<Scalar>::lower_by_state(Ceiling<Scalar>& lowest, const Parameters& parameters,
+                                      const ControlInput<Scalar>& input, const Situation& situation) const {
+    const bool is_slower = input.programmed_feed_mm_s < highest_programmed_feed_mm_s_;
+    const Scalar of_highest_feed = is_slower ? input.programmed_feed_mm_s / highest_programmed_feed_mm_s_ : Scalar(1);
+    const Scalar air =
+        of_highest_feed * override_of_feed_per_tooth(parameters.air_feed_per_tooth_mm, parameters.teeth, input);
+    if (situation.state == CutState::air) {
+        lowest.lower_to(air, Limit::air_feed);
+    }
+    if (input.plunging) {
+        lowest.lower_to(air < Scalar(1) ? air : Scalar(1), Limit::entry_feed);
+    }
+    if (situation.state == CutState::entry) {
+        const Scalar entry = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
+        const bool is_behind_gap = situation.has_cut && override_at_state_entry_ > entry;
+        lowest.lower_to(is_behind_gap ? override_at_state_entry_ : entry, Limit::entry_feed);
+    }
+    if (situation.state == CutState::exit) {
+        lowest.lower_to(override_at_state_entry_, Limit::no_estimate);
+    }
+}
+
+template <typename Scalar>
+void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters,
+                                    const ControlInput<Scalar>& input, const Situation& situation) const {
+    if (surge_is_under_way(parameters)) {
+        lowest.lower_to(override_before_growth_, Limit::surge);
+    }
+    lowest.lower_to(situation.force_demand, Limit::force);
+    lowest.lower_to(surge_ceiling_, Limit::surge);
+    lowest.lower_to(turn_ceiling_, Limit::surge);
+    const bool asks_for_roughness = parameters.Ra_limit_um > Scalar(0);
+    if (asks_for_roughness) {
+        lowest.lower_to(surface_ceiling_, Limit::roughness);
+    }
+    const bool has_tooth_force = FeedLaw<Scalar>::applies_to(input.cut) && input.cut.tooth_force_valid;
+    const bool has_roughness = predicts_a_ceiling(input.surface) && input.surface.in_range;
+    if (!has_tooth_force || (asks_for_roughness && !has_roughness)) {
+        lowest.lower_to(situation.override_ratio, Limit::no_estimate);
+    }
+    if (trend_.fading()) {
+        lowest.lower_to(situation.override_ratio, Limit::surge);
+    }
+}
+
+template <typename Scalar>
+bool Ceilings<Scalar>::surge_is_under_way(const Parameters& parameters) const {
+    return parameters.surge_radial_immersion > Scalar(0) && trend_.growing();
+}
+
+}  // namespace millforce::control

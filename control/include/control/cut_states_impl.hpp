@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Bodies of cut_states.hpp. Only src/cut_states.cpp includes them.
+
+#include "control/cut_states.hpp"
+#include "estimation/number/finite.hpp"
+
+namespace millforce::control {
+
+template <typename Scalar>
+static bool is_in_contact(const FeedControllerParameters<Scalar>& parameters,
+                          const CutEstimateForControl<Scalar>& cut) {
+    return cut.force_valid && cut.tangential_N > parameters.contact_force_N &&
+           cut.tangential_N > parameters.contact_significance * cut.tangential_sd_N;
+}
+
+template <typename Scalar>
+static bool has_lost_contact(const FeedControllerParameters<Scalar>& parameters,
+                             const CutEstimateForControl<Scalar>& cut) {
+    constexpr Scalar hysteresis = Scalar(0.5F);  // a force at the contact level must not toggle the state
+    return cut.force_valid && cut.tangential_N < hysteresis * parameters.contact_force_N;
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::step(const Parameters& parameters, const ControlInput<Scalar>& input,
+                             const StepMotion<Scalar>& motion) {
+    watch_input(parameters, input);
+    watch_spindle(parameters, input, motion);
+    watch_overload(parameters, input.cut);
+    if (state_ == CutState::fault) {
+        return;
+    }
+    travel_in_state_mm_ += motion.travel_mm;
+    without_force_s_ = input.cut.force_valid ? Scalar(0) : without_force_s_ + motion.dt_s;
+    if (input.cut.fresh) {
+        follow_contact(parameters, input);
+    }
+    if (lacks_estimate(parameters) || input.feed_hold) {
+        go_to(CutState::hold);
+    }
+    if (motion.turned && state_ == CutState::exit) {
+        go_to(CutState::air);  // what was cut before the turn says nothing about what lies ahead now
+    }
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::follow_contact(const Parameters& parameters, const ControlInput<Scalar>& input) {
+    const bool contact = is_in_contact(parameters, input.cut);
+    const bool lost = has_lost_contact(parameters, input.cut);
+    tooth_periods_in_state_ += input.cut.tooth_periods;
+    switch (state_) {
+        case CutState::air:
+            if (contact) {
+                go_to(CutState::entry);
+            }
+            break;
+        case CutState::entry:
+            if (lost) {
+                go_to(CutState::exit);
+            } else if (has_entered(parameters)) {
+                go_to(CutState::in_cut);
+            }
+            break;
+        case CutState::in_cut:
+            if (lost) {
+                go_to(CutState::exit);
+            }
+            break;
+        case CutState::exit:
+            if (contact) {
+                go_to(CutState::entry);
+            } else if (input.cut.force_valid && travel_in_state_mm_ > parameters.exit_travel_mm) {
+                go_to(CutState::air);
+            }
+            break;
+        case CutState::hold:
+            if (input.cut.force_valid && !input.feed_hold) {
+                go_to(contact ? CutState::entry : CutState::exit);
+            }
+            break;
+        case CutState::fault:
+            break;
+    }
+}
+
+template <typename Scalar>
+bool CutStates<Scalar>::has_entered(const Parameters& parameters) const {
+    return tooth_periods_in_state_ >= parameters.entry_revolutions * parameters.teeth &&
+           travel_in_state_mm_ >= parameters.entry_travel_mm;
+}
+
+template <typename Scalar>
+bool CutStates<Scalar>::lacks_estimate(const Parameters& parameters) const {
+    return is_cutting(state_) && without_force_s_ > parameters.no_estimate_hold_s;
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::go_to(CutState state) {
+    if (state == state_) {
+        return;
+    }
+    has_cut_ = state == CutState::in_cut || (has_cut_ && state != CutState::air);
+    state_ = state;
+    travel_in_state_mm_ = Scalar(0);
+    tooth_periods_in_state_ = Scalar(0);
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::enter_fault(Fault fault) {
+    if (state_ != CutState::fault) {
+        fault_ = fault;
+        state_ = CutState::fault;
+    }
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::watch_input(const Parameters& parameters, const ControlInput<Scalar>& input) {
+    if (!estimation::is_finite(input.time_since_sample_s) || input.time_since_sample_s > parameters.stale_s) {
+        enter_fault(Fault::stale_input);
+    }
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::watch_spindle(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                      const StepMotion<Scalar>& motion) {
+    const bool rubs = is_cutting(state_) && !input.cut.spindle_turning && motion.path_speed_mm_s > Scalar(0);
+    spindle_at_rest_s_ = rubs ? spindle_at_rest_s_ + motion.dt_s : Scalar(0);
+    if (spindle_at_rest_s_ > parameters.stale_s) {
+        enter_fault(Fault::spindle_stopped);
+    }
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::watch_overload(const Parameters& parameters, const Estimate& cut) {
+    if (!cut.fresh || parameters.monitor_only) {
+        return;
+    }
+    const bool is_estimate = cut.force_valid && cut.tooth_force_valid && !cut.tooth_force_is_bound;
+    const bool over = is_estimate && cut.tooth_force_N > parameters.overload_share * parameters.tooth_force_limit_N;
+    // An estimate is that of one revolution, however long ago the last one was.
+    const Scalar seen = cut.tooth_periods < parameters.teeth ? cut.tooth_periods : parameters.teeth;
+    overload_tooth_periods_ = over ? overload_tooth_periods_ + seen : Scalar(0);
+    if (overload_tooth_periods_ > parameters.overload_revolutions * parameters.teeth) {
+        enter_fault(Fault::overload);
+    }
+}
+
+}  // namespace millforce::control

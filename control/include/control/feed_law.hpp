@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "control/cut_state.hpp"
+#include "control/feed_controller_data.hpp"
+#include "estimation/number/fixed_point.hpp"
+
+/// The feed law: the override at which the force on a tooth meets a target, and how the override moves there.
+///
+/// The force grows with the feed f as
+///
+///   F = F₀ [(1 − c) + c (f/f₀)^(1+p_s)]        c: share of F that is not edge force, p_s: exponent of the size effect
+///
+/// and its gain dF/df varies by an order of magnitude along a part (depth, immersion). A loop with a fixed gain is slow
+/// or unstable there. So the law inverts the process at the measured point (f, F),
+///
+///   f* = f {[F_target/F − (1 − c)]/c}^(1/(1+p_s)),    override = f*/F_programmed
+///
+/// with f and F averaged over the same window of tooth periods: the depth, the immersion and K_s cancel, and a delay
+/// between override and force delays the correction but does not add to it. Where the edge force alone exceeds the
+/// target no feed helps, and f* is 0.
+///
+/// The demand is the override for the set point, F_target = setpoint_share · F_tooth,max. It is worked out at each
+/// fresh estimate and stands until the next.
+///
+/// The override approaches what is wanted
+///   downwards  at once, within slew_down_per_s
+///   upwards    in the cut by recovery_per_rev of the distance per revolution, else at once; within slew_up_per_s. In
+///              the cut an estimate is good for a rise of one revolution; then the override waits for the next.
+///
+/// Valid: F, f > 0, 1+p_s > 0, all finite (`applies_to`); c below 0.05 counts as 0.05. An estimate outside leaves the
+/// demand where it is; the ceilings then let nothing rise. The override is always finite and within [override_min,
+/// override_max]. Cost: two divisions, an exponential and a logarithm per override_for; else some 10 operations. Not
+/// thread-safe.
+
+namespace millforce::control {
+
+template <typename Scalar>
+class FeedLaw {
+  public:
+    using Parameters = FeedControllerParameters<Scalar>;
+    using Estimate = CutEstimateForControl<Scalar>;
+
+    /// Begins at `override_ratio`, within the override's range.
+    explicit FeedLaw(Scalar override_ratio) : override_ratio_(override_ratio) {}
+
+    /// What the feed is to make of a force: at the measured feed it would be `force_N`, it shall be `share_of_limit`
+    /// of F_tooth,max.
+    struct Target {
+        Scalar share_of_limit{1};
+        Scalar force_N{0};
+        Scalar cutting_share{1};  ///< c of that force
+    };
+
+    /// The process can be inverted at this estimate.
+    [[nodiscard]] static bool applies_to(const Estimate& cut);
+    /// f*/F_programmed, ≥ 0. Needs applies_to(input.cut) and a programmed feed > 0.
+    [[nodiscard]] static Scalar override_for(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                             Target target);
+
+    /// Takes in a fresh estimate. Out of the cut there is no demand: override_max.
+    void follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state);
+    [[nodiscard]] Scalar demand() const { return demand_; }
+
+    /// Moves the override by one step towards `wanted`, which is within the override's range.
+    void approach(const Parameters& parameters, const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion,
+                  CutState state, Scalar wanted);
+    [[nodiscard]] Scalar override_ratio() const { return override_ratio_; }
+
+  private:
+    [[nodiscard]] static Scalar not_below_entry_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                                     Scalar demand);
+    [[nodiscard]] static Scalar recovery_in(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                            const StepMotion<Scalar>& motion);
+
+    Scalar override_ratio_;
+    Scalar demand_{0};
+    Scalar since_estimate_s_{0};
+};
+
+extern template class FeedLaw<float>;
+extern template class FeedLaw<estimation::Fixed>;
+
+}  // namespace millforce::control

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Bodies of feed_law.hpp. Only src/feed_law.cpp includes them.
+
+#include "control/feed_law.hpp"
+#include "estimation/number/elementary.hpp"
+#include "estimation/number/finite.hpp"
+
+namespace millforce::control {
+
+template <typename Scalar>
+bool FeedLaw<Scalar>::applies_to(const Estimate& cut) {
+    using estimation::is_finite;
+    return cut.force_valid && cut.tooth_force_N > Scalar(0) && cut.feed_mm_s > Scalar(0) &&
+           cut.feed_exponent > Scalar(0) && is_finite(cut.tooth_force_N) && is_finite(cut.feed_mm_s) &&
+           is_finite(cut.feed_exponent) && is_finite(cut.cutting_share) && is_finite(cut.surge_ratio) &&
+           is_finite(cut.surge_cutting_share);
+}
+
+template <typename Scalar>
+Scalar FeedLaw<Scalar>::override_for(const Parameters& parameters, const ControlInput<Scalar>& input, Target target) {
+    using estimation::elementary::exp;
+    using estimation::elementary::log;
+    // Where nearly all is edge force the feed hardly matters, and 1/c would make a great feed of a small error of F.
+    constexpr Scalar least_cutting_share = literal<Scalar>(0.05L);
+    const Scalar c = target.cutting_share > least_cutting_share ? target.cutting_share : least_cutting_share;
+    const Scalar target_N = target.share_of_limit * parameters.tooth_force_limit_N;
+    const Scalar growth = (target_N / target.force_N - (Scalar(1) - c)) / c;  // (f*/f)^(1+p_s)
+    if (!(growth > Scalar(0))) {
+        return Scalar(0);
+    }
+    return input.cut.feed_mm_s * exp(log(growth) / input.cut.feed_exponent) / input.programmed_feed_mm_s;
+}
+
+/// The immersion that the force was worked out with is not known: the arc of a cutter that enters follows no law, or
+/// the force is a bound alone.
+template <typename Scalar>
+static bool immersion_is_uncertain(const CutEstimateForControl<Scalar>& cut, CutState state) {
+    return state == CutState::entry || cut.tooth_force_is_bound || !cut.tooth_force_valid;
+}
+
+template <typename Scalar>
+void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state) {
+    const Estimate& cut = input.cut;
+    if (is_out_of_cut(state)) {
+        demand_ = parameters.override_max;
+        return;
+    }
+    if (!cut.fresh || !applies_to(cut)) {
+        return;
+    }
+    demand_ = override_for(parameters, input, {parameters.setpoint_share, cut.tooth_force_N, cut.cutting_share});
+    if (immersion_is_uncertain(cut, state)) {
+        demand_ = not_below_entry_feed(parameters, input, demand_);
+    }
+}
+
+/// Ignorance alone asks for no less than the entry feed, the feed that is safe whatever the tool meets. Only the force
+/// that is there at least can.
+template <typename Scalar>
+Scalar FeedLaw<Scalar>::not_below_entry_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                             Scalar demand) {
+    const Estimate& cut = input.cut;
+    const Scalar entry = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
+    if (!(demand < entry)) {
+        return demand;
+    }
+    if (!(cut.least_tooth_force_N > Scalar(0))) {
+        return entry;
+    }
+    const Scalar certain =
+        override_for(parameters, input, {parameters.setpoint_share, cut.least_tooth_force_N, cut.cutting_share});
+    const Scalar floor = entry < certain ? entry : certain;
+    return demand > floor ? demand : floor;
+}
+
+template <typename Scalar>
+void FeedLaw<Scalar>::approach(const Parameters& parameters, const ControlInput<Scalar>& input,
+                               const StepMotion<Scalar>& motion, CutState state, Scalar wanted) {
+    since_estimate_s_ = input.cut.fresh ? Scalar(0) : since_estimate_s_ + motion.dt_s;
+    if (wanted < override_ratio_) {
+        const Scalar lowest = override_ratio_ - parameters.slew_down_per_s * motion.dt_s;
+        override_ratio_ = bounded(parameters, wanted < lowest ? lowest : wanted);
+        return;
+    }
+    const Scalar revolution_s = parameters.teeth * motion.tooth_period_s;
+    if (is_cutting(state) && since_estimate_s_ > revolution_s) {
+        return;
+    }
+    const Scalar share = is_cutting(state) ? recovery_in(parameters, input, motion) : Scalar(1);
+    const Scalar distance = wanted - override_ratio_;
+    const Scalar rise = share < Scalar(1) ? distance * share : distance;
+    const Scalar highest_rise = parameters.slew_up_per_s * motion.dt_s;
+    override_ratio_ = bounded(parameters, override_ratio_ + (rise > highest_rise ? highest_rise : rise));
+}
+
+/// The share of the way up that this step's part of a revolution goes; 0 for a spindle that turns backwards.
+template <typename Scalar>
+Scalar FeedLaw<Scalar>::recovery_in(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                    const StepMotion<Scalar>& motion) {
+    const Scalar per_rad = parameters.recovery_per_rev * estimation::turns_per_rad<Scalar>;
+    const Scalar share = per_rad * input.cut.spindle_speed_rad_s * motion.dt_s;
+    return share > Scalar(0) ? share : Scalar(0);
+}
+
+}  // namespace millforce::control
