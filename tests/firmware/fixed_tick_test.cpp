@@ -5,6 +5,12 @@
 #include <cstdlib>
 #include <random>
 
+#include "control/ceilings_impl.hpp"
+#include "control/cut_states_impl.hpp"
+#include "control/cut_trend_impl.hpp"
+#include "control/feed_controller_impl.hpp"
+#include "control/feed_law_impl.hpp"
+#include "control/path_turn_impl.hpp"
 #include "estimation/cut_estimator_impl.hpp"
 #include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in.hpp"
