@@ -157,10 +157,8 @@ int replay_table(const ReplayOptions& options) {
     double next_row_s = -std::numeric_limits<double>::infinity();
     while (recording.next()) {
         progress.update(recording.fraction_read());
-        const hal::FeedOverride output = tick.step(recording.sample(), program_of(recording, options));
-        if (tick.work_due()) {
-            tick.work();
-        }
+        const hal::FeedOverride output =
+            firmware::step_and_work(tick, recording.sample(), program_of(recording, options));
         if (recording.time_s() >= next_row_s) {
             write_estimate_row(out, recording.time_s(), firmware::tick_record(tick, output, 0), total);
             roughness.write(out, tick.roughness());
