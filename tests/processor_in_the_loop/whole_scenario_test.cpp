@@ -41,7 +41,9 @@ class ComparedController : public sim::OverrideSource {
         lock_step::Request request{};
         request.sample = sample;
         request.program = program;
-        const lock_step::Answer ours = lock_step::answer_of(host_, firmware::step_and_work(host_, sample, program));
+        const hal::FeedOverride feed = host_.step(sample, program);  // as a chip: the law first
+        firmware::finish_work(host_);
+        const lock_step::Answer ours = lock_step::answer_of(host_, feed);
         const lock_step::Answer theirs = image_.step(request);
         ++steps;
         with_engagement += (ours.valid & 4U) != 0U ? 1 : 0;

@@ -194,7 +194,9 @@ void CanController::tick_on_sample() {
     program_ = program_at(sync_time_us_);
     reset_fault_where_asked();
     finish_work(tick_);  // what was not done in time: a replay does the same work
-    finish(tick_.step(sample_, program_), sync_time_us_);
+    tick_.take(sample_);
+    finish_estimate(tick_);
+    finish(tick_.answer(program_), sync_time_us_);
 }
 
 void CanController::tick_without_sample() {

@@ -15,12 +15,15 @@
 /// The tick: one drive sample in, one feed override out. The same class runs on the drive controller, in the daemon and
 /// in the simulation.
 ///
-///     send(tick.step(sample, program));   // each sample: averages, the law, the override. Bounded and short.
-///     finish_work(tick);                  // a computer, at once: what a tooth period that has ended asks for
+///     tick.take(sample);            // averages
+///     finish_estimate(tick);        // where a tooth period has ended: the estimate of its cut, some microseconds
+///     send(tick.answer(program));   // the law, the override
+///     finish_work(tick);            // the wide band's evaluation, up to some milliseconds
 ///
-/// A chip, whose main loop must be back for the next sample, calls `if (tick.work_due()) tick.work();` in that loop:
-/// one bounded slice each time. The law of a step uses the newest estimate that is complete. The estimate does not
-/// depend on how its work was sliced; tooth periods that end meanwhile are merged into the next (cut_estimator.hpp).
+/// So on a computer, and step_and_work() is the four of them. A chip on which an estimate takes longer than a tick
+/// sends `tick.step(sample, program)`, averages and law, and calls `if (tick.work_due()) tick.work();` in its main
+/// loop: one bounded slice each time. Its law uses the newest estimate that is complete. The estimate does not depend
+/// on how its work was sliced; tooth periods that end meanwhile are merged into the next (cut_estimator.hpp).
 ///
 /// Rezeroing in air is its own: in a rapid, and while the controller's state is `air` and the torque is near its idle
 /// value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows can so not
@@ -42,6 +45,10 @@ class ForceControlTick {
     explicit ForceControlTick(const Parameters<Scalar>& parameters);
 
     /// A new drive sample.
+    void take(const hal::DriveSample& sample);
+    /// The override, by the newest estimate. Once for each sample.
+    hal::FeedOverride answer(const hal::ProgramStatus& program);
+    /// Both at once.
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program);
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
@@ -49,8 +56,9 @@ class ForceControlTick {
 
     void reset_fault() { controller_.reset(); }
 
+    [[nodiscard]] bool estimate_due() const { return estimator_.work_due(); }
     [[nodiscard]] bool work_due() const { return estimator_.work_due() || wide_band_.work_due(); }
-    /// One slice of the work beside the steps.
+    /// One slice of the work beside the steps, of the estimate first.
     void work();
 
     [[nodiscard]] const WideBandEstimate<Scalar>& wide_band() const { return wide_band_.estimate(); }
@@ -69,6 +77,7 @@ class ForceControlTick {
   private:
     using Velocity = typename estimation::DriveSignals<Scalar>::Velocity;
 
+    void take_silence(float silent_s, float dt_s);
     Scalar elapsed_s(std::uint32_t time_us);
     [[nodiscard]] bool is_in_cut() const;
     void follow_wide_band(Scalar dt_s, const hal::DriveSample& sample);
@@ -78,7 +87,7 @@ class ForceControlTick {
     void rezero_in_air();
     void set_cut();
     void set_motion(Velocity velocity);
-    void run_law(Velocity velocity, const hal::ProgramStatus& program, Scalar dt_s, Scalar time_since_sample_s);
+    void run_law(const hal::ProgramStatus& program);
     hal::FeedOverride output();
 
     estimation::CutEstimator<Scalar> estimator_;
@@ -104,8 +113,15 @@ class ForceControlTick {
 template <typename Scalar>
 using SmallTick = ForceControlTick<Scalar, NoWideBand<Scalar>>;
 
-/// All the work that is due, for a computer: there it takes microseconds, but for that of the wide band. `worker`: a
-/// tick, or whatever else has work in slices.
+/// The estimate that is due, before the law: for a computer.
+template <typename Tick>
+void finish_estimate(Tick& tick) {
+    while (tick.estimate_due()) {
+        tick.work();
+    }
+}
+
+/// All the work that is due, for a computer. `worker`: a tick, or whatever else has work in slices.
 template <typename Worker>
 void finish_work(Worker& worker) {
     while (worker.work_due()) {
@@ -113,11 +129,13 @@ void finish_work(Worker& worker) {
     }
 }
 
-/// A step and all its work, where nobody waits for the override in between: in a simulation and in tests.
+/// A sample's whole tick, where nobody waits for the override before its end: in a simulation, a replay, a test.
 template <typename Scalar, typename WideBand>
 hal::FeedOverride step_and_work(ForceControlTick<Scalar, WideBand>& tick, const hal::DriveSample& sample,
                                 const hal::ProgramStatus& program) {
-    const hal::FeedOverride output = tick.step(sample, program);
+    tick.take(sample);
+    finish_estimate(tick);
+    const hal::FeedOverride output = tick.answer(program);
     finish_work(tick);
     return output;
 }

@@ -23,8 +23,7 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
 // Each sample
 
 template <typename Scalar, typename WideBand>
-hal::FeedOverride ForceControlTick<Scalar, WideBand>::step(const hal::DriveSample& sample,
-                                                           const hal::ProgramStatus& program) {
+void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     const Scalar dt_s = elapsed_s(sample.time_us);
     const estimation::DriveSignals<Scalar> signals = usable_signals_of<Scalar>(sample);
     follow_wide_band(dt_s, sample);
@@ -33,18 +32,39 @@ hal::FeedOverride ForceControlTick<Scalar, WideBand>::step(const hal::DriveSampl
     } else {
         forget_estimate();
     }
-    run_law(signals.velocity(), program, dt_s, dt_s);
+    set_motion(signals.velocity());
+    input_.dt_s = dt_s;
+    input_.time_since_sample_s = dt_s;
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::take_silence(float silent_s, float dt_s) {
+    forget_estimate();  // no average reaches over the gap
+    input_.surface.valid = false;
+    has_time_ = false;
+    set_motion({});
+    input_.dt_s = Scalar(dt_s);
+    input_.time_since_sample_s = Scalar(silent_s);
+}
+
+template <typename Scalar, typename WideBand>
+hal::FeedOverride ForceControlTick<Scalar, WideBand>::answer(const hal::ProgramStatus& program) {
+    run_law(program);
     return output();
+}
+
+template <typename Scalar, typename WideBand>
+hal::FeedOverride ForceControlTick<Scalar, WideBand>::step(const hal::DriveSample& sample,
+                                                           const hal::ProgramStatus& program) {
+    take(sample);
+    return answer(program);
 }
 
 template <typename Scalar, typename WideBand>
 hal::FeedOverride ForceControlTick<Scalar, WideBand>::step_without_sample(float silent_s, float dt_s,
                                                                           const hal::ProgramStatus& program) {
-    forget_estimate();  // no average reaches over the gap
-    input_.surface.valid = false;
-    has_time_ = false;
-    run_law({}, program, Scalar(dt_s), Scalar(silent_s));
-    return output();
+    take_silence(silent_s, dt_s);
+    return answer(program);
 }
 
 /// Since the last sample; 0 for the first one and where the clock went backwards.
@@ -81,11 +101,7 @@ void ForceControlTick<Scalar, WideBand>::set_motion(Velocity velocity) {
 }
 
 template <typename Scalar, typename WideBand>
-void ForceControlTick<Scalar, WideBand>::run_law(Velocity velocity, const hal::ProgramStatus& program, Scalar dt_s,
-                                                 Scalar time_since_sample_s) {
-    set_motion(velocity);
-    input_.dt_s = dt_s;
-    input_.time_since_sample_s = time_since_sample_s;
+void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& program) {
     input_.programmed_feed_mm_s = Scalar(program.programmed_feed_mm_s);
     input_.operator_override = Scalar(program.operator_override);
     input_.rapid = program.rapid;

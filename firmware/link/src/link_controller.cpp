@@ -49,7 +49,9 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     drives_.on_message(message);
     hal::DriveSample sample;
     (void)drives_.take_sample(sample);  // each message is one
-    output_ = tick_.step(sample, program);
+    tick_.take(sample);
+    finish_estimate(tick_);
+    output_ = tick_.answer(program);
     answer = encode(answer_to(message.sequence));
     return local_link::MessageError::none;
 }
