@@ -178,23 +178,6 @@ TEST(Safety, a_fall_waits_for_no_estimate) {
     CHECK(repeat(controller, input, 100).ratio <= 0.5F * before);
 }
 
-TEST(Safety, says_that_it_rises_while_more_than_a_quarter_is_missing) {
-    Controller controller;
-    Input light = in_contact();
-    light.cut.tooth_force_N = 100.0F;
-    CHECK(bring_into_cut(controller, light).rising);
-    Output output;
-    float last = 0.0F;
-    do {
-        last = output.ratio;
-        output = controller.step(light);
-    } while (output.rising);
-    const float settled = repeat(controller, light, 5000).ratio;
-    CHECK(output.ratio * 1.25F >= settled);
-    CHECK(last * 1.25F < settled);
-    CHECK_FALSE(controller.step(light).rising);
-}
-
 TEST(Safety, no_spindle_speed_no_rise) {
     for (const float speed_rad_s : {0.0F, -400.0F, not_a_number}) {
         for (const Input& start : {in_air(), in_contact()}) {

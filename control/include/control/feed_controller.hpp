@@ -46,7 +46,7 @@ class FeedController {
   private:
     [[nodiscard]] StepMotion<Scalar> motion_of(const ControlInput<Scalar>& input);
     [[nodiscard]] Ceiling<Scalar> wanted(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion);
-    [[nodiscard]] ControlOutput<Scalar> output_of(const ControlInput<Scalar>& input, Scalar wanted_ratio) const;
+    [[nodiscard]] ControlOutput<Scalar> output_of(const ControlInput<Scalar>& input) const;
 
     Parameters parameters_;
     PathTurn<Scalar> turn_{};

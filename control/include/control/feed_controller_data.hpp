@@ -115,7 +115,6 @@ struct ControlOutput {
     Fault fault = Fault::none;
     Limit limit = Limit::none;
     bool fading = false;  ///< the section of the cut falls: the tool leaves, or the part ends
-    bool rising = false;  ///< the override is on its way up, by more than a quarter
 };
 
 /// `ratio` within the override's range. NaN becomes the minimum.

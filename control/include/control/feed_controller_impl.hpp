@@ -65,7 +65,7 @@ ControlOutput<Scalar> FeedController<Scalar>::step(const ControlInput<Scalar>& i
     const Ceiling<Scalar> lowest = wanted(input, motion);
     limit_ = lowest.limit;
     law_.approach(parameters_, input, motion, states_.state(), lowest.override_ratio);
-    return output_of(input, lowest.override_ratio);
+    return output_of(input);
 }
 
 template <typename Scalar>
@@ -98,15 +98,13 @@ Ceiling<Scalar> FeedController<Scalar>::wanted(const ControlInput<Scalar>& input
 }
 
 template <typename Scalar>
-ControlOutput<Scalar> FeedController<Scalar>::output_of(const ControlInput<Scalar>& input, Scalar wanted_ratio) const {
-    constexpr Scalar rising_share = Scalar(1.25F);  // the estimate waits for a steady feed: less is steady to it
+ControlOutput<Scalar> FeedController<Scalar>::output_of(const ControlInput<Scalar>& input) const {
     const bool has_failed = states_.state() == CutState::fault;
     ControlOutput<Scalar> output;
     output.state = states_.state();
     output.fault = states_.fault();
     output.limit = limit_;
     output.fading = ceilings_.is_fading();
-    output.rising = wanted_ratio > rising_share * law_.override_ratio();
     output.hold = has_failed || input.feed_hold;
     output.ratio =
         parameters_.monitor_only && !has_failed ? bounded(parameters_, input.operator_override) : law_.override_ratio();

@@ -21,7 +21,7 @@ constexpr double held = 1e5;
 
 /// Largest condition number of the six-parameter fits. Priors make it large without harm; which parameters the cuts
 /// determine is for find_undetermined to judge.
-constexpr double condition_limit = 1e6;
+constexpr double largest_condition_of_six = 1e6;
 
 /// Largest share of the rows that counts as used up by the parameters: with as many parameters as rows there would be
 /// nothing left to estimate the scatter from.
@@ -206,7 +206,7 @@ double CuttingFitSolver::step() {
         fit.add(here.derivatives, m.force_N - here.force_N, huber / sd);
     }
     add_priors(fit, true);
-    const auto solution = fit.solve(condition_limit);
+    const auto solution = fit.solve(largest_condition_of_six);
     double shrink = 1.0;
     for (const int exponent : {cutting_ln_K_s, cutting_p_s, cutting_p_1}) {
         const double move = std::abs(solution.parameters(exponent));
@@ -245,7 +245,7 @@ void CuttingFitSolver::conclude() {
         fit.add(here.derivatives, m.force_N - here.force_N, std::sqrt(efficiency) / sd);
     }
     add_priors(fit, false);
-    const auto solution = fit.solve(condition_limit);
+    const auto solution = fit.solve(largest_condition_of_six);
     result_.covariance = solution.covariance / (solution.residual_sd * solution.residual_sd);
     result_.undetermined |= solution.undetermined;
 }

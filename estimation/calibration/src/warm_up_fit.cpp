@@ -17,7 +17,7 @@ constexpr double least_significance = 3.0;  // T_cold over its standard error
 
 /// Largest condition number of the last fit. At 1.5 τ the columns of T_cold and ln τ are nearly parallel: that is for
 /// the standard errors to show, and no reason to call either undetermined.
-constexpr double condition_limit = 1e6;
+constexpr double largest_condition_of_last_fit = 1e6;
 
 enum WarmUpIndex : int { index_warm, index_cold, index_ln_tau };
 
@@ -61,7 +61,7 @@ WarmUpFit fit_warm_up(std::span<const IdleTorque> samples) {
     const double tau_s = best_time_constant_s(samples, result.duration_s);
     const auto at_tau = squares_at(samples, tau_s, 0.0).solve();
     const double cold_Nm = at_tau.parameters(index_cold);
-    const auto solution = squares_at(samples, tau_s, cold_Nm).solve(condition_limit);
+    const auto solution = squares_at(samples, tau_s, cold_Nm).solve(largest_condition_of_last_fit);
     result.excess_Nm = cold_Nm;
     result.excess_se_Nm = solution.standard_error(index_cold);
     result.time_constant_s = tau_s;
