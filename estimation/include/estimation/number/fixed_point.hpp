@@ -29,7 +29,7 @@
 /// log, pow, floor, ceil, abs. Errors: sqrt 2⁻³² relative; sin, cos, atan2 2e-9; acos 3e-9, within 1e-4 of ±1 1e-6; exp
 /// 3e-9 relative or half a resolution; log 2e-9.
 ///
-/// Cost on a Cortex-M3 in instructions: + 3, × 20 (60 beyond 2¹⁵), ÷ 125, √ 125; in soft float 60, 45, 140. Not
+/// Cost on a Cortex-M3 in instructions: + 10, × 25 (80 beyond 2¹⁵), ÷ 180, √ 500; in soft float 60, 45, 140. Not
 /// thread-safe in its counter.
 
 namespace millforce::estimation {

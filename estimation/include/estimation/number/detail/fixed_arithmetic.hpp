@@ -67,9 +67,17 @@ constexpr WideProduct wide_product(std::uint64_t a, std::uint64_t b) {
     return {a_high * b_high + high_word(middle) + high_word(other_middle), other_middle << 32U | low_word(lowest)};
 }
 
-/// a b, rounded to nearest, halves upwards.
+/// a b of two numbers below 2¹⁵, rounded to nearest, halves upwards: (a_high 2³² + a_low)(b_high 2³² + b_low)/2³².
+constexpr Raw small_product(Raw a, Raw b) {
+    const std::uint64_t a_low = low_word(static_cast<std::uint64_t>(a));
+    const std::uint64_t b_low = low_word(static_cast<std::uint64_t>(b));
+    const Raw lowest = high_word(a_low * b_low + 0x8000'0000U);
+    return (a >> fraction_bits) * b + static_cast<Raw>(a_low) * (b >> fraction_bits) + lowest;
+}
+
+/// … of any two. Called, so that the frequent small product needs no stack.
 template <typename Policy>
-constexpr Raw multiply_by_words(Raw a, Raw b) {
+[[gnu::noinline]] constexpr Raw large_product(Raw a, Raw b) {
     const bool negative = (a ^ b) < 0;
     const WideProduct exact = wide_product(magnitude(a), magnitude(b));
     const std::uint64_t half = negative ? 0x7FFF'FFFFU : 0x8000'0000U;  // upwards is towards zero below zero
@@ -80,6 +88,15 @@ constexpr Raw multiply_by_words(Raw a, Raw b) {
         return end_of_range<Policy>(negative);
     }
     return signed_raw(high << 32U | high_word(low), negative);
+}
+
+template <typename Policy>
+constexpr Raw multiply_by_words(Raw a, Raw b) {
+    const auto is_small = [](Raw x) {
+        constexpr std::uint32_t limit = 1U << 15U;
+        return high_word(static_cast<std::uint64_t>(x)) + limit < 2U * limit;
+    };
+    return is_small(a) && is_small(b) ? small_product(a, b) : large_product<Policy>(a, b);
 }
 
 /// a / b, rounded to nearest, halves away from zero. By zero: the end of the range with the sign of a; 0 / 0 is 0.
@@ -94,13 +111,13 @@ constexpr Raw divide(Raw a, Raw b) {
     }
     std::uint64_t quotient = dividend / divisor;
     std::uint64_t rest = dividend % divisor;
-    for (int bit = 0; bit < fraction_bits; ++bit) {
-        quotient <<= 1U;
-        rest <<= 1U;
-        if (rest >= divisor) {
-            rest -= divisor;
-            ++quotient;
-        }
+    // The fraction, by as many bits at a time as the rest has room for: two divisions below 2¹⁶.
+    const int room = std::countl_zero(divisor);
+    for (int missing = fraction_bits; missing > 0; missing -= room) {
+        const int bits = missing < room ? missing : room;
+        rest <<= bits;
+        quotient = quotient << bits | rest / divisor;
+        rest %= divisor;
     }
     quotient += rest >= divisor - rest ? 1U : 0U;
     if (quotient > static_cast<std::uint64_t>(raw_highest)) {
