@@ -17,7 +17,7 @@ constexpr double least_scale = 1e-5;
 
 /// A prior of this weight (1/sd) holds a parameter at its mean: its sd, 1e-5, is far below any standard error that cuts
 /// can give an exponent or an edge force.
-constexpr double held = 1e5;
+constexpr double holding_weight = 1e5;
 
 /// Largest condition number of the six-parameter fits. Priors make it large without harm; which parameters the cuts
 /// determine is for find_undetermined to judge.
@@ -135,10 +135,10 @@ bool CuttingFitSolver::start() {
     result_.parameters(cutting_ln_K_s) = std::log(K_s);
     result_.parameters(cutting_r_1) = solution.determined(1) ? solution.parameters(1) / K_s : 0.0;
     if (linear_edge) {
-        prior_weight_(cutting_p_s) = prior_weight_(cutting_p_1) = held;
+        prior_weight_(cutting_p_s) = prior_weight_(cutting_p_1) = holding_weight;
         return true;
     }
-    const double edge_weight = combined ? 1.0 / (options_.edge_thickness_sd_mm * K_s) : held;
+    const double edge_weight = combined ? 1.0 / (options_.edge_thickness_sd_mm * K_s) : holding_weight;
     prior_weight_(cutting_K_te) = prior_weight_(cutting_K_re) = edge_weight;
     if (combined) {
         prior_weight_(cutting_p_s) = 1.0 / options_.p_s_sd;

@@ -84,7 +84,8 @@ TEST(AnalogueController, a_cut_is_estimated_and_answered_as_by_the_tick_alone) {
     bool was_solved = false;
     for (int k = 0; k < instructions::fast_widening_cut.samples(); ++k) {
         board.run_cut(1);
-        const hal::FeedOverride expected = firmware::step_and_work(alone, board.controller->sample(), {});
+        const hal::FeedOverride expected = alone.step(board.controller->sample(), {});
+        firmware::finish_work(alone);
         CHECK_EQUAL(expected.ratio, board.controller->output().ratio);
         LONGS_EQUAL(expected.state, board.controller->output().state);
         CHECK_EQUAL(expected.hold, board.controller->output().hold);
