@@ -112,7 +112,7 @@ Option Command::flag(const std::string& names, bool& value, const std::string& h
 }
 
 Option Command::named_choice(const std::string& names, const std::string& help, std::vector<std::string> words,
-                             std::function<void(std::size_t)> chosen) {
+                             const std::function<void(std::size_t)>& chosen) {
     const std::string list = fmt::format("{{{}}}", fmt::join(words, ","));
     const auto check = [words, list](const std::string& text) {
         return place_of(words, text) < words.size() ? std::string() : fmt::format("{}: expected one of {}", text, list);

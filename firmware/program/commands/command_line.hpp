@@ -80,7 +80,7 @@ class Command {
     friend class CommandLine;
     Command(CLI::App* app, int* exit_code) : app_(app), exit_code_(exit_code) {}
     Option named_choice(const std::string& names, const std::string& help, std::vector<std::string> words,
-                        std::function<void(std::size_t)> chosen);
+                        const std::function<void(std::size_t)>& chosen);
 
     CLI::App* app_;
     int* exit_code_;

@@ -53,7 +53,7 @@ class DepthMonitor {
 
     /// Learns where the teeth stand against the encoder's zero from a profile of known depths, for all that follow
     /// with this tool in this holder. False: no complete profile, or it does not tell.
-    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = literal<Scalar>(0.005L)) {
+    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = Scalar(0.005F)) {
         if (!profile_.complete()) {
             return false;
         }
