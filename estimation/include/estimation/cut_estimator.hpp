@@ -39,7 +39,7 @@ class CutEstimator {
   public:
     /// Steps of the solver in one slice: with it a slice is no longer than the others, some 3 000 instructions in
     /// float.
-    static constexpr int solver_steps_per_slice = 6;
+    static constexpr int solver_steps_per_slice = 4;
 
     CutEstimator() = default;
     CutEstimator(const CutEstimatorSettings<Scalar>& settings, const SpindleDriveParameters<Scalar>& spindle,
