@@ -28,19 +28,6 @@ bool equal(const EngagementMap::Bin& a, const EngagementMap::Bin& b) {
     return ((left.word[0] ^ right.word[0]) | (left.word[1] ^ right.word[1]) | (left.word[2] ^ right.word[2])) == 0;
 }
 
-/// No material is higher than this. Several maxima in parallel, so that none waits for another.
-double highest_top_mm(const EngagementMap& map) {
-    constexpr std::size_t lanes = 8;
-    static_assert(EngagementMap::bin_count % lanes == 0);
-    std::array<float, lanes> highest_mm{};
-    for (std::size_t k = 0; k < EngagementMap::bin_count; k += lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            highest_mm[lane] = std::max(highest_mm[lane], map.bins[k + lane].top_mm);
-        }
-    }
-    return static_cast<double>(*std::max_element(highest_mm.begin(), highest_mm.end()));
-}
-
 double wrapped_turn(double angle_rad) {
     const double rest = std::fmod(angle_rad, turn);
     return rest < 0.0 ? rest + turn : rest;
@@ -163,15 +150,23 @@ void CuttingForce::build_teeth() {
 }
 
 /// Follows the edge from the tip upwards, which is backwards through the bins. Runs of equal full bins are one part.
-void CuttingForce::find_parts_in_cut(double tip_bins, const EngagementMap& map, double reach_mm, InCut& in_cut) const {
+void CuttingForce::find_parts_in_cut(double tip_bins, const EngagementMap& map, const EngagementBounds& bounds,
+                                     InCut& in_cut) const {
     in_cut.first = 0;
     in_cut.end = 0;
+    const double reach_mm = std::min(cutter_.flute_length_mm, bounds.top_mm);
     // A tip angle a rounding below 2π may come out as bin_count.
     std::size_t k = std::min(static_cast<std::size_t>(tip_bins), EngagementMap::bin_count - 1);
     const double in_bin = tip_bins - static_cast<double>(k);
     const bool straight = mm_per_bin_ == 0.0;
     double low_mm = 0.0;
     double high_mm = straight ? reach_mm : in_bin * mm_per_bin_;  // where the edge passes from bin k to bin k − 1
+    const std::size_t bins_to_material = bounds.bins_back_from(k);
+    if (bins_to_material > 0) {
+        low_mm = high_mm + static_cast<double>(bins_to_material - 1) * mm_per_bin_;
+        high_mm = low_mm + mm_per_bin_;
+        k = bounds.end - 1;
+    }
     while (low_mm < reach_mm) {
         const EngagementMap::Bin& bin = map.bins[k];
         const bool full = bin.covered >= 1.0F;
@@ -328,21 +323,25 @@ void CuttingForce::add_bottom_edge(std::size_t tooth, const ToothAngle& tip, dou
 }
 
 CuttingLoad CuttingForce::load(double spindle_angle_rad, double feed_per_tooth_mm, const EngagementMap& map) const {
+    return load(spindle_angle_rad, feed_per_tooth_mm, map, bounds_of(map));
+}
+
+CuttingLoad CuttingForce::load(double spindle_angle_rad, double feed_per_tooth_mm, const EngagementMap& map,
+                               const EngagementBounds& bounds) const {
     require_finite("spindle_angle_rad", spindle_angle_rad);
     require_finite("feed_per_tooth_mm", feed_per_tooth_mm);
     CuttingLoad load;
-    if (feed_per_tooth_mm <= 0.0) {
+    if (feed_per_tooth_mm <= 0.0 || bounds.end == 0) {
         return load;
     }
     const double feed_per_radian_mm = feed_per_tooth_mm * static_cast<double>(cutter_.teeth) / turn;
-    const double reach_mm = std::min(cutter_.flute_length_mm, highest_top_mm(map));
     InCut in_cut;
     const double spindle_rad = wrapped_turn(spindle_angle_rad);
     for (std::size_t k = 0; k < cutter_.teeth; ++k) {
         const double behind_rad = spindle_rad - position_rad_[k];
         const double phi = behind_rad < 0.0 ? behind_rad + turn : behind_rad;
         const ToothAngle tip{.bins = phi / EngagementMap::bin_rad, .sine = std::sin(phi), .cosine = std::cos(phi)};
-        find_parts_in_cut(tip.bins, map, reach_mm, in_cut);
+        find_parts_in_cut(tip.bins, map, bounds, in_cut);
         ToothLoad tooth = flank_load(k, tip, feed_per_radian_mm, in_cut);
         if (options_.bottom_edge) {
             add_bottom_edge(k, tip, feed_per_radian_mm, map, tooth);

@@ -69,6 +69,9 @@ class CuttingForce {
     /// per tooth (mean over the teeth: feed speed over N × spindle speed). No feed, or feed away from the material,
     /// gives no chip and no force. Throws InputError where angle or feed is not finite.
     CuttingLoad load(double spindle_angle_rad, double feed_per_tooth_mm, const EngagementMap& map) const;
+    /// The same, with the map's own bounds at hand.
+    CuttingLoad load(double spindle_angle_rad, double feed_per_tooth_mm, const EngagementMap& map,
+                     const EngagementBounds& bounds) const;
 
     const Cutter& cutter() const { return cutter_; }
     const CuttingCoefficients& coefficients() const { return coefficients_; }
@@ -122,7 +125,8 @@ class CuttingForce {
     double runout_mm(std::size_t tooth, std::size_t slice) const {
         return runout_mm_[slice * Cutter::max_teeth + tooth];
     }
-    void find_parts_in_cut(double tip_bins, const EngagementMap& map, double reach_mm, InCut& in_cut) const;
+    void find_parts_in_cut(double tip_bins, const EngagementMap& map, const EngagementBounds& bounds,
+                           InCut& in_cut) const;
     void add_part(double low_mm, double high_mm, double weight, InCut& in_cut) const;
     double chip_in_plane_mm(std::size_t tooth, std::size_t slice, double sin_phi, double cos_phi,
                             double feed_per_radian_mm) const;

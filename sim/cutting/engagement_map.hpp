@@ -32,6 +32,37 @@ inline bool holds_material(const EngagementMap::Bin& bin) {
     return bin.covered > 0.0F && bin.top_mm > bin.bottom_mm;
 }
 
+/// Bounds of the material: all of it lies in bins [first, end), and none is higher than `top_mm`. Found once where
+/// many loads follow.
+struct EngagementBounds {
+    std::size_t first = 0;
+    std::size_t end = 0;
+    double top_mm = 0.0;
+
+    /// How many bins back from a bin (against φ, around the turn) the last one is that may hold material; 0: itself.
+    [[nodiscard]] std::size_t bins_back_from(std::size_t bin) const {
+        if (bin >= first && bin < end) {
+            return 0;
+        }
+        const std::size_t last = end - 1;
+        return bin > last ? bin - last : bin + EngagementMap::bin_count - last;
+    }
+};
+
+inline EngagementBounds bounds_of(const EngagementMap& map) {
+    EngagementBounds bounds;
+    for (std::size_t k = 0; k < EngagementMap::bin_count; ++k) {
+        if (!holds_material(map.bins[k])) {
+            continue;
+        }
+        bounds.first = bounds.end == 0 ? k : bounds.first;
+        bounds.end = k + 1;
+        const auto top_mm = static_cast<double>(map.bins[k].top_mm);
+        bounds.top_mm = top_mm > bounds.top_mm ? top_mm : bounds.top_mm;
+    }
+    return bounds;
+}
+
 /// Where in a bin its material is: from `low` to `high`, both 0…1 of the bin's angle, with `weight` of it filled.
 struct CoveredPart {
     double low = 0.0;

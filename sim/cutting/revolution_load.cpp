@@ -84,6 +84,8 @@ RevolutionLoad revolution_load(const CuttingForce& force, double feed_per_tooth_
     const bool equal_teeth = has_equal_pitch(cutter) && cutter.runout_mm == 0.0;
     const double range_rad = equal_teeth ? turn / static_cast<double>(cutter.teeth) : turn;
     const std::vector<double> parts = crossings(cutter, material_edges(map), range_rad);
+    const EngagementBounds bounds = bounds_of(map);
+    const auto load_at = [&](double angle_rad) { return force.load(angle_rad, feed_per_tooth_mm, map, bounds); };
     constexpr double inside_rad = 1e-8;  // distance from a crossing, on either side of a jump
     RevolutionLoad result;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -91,12 +93,12 @@ RevolutionLoad revolution_load(const CuttingForce& force, double feed_per_tooth_
         if (length_rad < 4.0 * inside_rad) {
             continue;
         }
-        take_peaks(force.load(parts[i] + inside_rad, feed_per_tooth_mm, map), result);
-        take_peaks(force.load(parts[i + 1] - inside_rad, feed_per_tooth_mm, map), result);
+        take_peaks(load_at(parts[i] + inside_rad), result);
+        take_peaks(load_at(parts[i + 1] - inside_rad), result);
         const int steps = std::max(4, static_cast<int>(std::ceil(length_rad / step_rad)));
         const double width_rad = length_rad / steps;
         for (int step = 0; step < steps; ++step) {
-            const CuttingLoad load = force.load(parts[i] + (step + 0.5) * width_rad, feed_per_tooth_mm, map);
+            const CuttingLoad load = load_at(parts[i] + (step + 0.5) * width_rad);
             take_peaks(load, result);
             add_mean(load, width_rad / range_rad, result);
         }

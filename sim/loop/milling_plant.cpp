@@ -9,6 +9,8 @@ namespace millforce::sim {
 
 namespace {
 
+constexpr double turn_rad = 2.0 * std::numbers::pi;
+
 std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
     if (scenario.has_program()) {
         return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
@@ -25,6 +27,8 @@ MillingPlant::MillingPlant(const Scenario& scenario)
       machine_(scenario_.machine),
       cutting_(scenario_.cutter, scenario_.coefficients, scenario_.cutting_options),
       workpiece_(workpiece_of(scenario)),
+      since_tooth_before_(turn_rad / static_cast<double>(scenario.cutter.teeth)),
+      since_last_revolution_(turn_rad),
       judge_(scenario_) {}
 
 void MillingPlant::start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s) {
@@ -36,12 +40,16 @@ void MillingPlant::advance(double dt_s, const Command& command) {
                      load_);
     const Eigen::Vector3d velocity = machine_.velocity_mm_s();
     path_mm_ += velocity.norm() * dt_s;
-    history_.add(machine_.spindle_angle_rad(), path_mm_);
-    // The tool goes where the axes go; the command's direction serves while they hardly move.
-    const Eigen::Vector3d travel = velocity.norm() > 0.5 ? velocity.normalized() : command.direction;
+    for (FeedHistory* history : {&since_tooth_before_, &since_last_revolution_}) {
+        history->add(machine_.spindle_angle_rad(), machine_.position_mm());
+    }
+    // The command's direction serves while the tool stands: what is left then is noise.
+    constexpr double standing_mm = 2e-3;
+    const Eigen::Vector3d way_mm = since_last_revolution_.way_mm();
+    direction_ = way_mm.norm() > standing_mm ? way_mm.normalized() : command.direction;
     if (!command.is_rapid || !scenario_.has_program()) {
-        workpiece_->move_to(machine_.position_mm(), travel, command.path_mm);
-        cut(dt_s, travel);
+        workpiece_->move_to(machine_.position_mm(), direction_, command.path_mm);
+        cut(dt_s, since_tooth_before_.way_mm().norm());
     } else {
         workpiece_->move_to(machine_.position_mm(), Eigen::Vector3d::UnitZ(), command.path_mm);
         load_ = {};
@@ -54,20 +62,19 @@ void MillingPlant::advance(double dt_s, const Command& command) {
 
 /// The force over the angle that the spindle turned in this step: as many points as keep a tooth from jumping
 /// over more than 3°.
-void MillingPlant::cut(double dt_s, const Eigen::Vector3d& direction) {
+void MillingPlant::cut(double dt_s, double feed_per_tooth_mm) {
     const double speed = machine_.spindle_speed_rad_s();
     cutting_load_ = {};
     load_ = {};
     if (!workpiece_->truth().cutting || !(speed > 1.0)) {
         return;
     }
-    const double feed_per_tooth =
-        history_.feed_per_tooth_mm(2.0 * std::numbers::pi / static_cast<double>(scenario_.cutter.teeth));
     const double turned_rad = speed * dt_s;
     const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
     for (int k = 0; k < points; ++k) {
         const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
-        const CuttingLoad part = cutting_.load(angle, feed_per_tooth, workpiece_->engagement());
+        const CuttingLoad part =
+            cutting_.load(angle, feed_per_tooth_mm, workpiece_->engagement(), workpiece_->bounds());
         cutting_load_.fx_N += part.fx_N / points;
         cutting_load_.fy_N += part.fy_N / points;
         cutting_load_.fz_N += part.fz_N / points;
@@ -78,10 +85,14 @@ void MillingPlant::cut(double dt_s, const Eigen::Vector3d& direction) {
         }
         peak_total_N_ = std::max(peak_total_N_, std::hypot(part.fx_N, part.fy_N));
     }
+    const double tooth_N = *std::max_element(cutting_load_.tooth_force_N.begin(), cutting_load_.tooth_force_N.end());
+    if (tooth_N > hardest_cut_.tooth_force_N) {
+        hardest_cut_ = {tooth_N, feed_per_tooth_mm, workpiece_->engagement()};
+    }
     judge_.observe_peak(peak_total_N_);
     peak_total_N_ = 0.0;
-    const double along = std::max(direction.head<2>().norm(), 1e-9);
-    const Eigen::Vector2d t = direction.head<2>() / along;
+    const double along = std::max(direction_.head<2>().norm(), 1e-9);
+    const Eigen::Vector2d t = direction_.head<2>() / along;
     load_.force_on_workpiece_N = {cutting_load_.fx_N * t.x() - cutting_load_.fy_N * t.y(),
                                   cutting_load_.fx_N * t.y() + cutting_load_.fy_N * t.x(), cutting_load_.fz_N};
     load_.spindle_torque_Nm = cutting_load_.spindle_torque_Nm;

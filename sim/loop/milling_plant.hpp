@@ -12,51 +12,63 @@
 
 namespace millforce::sim {
 
-/// The way that the tool has gone since the tooth before passed: the chip is what that tooth left. Looked up by the
-/// spindle's angle, one pitch back, for the spindle slows down under a tooth.
+/// How far and in which direction the tool has gone while the spindle turned by a given angle, up to now. Looked up by
+/// the spindle's angle, for the spindle slows down under a tooth.
 class FeedHistory {
   public:
-    void add(double angle_rad, double path_mm) {
+    explicit FeedHistory(double angle_rad) : angle_rad_(angle_rad) {}
+
+    void add(double angle_rad, const Eigen::Vector3d& position_mm) {
         newest_ = (newest_ + 1) % places_.size();
-        places_[newest_] = {angle_rad, path_mm};
+        places_[newest_] = {angle_rad, position_mm};
         filled_ = std::min(filled_ + 1, places_.size());
         if (behind_ == newest_) {
             behind_ = after(behind_);
         }
     }
-    [[nodiscard]] double feed_per_tooth_mm(double pitch_rad) {
-        const double then_rad = places_[newest_].angle_rad - pitch_rad;
+    /// From where the tool stood to where it stands; extended in proportion while the spindle has turned by less.
+    [[nodiscard]] Eigen::Vector3d way_mm() {
+        const double then_rad = places_[newest_].angle_rad - angle_rad_;
         if (filled_ < places_.size()) {
             behind_ = (newest_ + places_.size() + 1 - filled_) % places_.size();
         }
         while (after(behind_) != newest_ && places_[after(behind_)].angle_rad <= then_rad) {
             behind_ = after(behind_);
         }
+        const Place& now = places_[newest_];
         const Place& from = places_[behind_];
         const Place& to = places_[after(behind_)];
-        const double turned_rad = places_[newest_].angle_rad - from.angle_rad;
+        const double turned_rad = now.angle_rad - from.angle_rad;
         if (filled_ < 3 || !(turned_rad > 0.0)) {
-            return 0.0;
+            return Eigen::Vector3d::Zero();
         }
-        if (turned_rad < pitch_rad) {
-            return (places_[newest_].path_mm - from.path_mm) * pitch_rad / turned_rad;
+        if (turned_rad < angle_rad_) {
+            return (now.position_mm - from.position_mm) * (angle_rad_ / turned_rad);
         }
         const double step_rad = to.angle_rad - from.angle_rad;
         const double share = step_rad > 0.0 ? std::min((then_rad - from.angle_rad) / step_rad, 1.0) : 0.0;
-        return places_[newest_].path_mm - (from.path_mm + share * (to.path_mm - from.path_mm));
+        return now.position_mm - (from.position_mm + share * (to.position_mm - from.position_mm));
     }
 
   private:
     struct Place {
         double angle_rad = 0.0;
-        double path_mm = 0.0;
+        Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
     };
     [[nodiscard]] std::size_t after(std::size_t place) const { return (place + 1) % places_.size(); }
 
+    double angle_rad_;
     std::array<Place, 1024> places_{};
     std::size_t newest_ = 0;
     std::size_t behind_ = 1;
     std::size_t filled_ = 0;
+};
+
+/// The engagement and the feed under which a tooth carried most.
+struct HardestCut {
+    double tooth_force_N = 0.0;
+    double feed_per_tooth_mm = 0.0;
+    EngagementMap engagement{};
 };
 
 /// Drives, tool and workpiece under a CNC's command: command → drives → engagement → cutting force → drives. Whose the
@@ -88,19 +100,23 @@ class MillingPlant {
     [[nodiscard]] const MachinePlant& machine() const { return machine_; }
     [[nodiscard]] double time_s() const { return machine_.time_s(); }
     [[nodiscard]] const CuttingLoad& load() const { return cutting_load_; }  ///< of the last step
+    [[nodiscard]] const HardestCut& hardest_cut() const { return hardest_cut_; }
     [[nodiscard]] RunJudge& judge() { return judge_; }
 
   private:
-    void cut(double dt_s, const Eigen::Vector3d& direction);
+    void cut(double dt_s, double feed_per_tooth_mm);
 
     Scenario scenario_;
     MachinePlant machine_;
     CuttingForce cutting_;
     std::unique_ptr<Workpiece> workpiece_;
-    FeedHistory history_;
+    FeedHistory since_tooth_before_;                       ///< the chip is what that tooth left
+    FeedHistory since_last_revolution_;                    ///< over it the axes' shaking under the teeth cancels out
+    Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  ///< in which the tool goes
     RunJudge judge_;
     MachinePlant::Load load_{};
     CuttingLoad cutting_load_{};
+    HardestCut hardest_cut_{};
     double path_mm_ = 0.0;
     double peak_total_N_ = 0.0;
 };

@@ -8,13 +8,15 @@ namespace millforce::sim {
 
 void Workpiece::set(const EngagementMap& map) {
     map_ = map;
+    bounds_ = bounds_of(map);
     truth_ = summarise(map);
 }
 
 StockWorkpiece::StockWorkpiece(const StockSettings& settings, const Cutter& cutter)
     : cutter_(cutter),
       map_(settings.block.min_x_mm, settings.block.min_y_mm, settings.block.max_x_mm, settings.block.max_y_mm,
-           settings.cell_mm, settings.block.top_start_mm) {
+           settings.cell_mm, settings.block.top_start_mm),
+      look_ahead_(cutter, settings.cell_mm) {
     const auto set_box = [&](const StockBox& box) {
         map_.set_box(box.min_x_mm, box.min_y_mm, box.max_x_mm, box.max_y_mm, box.top_start_mm, box.top_end_mm);
     };
@@ -28,18 +30,27 @@ StockWorkpiece::StockWorkpiece(const StockSettings& settings, const Cutter& cutt
 }
 
 bool StockWorkpiece::move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double) {
-    const double step_mm = 0.35 * map_.cell_mm();
-    const bool turned = (direction - last_direction_).squaredNorm() > 4e-4;  // 1.1°
-    if (last_tip_mm_ && !turned && (tip_mm - *last_tip_mm_).norm() < step_mm) {
+    const double engagement_step_mm = 0.35 * map_.cell_mm();
+    if (last_tip_mm_ && (tip_mm - *last_tip_mm_).norm() < engagement_step_mm) {
         return false;
     }
-    if (last_tip_mm_) {
-        map_.remove(cutter_, *last_tip_mm_, tip_mm);
-    }
-    set(engagement_at(map_, cutter_, tip_mm, direction));
+    remove_up_to(tip_mm, direction);
+    set(look_ahead_.engagement(map_, tip_mm, direction));
     last_tip_mm_ = tip_mm;
-    last_direction_ = direction;
     return true;
+}
+
+/// In straight pieces: the look-ahead sees nothing of what the tool covers now, so that two cells may wait.
+void StockWorkpiece::remove_up_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction) {
+    if (last_tip_mm_) {
+        const bool turned = (direction - removal_direction_).squaredNorm() > 0.03;  // 10°
+        if (!turned && (tip_mm - removed_up_to_mm_).norm() < 2.0 * map_.cell_mm()) {
+            return;
+        }
+        map_.remove(cutter_, removed_up_to_mm_, tip_mm);
+    }
+    removed_up_to_mm_ = tip_mm;
+    removal_direction_ = direction;
 }
 
 namespace {

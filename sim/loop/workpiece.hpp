@@ -18,6 +18,7 @@ class Workpiece {
     /// Tells where the tool is; returns true where the engagement is another than before.
     virtual bool move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double path_mm) = 0;
     [[nodiscard]] const EngagementMap& engagement() const { return map_; }
+    [[nodiscard]] const EngagementBounds& bounds() const { return bounds_; }
     [[nodiscard]] const TrueEngagement& truth() const { return truth_; }
 
   protected:
@@ -25,6 +26,7 @@ class Workpiece {
 
   private:
     EngagementMap map_{};
+    EngagementBounds bounds_{};
     TrueEngagement truth_{};
 };
 
@@ -35,10 +37,14 @@ class StockWorkpiece : public Workpiece {
     bool move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double path_mm) override;
 
   private:
+    void remove_up_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction);
+
     Cutter cutter_;
     HeightMap map_;
+    LookAhead look_ahead_;
     std::optional<Eigen::Vector3d> last_tip_mm_;
-    Eigen::Vector3d last_direction_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d removed_up_to_mm_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d removal_direction_ = Eigen::Vector3d::Zero();
 };
 
 /// Depth and width as functions of the path.

@@ -26,84 +26,11 @@ const std::array<Direction, EngagementMap::bin_count>& bin_directions() {
     return table;
 }
 
-/// `cells_across`: how many cells wide the bin is across the feed.
-EngagementMap::Bin flat_bin(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& point,
-                            double cells_across) {
-    const HeightMap::Material material = map.material_above(point.z(), point.x(), point.y());
-    EngagementMap::Bin bin;
-    // The share of material passes one half where a wall is and changes by one over a cell: so as much of the bin is
-    // covered as the wall lies beside its middle.
-    const auto steepness = static_cast<float>(std::max(1.0, 1.0 / cells_across));
-    const float covered = std::clamp((material.share - 0.5F) * steepness + 0.5F, 0.0F, 1.0F);
-    if (covered > 0.0F) {
-        bin.covered = covered;
-        bin.top_mm =
-            std::min(material.top_mm - static_cast<float>(point.z()), static_cast<float>(cutter.flute_length_mm));
-    }
-    return bin;
-}
-
-/// Where to look for the material that the periphery is about to meet.
-class LookAhead {
-  public:
-    LookAhead(const HeightMap& map, const Eigen::Vector3d& tip_mm, const Eigen::Vector2d& feed)
-        : tip_mm_(tip_mm), feed_(feed), left_(-feed.y(), feed.x()), margin_mm_(map.cell_mm()) {}
-
-    /// Sets the radius and the height over the tip. The points lie on a circle that clears the removed one; at the very
-    /// sides, where that would look further ahead than `furthest`, as far beside the axis as it does not.
-    void set_circle(double radius_mm, double height_mm) {
-        const double furthest = 6.0 * margin_mm_;
-        const double clearance = 2.0 * radius_mm * margin_mm_ + margin_mm_ * margin_mm_;
-        const double rise = std::max(0.0, (clearance - furthest * furthest) / (2.0 * furthest));
-        radius_mm_ = radius_mm;
-        reach_squared_mm2_ = radius_mm * radius_mm + clearance;
-        widest_mm_ = std::sqrt(std::max(0.0, radius_mm * radius_mm - rise * rise));
-        height_mm_ = tip_mm_.z() + height_mm;
-    }
-
-    [[nodiscard]] Eigen::Vector3d point(const Direction& u) const {
-        const double beside = std::clamp(radius_mm_ * u.cosine, -widest_mm_, widest_mm_);
-        const double in_front = std::sqrt(reach_squared_mm2_ - beside * beside);
-        const Eigen::Vector2d place = tip_mm_.head<2>() + feed_ * in_front + left_ * beside;
-        return {place.x(), place.y(), height_mm_};
-    }
-
-  private:
-    Eigen::Vector3d tip_mm_;
-    Eigen::Vector2d feed_;
-    Eigen::Vector2d left_;
-    double margin_mm_;
-    double radius_mm_ = 0.0;
-    double reach_squared_mm2_ = 0.0;
-    double widest_mm_ = 0.0;
-    double height_mm_ = 0.0;
-};
-
-// Of the heights of a ball's edge that lie in material, the lowest and the highest bound the bin.
-EngagementMap::Bin ball_bin(const HeightMap& map, const Cutter& cutter, LookAhead& ahead, const Direction& u) {
-    constexpr int heights = 24;
-    const double radius = 0.5 * cutter.diameter_mm;
-    EngagementMap::Bin bin;
-    for (int k = 0; k < heights; ++k) {
-        const double z = radius * (k + 0.5) / heights;
-        ahead.set_circle(local_radius_mm(cutter, z), z);
-        const Eigen::Vector3d point = ahead.point(u);
-        const HeightMap::Material material = map.material_above(point.z(), point.x(), point.y());
-        if (material.share < 0.5F) {
-            continue;
-        }
-        if (bin.covered <= 0.0F) {
-            bin.bottom_mm = static_cast<float>(radius * k / heights);
-        }
-        bin.covered = 1.0F;
-        bin.top_mm = std::min(static_cast<float>(radius * (k + 1) / heights),
-                              material.top_mm - static_cast<float>(point.z() - z));
-    }
-    return bin;
-}
-
 /// Width of a bin's material across the feed, in radii: cos φ_st − cos φ_ex as a product, as bins are narrow.
 double width_in_radii(const EngagementMap& map, std::size_t k) {
+    if (map.bins[k].covered >= 1.0F) {
+        return bin_directions()[k].sine * EngagementMap::bin_rad;
+    }
     const CoveredPart part = covered_part(map, k);
     const double middle = static_cast<double>(k) + 0.5 * (part.low + part.high);
     return std::sin(middle * EngagementMap::bin_rad) * (part.high - part.low) * part.weight * EngagementMap::bin_rad;
@@ -128,25 +55,95 @@ void remove_grain(EngagementMap& map, double narrowest_in_radii) {
 
 }  // namespace
 
-EngagementMap engagement_at(const HeightMap& map, const Cutter& cutter, const Eigen::Vector3d& tip_mm,
-                            const Eigen::Vector3d& direction) {
+LookAhead::LookAhead(const Cutter& cutter, double cell_mm) : cell_mm_(cell_mm), cutter_(cutter) {
+    constexpr std::size_t ball_heights = 24;
+    const bool ball = cutter.type == CutterType::ball_end_mill;
+    rings_.reserve(ball ? ball_heights : 1);
+    if (!ball) {
+        rings_.push_back(ring(0.0, 0.5 * cutter.diameter_mm));
+    }
+    for (std::size_t k = 0; ball && k < ball_heights; ++k) {
+        const double height_mm = 0.5 * cutter.diameter_mm * (static_cast<double>(k) + 0.5) / ball_heights;
+        rings_.push_back(ring(height_mm, local_radius_mm(cutter, height_mm)));
+    }
+}
+
+/// The points lie on a circle that clears the removed one; at the very sides, where that would look further ahead than
+/// `furthest`, as far beside the axis as it does not.
+LookAhead::Ring LookAhead::ring(double height_mm, double radius_mm) const {
+    const double furthest_mm = 6.0 * cell_mm_;
+    const double clearance_mm2 = 2.0 * radius_mm * cell_mm_ + cell_mm_ * cell_mm_;
+    const double rise_mm = std::max(0.0, (clearance_mm2 - furthest_mm * furthest_mm) / (2.0 * furthest_mm));
+    const double widest_mm = std::sqrt(std::max(0.0, radius_mm * radius_mm - rise_mm * rise_mm));
+    Ring ring{.height_mm = height_mm, .points_mm = {}};
+    for (std::size_t k = 0; k < ring.points_mm.size(); ++k) {
+        const double beside_mm = std::clamp(radius_mm * bin_directions()[k].cosine, -widest_mm, widest_mm);
+        const double in_front_mm = std::sqrt(radius_mm * radius_mm + clearance_mm2 - beside_mm * beside_mm);
+        ring.points_mm[k] = {in_front_mm, beside_mm};
+    }
+    return ring;
+}
+
+EngagementMap LookAhead::engagement(const HeightMap& map, const Eigen::Vector3d& tip_mm,
+                                    const Eigen::Vector3d& direction) const {
     EngagementMap result;
     const double along = direction.head<2>().norm();
     if (!(along > 1e-6)) {
         return result;
     }
-    const double radius = 0.5 * cutter.diameter_mm;
-    LookAhead ahead(map, tip_mm, direction.head<2>() / along);
-    ahead.set_circle(radius, 0.0);
-    const double bin_in_cells = radius * EngagementMap::bin_rad / map.cell_mm();
+    const Eigen::Vector2d feed = direction.head<2>() / along;
+    const Eigen::Vector2d left(-feed.y(), feed.x());
+    const auto material_at = [&](const Ring& ring, std::size_t k) {
+        const Eigen::Vector2d& ahead_mm = ring.points_mm[k];
+        const Eigen::Vector2d place_mm = tip_mm.head<2>() + feed * ahead_mm.x() + left * ahead_mm.y();
+        return map.material_above(tip_mm.z() + ring.height_mm, place_mm.x(), place_mm.y());
+    };
     for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
-        const Direction& u = bin_directions()[k];
-        result.bins[k] = cutter.type == CutterType::ball_end_mill
-                             ? ball_bin(map, cutter, ahead, u)
-                             : flat_bin(map, cutter, ahead.point(u), bin_in_cells * u.sine);
+        if (cutter_.type == CutterType::ball_end_mill) {
+            result.bins[k] = ball_bin([&](const Ring& ring) { return material_at(ring, k); }, tip_mm.z());
+        } else {
+            result.bins[k] = flat_bin(material_at(rings_.front(), k), tip_mm.z(), bin_directions()[k].sine);
+        }
     }
-    remove_grain(result, 0.25 * map.cell_mm() / radius);
+    remove_grain(result, 0.25 * cell_mm_ / (0.5 * cutter_.diameter_mm));
     return result;
+}
+
+EngagementMap::Bin LookAhead::flat_bin(const HeightMap::Material& material, double tip_z_mm, double sine) const {
+    EngagementMap::Bin bin;
+    bin.covered = material.share;
+    if (material.share > 0.0F && material.share < 1.0F) {
+        // The share of material passes one half where a wall is and changes by one over a cell: so as much of the bin
+        // is covered as the wall lies beside its middle.
+        const double cells_across = 0.5 * cutter_.diameter_mm * EngagementMap::bin_rad / cell_mm_ * sine;
+        const auto steepness = static_cast<float>(std::max(1.0, 1.0 / cells_across));
+        bin.covered = std::clamp((material.share - 0.5F) * steepness + 0.5F, 0.0F, 1.0F);
+    }
+    if (bin.covered > 0.0F) {
+        bin.top_mm =
+            std::min(material.top_mm - static_cast<float>(tip_z_mm), static_cast<float>(cutter_.flute_length_mm));
+    }
+    return bin;
+}
+
+// Of the heights of a ball's edge that lie in material, the lowest and the highest bound the bin.
+template <typename MaterialAt>
+EngagementMap::Bin LookAhead::ball_bin(const MaterialAt& material_at, double tip_z_mm) const {
+    const double half_spacing_mm = 0.25 * cutter_.diameter_mm / static_cast<double>(rings_.size());
+    EngagementMap::Bin bin;
+    for (const Ring& ring : rings_) {
+        const HeightMap::Material material = material_at(ring);
+        if (material.share < 0.5F) {
+            continue;
+        }
+        if (bin.covered <= 0.0F) {
+            bin.bottom_mm = static_cast<float>(ring.height_mm - half_spacing_mm);
+        }
+        bin.covered = 1.0F;
+        bin.top_mm = std::min(static_cast<float>(ring.height_mm + half_spacing_mm),
+                              material.top_mm - static_cast<float>(tip_z_mm));
+    }
+    return bin;
 }
 
 namespace {

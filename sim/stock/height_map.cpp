@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "files/input_error.hpp"
 #include "stock/swept_disc.hpp"
@@ -19,7 +19,7 @@ constexpr double most_steps = 1e6;  // of a sloping way: more than any machine's
 constexpr std::uint8_t whole = 255;
 
 std::uint8_t in_steps(double share) {
-    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+    return static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0) + 0.5);
 }
 
 /// Share of the cell about `centre` (of unit width) between two borders.
@@ -62,7 +62,11 @@ void visit_columns(const Columns& columns, const Columns& excluded, const Visit&
 }  // namespace
 
 HeightMap::HeightMap(double min_x_mm, double min_y_mm, double max_x_mm, double max_y_mm, double cell_mm, double top_mm)
-    : min_x_mm_(min_x_mm), min_y_mm_(min_y_mm), cell_mm_(cell_mm), highest_mm_(static_cast<float>(top_mm)) {
+    : min_x_mm_(min_x_mm),
+      min_y_mm_(min_y_mm),
+      cell_mm_(cell_mm),
+      cells_per_mm_(1.0 / cell_mm),
+      highest_mm_(static_cast<float>(top_mm)) {
     const double width = (max_x_mm - min_x_mm) / cell_mm;
     const double depth = (max_y_mm - min_y_mm) / cell_mm;
     const double columns = std::ceil(width - 1e-9);
@@ -75,8 +79,7 @@ HeightMap::HeightMap(double min_x_mm, double min_y_mm, double max_x_mm, double m
     }
     columns_ = static_cast<std::size_t>(columns);
     rows_ = static_cast<std::size_t>(rows);
-    heights_.assign(columns_ * rows_, highest_mm_);
-    others_ = heights_;
+    cells_.assign(columns_ * rows_, Cell{highest_mm_, highest_mm_});
     low_shares_.assign(columns_ * rows_, 0);
     // A block that ends within a cell leaves the rest of the cell empty.
     const std::uint8_t empty_column = in_steps(columns - width);
@@ -92,8 +95,9 @@ HeightMap::HeightMap(double min_x_mm, double min_y_mm, double max_x_mm, double m
 void HeightMap::store(std::size_t index, float high_mm, float low_mm, std::uint8_t low_share) {
     const bool one_height = low_share == 0 || low_share == whole || !(low_mm < high_mm);
     const bool mostly_low = low_share > whole / 2;
-    heights_[index] = mostly_low ? low_mm : high_mm;
-    others_[index] = one_height ? heights_[index] : (mostly_low ? high_mm : low_mm);
+    const float larger_mm = mostly_low ? low_mm : high_mm;
+    const float smaller_mm = mostly_low ? high_mm : low_mm;
+    cells_[index] = {larger_mm, one_height ? larger_mm : smaller_mm};
     low_shares_[index] = one_height ? std::uint8_t{0} : low_share;
 }
 
@@ -104,9 +108,9 @@ void HeightMap::set_cell(std::size_t index, float top_mm, double share) {
     if (set_share == 0) {
         return;
     }
-    const float low_mm = std::min(heights_[index], others_[index]);
+    const float low_mm = cells_[index].lowest_mm();
     const bool same_edge = low_shares_[index] > 0 && std::abs(int{low_shares_[index]} - int{rest}) <= 2;
-    const float before_mm = same_edge ? low_mm : heights_[index];
+    const float before_mm = same_edge ? low_mm : cells_[index].larger_part_mm;
     if (top_mm >= before_mm) {
         store(index, top_mm, before_mm, rest);
     } else {
@@ -157,25 +161,26 @@ void HeightMap::remove(const Cutter& cutter, const Eigen::Vector3d& from_mm, con
     if (!from_mm.allFinite() || !to_mm.allFinite()) {
         return;
     }
-    const bool level = from_mm.z() == to_mm.z();
     const double way_mm = (to_mm - from_mm).head<2>().norm();
-    const long steps = level ? 1L : std::lround(std::clamp(std::ceil(way_mm / (0.5 * cell_mm_)), 1.0, most_steps));
+    const double stairs = std::min(way_mm / (0.5 * cell_mm_), std::abs(to_mm.z() - from_mm.z()) / height_resolution_mm);
+    const long steps = std::lround(std::clamp(std::ceil(stairs), 1.0, most_steps));
     Eigen::Vector3d before_mm = from_mm;
-    bool already_there = goes_on(cutter, from_mm);
+    constexpr double nowhere_mm = std::numeric_limits<double>::infinity();
+    double floor_mm = goes_on(cutter, from_mm) ? standing_->floor_mm : nowhere_mm;
     for (long k = 1; k <= steps; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(steps);
         const Eigen::Vector3d tip_mm = k == steps ? to_mm : (from_mm + (to_mm - from_mm) * share).eval();
-        // A way that rises sinks no deeper anywhere than its start did; one that falls covers all anew.
-        sweep(cutter, before_mm, tip_mm, already_there && tip_mm.z() >= before_mm.z());
-        already_there = true;
+        const double z_mm = std::min(before_mm.z(), tip_mm.z());
+        const bool sinks = z_mm < floor_mm - height_resolution_mm;
+        sweep(cutter, before_mm, tip_mm, z_mm, !sinks);
+        floor_mm = sinks ? z_mm : std::max(floor_mm, z_mm);
         before_mm = tip_mm;
     }
-    standing_ = Standing{to_mm, 0.5 * cutter.diameter_mm, cutter.type == CutterType::ball_end_mill};
+    standing_ = Standing{to_mm, 0.5 * cutter.diameter_mm, cutter.type == CutterType::ball_end_mill, floor_mm};
 }
 
-void HeightMap::sweep(const Cutter& cutter, const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm,
+void HeightMap::sweep(const Cutter& cutter, const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm, double z_mm,
                       bool goes_on) {
-    const double z_mm = std::min(from_mm.z(), to_mm.z());
     if (z_mm >= static_cast<double>(highest_mm_)) {
         return;
     }
@@ -199,44 +204,39 @@ void HeightMap::sweep_row(const SweptDisc& disc, const CutterShape& shape, doubl
     const double outer = shape.radius + 0.5;                     // beyond it no cell is touched
     const double inner = shape.ball ? 0.0 : shape.radius - 0.5;  // within it cells are covered whole
     const std::size_t row = static_cast<std::size_t>(y) * columns_;
-    if (goes_on && disc.is_short(shape.radius)) {
-        const Columns touched(disc.ahead(y, disc.end_row(y, outer)), columns_);
-        const Columns gone(disc.start_row(y, inner), columns_);
-        visit_columns(touched, gone, [&](std::size_t column) { cut_edge(disc, shape, row, column, y); });
-        return;
-    }
     const Columns touched(goes_on ? disc.ahead(y, disc.row(y, outer)) : disc.row(y, outer), columns_);
     const Columns covered(disc.row(y, inner), columns_);
+    const Columns gone(goes_on ? disc.start_row(y, inner) : SweptDisc::Interval{}, columns_);
     visit_columns(touched, covered, [&](std::size_t column) { cut_edge(disc, shape, row, column, y); });
     const auto z_mm = static_cast<float>(shape.z_mm);
-    for (std::size_t index = row + covered.first; index < row + covered.end; ++index) {
-        heights_[index] = std::min(heights_[index], z_mm);
-        others_[index] = std::min(others_[index], z_mm);
-    }
+    visit_columns(covered, gone, [&](std::size_t column) { cells_[row + column].cut_to(z_mm); });
 }
 
 void HeightMap::cut_edge(const SweptDisc& disc, const CutterShape& shape, std::size_t row, std::size_t column,
                          double y) {
+    const std::size_t index = row + column;
+    if (cells_[index].highest_mm() <= static_cast<float>(shape.z_mm)) {
+        return;
+    }
     const double distance = disc.distance(static_cast<double>(column), y);
     double bottom_mm = shape.z_mm;
     if (shape.ball) {
         const double rim = std::min(distance, shape.radius);
         bottom_mm += (shape.radius - std::sqrt(shape.radius * shape.radius - rim * rim)) * cell_mm_;
     }
-    cut_cell(row + column, static_cast<float>(bottom_mm), shape.radius - distance + 0.5);
+    cut_cell(index, static_cast<float>(bottom_mm), shape.radius - distance + 0.5);
 }
 
 void HeightMap::cut_cell(std::size_t index, float z_mm, double share) {
     const std::uint8_t cut = in_steps(share);
-    const float high_mm = std::max(heights_[index], others_[index]);
+    const float high_mm = cells_[index].highest_mm();
     if (cut == 0 || z_mm >= high_mm) {
         return;
     }
-    const float low_mm = std::min(heights_[index], others_[index]);
+    const float low_mm = cells_[index].lowest_mm();
     const std::uint8_t low_share = low_mm < high_mm ? low_shares_[index] : std::uint8_t{0};
     if (cut == whole) {
-        heights_[index] = std::min(heights_[index], z_mm);
-        others_[index] = std::min(others_[index], z_mm);
+        cells_[index].cut_to(z_mm);
     } else if (low_share == 0) {
         store(index, high_mm, z_mm, cut);
     } else if (z_mm < low_mm) {
@@ -257,22 +257,10 @@ float HeightMap::height_mm(double x_mm, double y_mm) const {
     if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) && row < static_cast<double>(rows_))) {
         return nothing_mm;
     }
-    return heights_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+    return cell_height_mm(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
 }
 
-// Most of a block is plain: the four cells from `index` to the right and above have one and the same height.
-bool HeightMap::all_alike(std::size_t index) const {
-    const std::size_t above = index + columns_;
-    const unsigned edges = static_cast<unsigned>(low_shares_[index]) | low_shares_[index + 1] | low_shares_[above] |
-                           low_shares_[above + 1];
-    const float height_mm = heights_[index];
-    return edges == 0U && heights_[index + 1] == height_mm && heights_[above] == height_mm &&
-           heights_[above + 1] == height_mm;
-}
-
-HeightMap::Material HeightMap::material_above(double z_mm, double x_mm, double y_mm) const {
-    const double u = (x_mm - min_x_mm_) / cell_mm_ + 0.5;
-    const double v = (y_mm - min_y_mm_) / cell_mm_ + 0.5;
+HeightMap::Material HeightMap::mean_material(float above_mm, double u, double v) const {
     if (!(u > 0.0 && v > 0.0 && u < static_cast<double>(columns_) + 1.0 && v < static_cast<double>(rows_) + 1.0)) {
         return {};
     }
@@ -281,11 +269,6 @@ HeightMap::Material HeightMap::material_above(double z_mm, double x_mm, double y
     const auto row = static_cast<std::size_t>(v);
     const auto a = static_cast<float>(u - static_cast<double>(column));
     const auto b = static_cast<float>(v - static_cast<double>(row));
-    const auto above_mm = static_cast<float>(z_mm) + 1e-4F;
-    if (row > 0 && column > 0 && row < rows_ && column < columns_ && all_alike((row - 1) * columns_ + column - 1)) {
-        const float height_mm = heights_[row * columns_ + column];
-        return height_mm > above_mm ? Material{1.0F, height_mm} : Material{};
-    }
     Material material;
     float sum = 0.0F;
     const auto add = [&](std::size_t k, std::size_t i, float weight) {
@@ -296,13 +279,14 @@ HeightMap::Material HeightMap::material_above(double z_mm, double x_mm, double y
         // The larger part is the low one where more than half of the cell stands low.
         const float low = static_cast<float>(low_shares_[index]) * (1.0F / 255.0F);
         const float smaller = std::min(low, 1.0F - low);
-        if (heights_[index] > above_mm) {
+        const Cell& cell = cells_[index];
+        if (cell.larger_part_mm > above_mm) {
             material.share += weight * (1.0F - smaller);
-            sum += weight * (1.0F - smaller) * heights_[index];
+            sum += weight * (1.0F - smaller) * cell.larger_part_mm;
         }
-        if (smaller > 0.0F && others_[index] > above_mm) {
+        if (smaller > 0.0F && cell.smaller_part_mm > above_mm) {
             material.share += weight * smaller;
-            sum += weight * smaller * others_[index];
+            sum += weight * smaller * cell.smaller_part_mm;
         }
     };
     add(row, column, (1.0F - a) * (1.0F - b));

@@ -36,16 +36,6 @@ class SweptDisc {
         return row;
     }
 
-    /// Where it meets the disc at the way's end.
-    [[nodiscard]] Interval end_row(double y, double radius) const {
-        Interval row;
-        include_disc(row, to_, y, radius);
-        return row;
-    }
-
-    /// Whether the sides of the way bulge out of the discs at its ends by less than 1/1000 of a cell.
-    [[nodiscard]] bool is_short(double radius) const { return length_ * length_ < 8e-3 * radius; }
-
     /// Where a row at height y meets the swept area: the discs at both ends and the sides of the way between.
     [[nodiscard]] Interval row(double y, double radius) const {
         Interval row;

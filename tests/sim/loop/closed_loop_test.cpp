@@ -89,15 +89,23 @@ TEST(ClosedLoop, holds_the_limit_where_force_drops_tell_the_immersion) {
 }
 
 TEST(ClosedLoop, knows_the_engagement_better_and_is_faster_with_force_drops) {
-    const Scenario with = scenario_named("face_mill_dynamometer");
-    Scenario without = with;
-    without.parameters.tool.force_drop.law.largest_immersion = 0.0F;
-    const RunFigures told = controlled(with);
-    const RunFigures alone = controlled(without);
-    CHECK(told.immersion_rms < 0.05);
-    CHECK(told.depth_rms_mm < 0.2);
-    CHECK(told.estimate_share > 0.9);
-    CHECK(told.time_s < 0.5 * alone.time_s);
+    double estimate_share = 0.0;
+    double time_told_s = 0.0;
+    double time_alone_s = 0.0;
+    constexpr std::uint64_t seeds = 3;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const Scenario with = scenario_named("face_mill_dynamometer", {1.0, 1.0, seed});
+        Scenario without = with;
+        without.parameters.tool.force_drop.law.largest_immersion = 0.0F;
+        const RunFigures told = controlled(with);
+        CHECK(told.immersion_rms < 0.05);
+        CHECK(told.depth_rms_mm < 0.2);
+        estimate_share += told.estimate_share / seeds;
+        time_told_s += told.time_s;
+        time_alone_s += controlled(without).time_s;
+    }
+    CHECK(estimate_share > 0.9);
+    CHECK(time_told_s < 0.5 * time_alone_s);
 }
 
 TEST(ClosedLoop, holds_the_limit_in_a_pocket_of_harder_steel) {
@@ -149,7 +157,7 @@ TEST(ClosedLoop, mills_in_fixed_point_as_in_float) {
         DOUBLES_EQUAL(in_float.peak_over_limit, in_fixed.peak_over_limit, 0.02);
         DOUBLES_EQUAL(in_float.immersion_rms, in_fixed.immersion_rms, 0.005);
         DOUBLES_EQUAL(in_float.depth_rms_mm, in_fixed.depth_rms_mm, 0.02);
-        DOUBLES_EQUAL(in_float.mean_override, in_fixed.mean_override, 0.005);
+        DOUBLES_EQUAL(in_float.mean_override, in_fixed.mean_override, 0.02 * in_float.mean_override);
         UNSIGNED_LONGS_EQUAL(0, millforce::estimation::saturations());
     }
 }

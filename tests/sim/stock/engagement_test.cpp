@@ -266,16 +266,19 @@ TEST(Engagement, depth_is_counted_up_to_the_flutes_end) {
     cutter.flute_length_mm = 1.25;
     HeightMap map = block(15.0);
     map.remove(cutter, {-5.0, 0.0, -depth}, {0.0, 0.0, -depth});
-    DOUBLES_EQUAL(1.25, summarise(engagement_at(map, cutter, {0.0, 0.0, -depth}, {1.0, 0.0, 0.0})).axial_depth_mm,
-                  1e-4);
+    DOUBLES_EQUAL(
+        1.25,
+        summarise(LookAhead(cutter, map.cell_mm()).engagement(map, {0.0, 0.0, -depth}, {1.0, 0.0, 0.0})).axial_depth_mm,
+        1e-4);
 }
 
 TEST(Engagement, a_plunge_engages_no_flank_and_air_no_tool) {
     const HeightMap map = block(15.0);
-    CHECK_FALSE(summarise(engagement_at(map, end_mill(), {0.0, 0.0, -depth}, {0.0, 0.0, -1.0})).cutting);
-    CHECK_FALSE(summarise(engagement_at(map, end_mill(), {0.0, 0.0, -depth}, Eigen::Vector3d::Zero())).cutting);
-    CHECK_FALSE(summarise(engagement_at(map, end_mill(), {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0})).cutting);
-    CHECK_FALSE(summarise(engagement_at(map, end_mill(), {500.0, 0.0, -depth}, {1.0, 0.0, 0.0})).cutting);
+    const LookAhead look_ahead(end_mill(), map.cell_mm());
+    CHECK_FALSE(summarise(look_ahead.engagement(map, {0.0, 0.0, -depth}, {0.0, 0.0, -1.0})).cutting);
+    CHECK_FALSE(summarise(look_ahead.engagement(map, {0.0, 0.0, -depth}, Eigen::Vector3d::Zero())).cutting);
+    CHECK_FALSE(summarise(look_ahead.engagement(map, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0})).cutting);
+    CHECK_FALSE(summarise(look_ahead.engagement(map, {500.0, 0.0, -depth}, {1.0, 0.0, 0.0})).cutting);
 }
 
 TEST(Engagement, a_ball_is_engaged_from_its_tip_to_the_top_in_a_slot) {
@@ -283,7 +286,7 @@ TEST(Engagement, a_ball_is_engaged_from_its_tip_to_the_top_in_a_slot) {
     ball.type = CutterType::ball_end_mill;
     HeightMap map(-15.0, -10.0, 15.0, 10.0, 0.05, 0.0);
     map.remove(ball, {-10.0, 0.0, -1.0}, {0.0, 0.0, -1.0});
-    const EngagementMap engagement = engagement_at(map, ball, {0.0, 0.0, -1.0}, {1.0, 0.0, 0.0});
+    const EngagementMap engagement = LookAhead(ball, map.cell_mm()).engagement(map, {0.0, 0.0, -1.0}, {1.0, 0.0, 0.0});
     for (std::size_t k = 60; k < 300; ++k) {  // 30° to 150°
         DOUBLES_EQUAL(1.0, engagement.bins[k].top_mm, 0.05);
         CHECK(engagement.bins[k].bottom_mm <= 0.21F);  // one of 24 heights
@@ -299,7 +302,7 @@ TEST(Engagement, a_ball_beside_its_last_cut_is_engaged_on_the_fresh_side) {
     HeightMap map(-15.0, -10.0, 15.0, 10.0, 0.05, 0.0);
     map.remove(ball, {-12.0, 0.0, -1.0}, {12.0, 0.0, -1.0});
     map.remove(ball, {-12.0, 1.0, -1.0}, {0.0, 1.0, -1.0});
-    const EngagementMap engagement = engagement_at(map, ball, {0.0, 1.0, -1.0}, {1.0, 0.0, 0.0});
+    const EngagementMap engagement = LookAhead(ball, map.cell_mm()).engagement(map, {0.0, 1.0, -1.0}, {1.0, 0.0, 0.0});
     double left = 0.0;
     double right = 0.0;
     for (std::size_t k = 0; k < 180; ++k) {

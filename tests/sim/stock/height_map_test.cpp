@@ -43,8 +43,11 @@ double wall_distance(const HeightMap& map, const Eigen::Vector2d& origin, const 
 
 double largest_difference(const HeightMap& one, const HeightMap& other) {
     double largest = 0.0;
-    for (std::size_t k = 0; k < one.heights_mm().size(); ++k) {
-        largest = std::max(largest, std::abs(static_cast<double>(one.heights_mm()[k] - other.heights_mm()[k])));
+    for (std::size_t row = 0; row < one.rows(); ++row) {
+        for (std::size_t column = 0; column < one.columns(); ++column) {
+            const float difference_mm = one.cell_height_mm(row, column) - other.cell_height_mm(row, column);
+            largest = std::max(largest, std::abs(static_cast<double>(difference_mm)));
+        }
     }
     return largest;
 }

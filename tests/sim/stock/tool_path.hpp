@@ -14,7 +14,8 @@ namespace millforce::sim {
 /// A tool that cuts its way through a block in steps of a third of a cell, as the loop moves it.
 class CuttingTool {
   public:
-    CuttingTool(HeightMap& map, const Cutter& cutter) : map_(map), cutter_(cutter) {}
+    CuttingTool(HeightMap& map, const Cutter& cutter)
+        : map_(map), cutter_(cutter), look_ahead_(cutter, map.cell_mm()) {}
 
     using Observer = std::function<void(double path_mm, const TrueEngagement& truth)>;
 
@@ -53,12 +54,13 @@ class CuttingTool {
         map_.remove(cutter_, tip_mm_, tip_mm);
         tip_mm_ = tip_mm;
         if (observer) {
-            observer(path_mm, summarise(engagement_at(map_, cutter_, tip_mm, direction)));
+            observer(path_mm, summarise(look_ahead_.engagement(map_, tip_mm, direction)));
         }
     }
 
     HeightMap& map_;
     Cutter cutter_;
+    LookAhead look_ahead_;
     Eigen::Vector3d tip_mm_ = Eigen::Vector3d::Zero();
 };
 
