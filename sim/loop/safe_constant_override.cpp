@@ -2,33 +2,77 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loop/override_source.hpp"
+#include "cutting/revolution_load.hpp"
 #include "loop/simulation.hpp"
 
 namespace millforce::sim {
 
+namespace {
+
+constexpr double smallest_ratio = 0.01;
+constexpr double largest_ratio = 5.0;
+constexpr double smallest_share = 0.96;  // of the limit, used by the feed that is taken
+
+class SteadyOverride : public OverrideSource {
+  public:
+    explicit SteadyOverride(double ratio) : ratio_(static_cast<float>(ratio)) {}
+    hal::FeedOverride step(const hal::DriveSample&, const hal::ProgramStatus& program) override {
+        hal::FeedOverride output;
+        output.ratio = program.rapid ? 1.0F : ratio_;
+        output.hold = false;
+        return output;
+    }
+    void describe(TracePoint&) const override {}
+
+  private:
+    float ratio_;
+};
+
+/// The factor on the feed under which the hardest cut loads its tooth with `tooth_force_N`. The force law gives the
+/// ratio of two forces; the force itself is the one that was met. It grows with the feed, so halving finds it.
+double feed_factor(const CuttingForce& force, const HardestCut& cut, double tooth_force_N) {
+    const auto peak_N = [&](double factor) {
+        return revolution_load(force, factor * cut.feed_per_tooth_mm, cut.engagement).peak_tooth_N;
+    };
+    const double wanted_N = peak_N(1.0) * tooth_force_N / cut.tooth_force_N;
+    double low = smallest_ratio / largest_ratio;
+    double high = largest_ratio / smallest_ratio;
+    while (high > 1.001 * low) {
+        const double middle = std::sqrt(low * high);
+        (peak_N(middle) < wanted_N ? low : high) = middle;
+    }
+    return low;
+}
+
+}  // namespace
+
 double safe_constant_override(const Scenario& scenario, double hardest, const SimulationSettings& settings) {
     Scenario hard = scenario;
     hard.deviation.cutting_force_scale *= hardest;
-    const double exponent = 0.75;
-    double ratio = 0.5;
-    double best = 0.0;
-    for (int round = 0; round < 5; ++round) {
-        ConstantFeed constant(hard.parameters, ratio);
-        const Simulated run = simulate(hard, constant, "constant", settings);
-        if (run.interrupted) {
+    const Scenario plant = deviated(hard, hard.deviation, hard.seed);
+    const CuttingForce force(plant.cutter, plant.coefficients, plant.cutting_options);
+    const double limit_N = static_cast<double>(scenario.parameters.tool.tooth_force_limit_N);
+    double ratio = 1.0;
+    double safe_ratio = 0.0;
+    // The first run finds the hardest cut, the second confirms the feed. More are needed where another feed has another
+    // hardest cut.
+    for (int round = 0; round < 4; ++round) {
+        SteadyOverride steady(ratio);
+        const Simulated run = simulate(hard, steady, "constant", settings);
+        const double share = run.hardest_cut.tooth_force_N / limit_N;
+        if (run.interrupted || !(share > 0.0)) {
             return ratio;
         }
-        const double share = run.result.figures.peak_over_limit;
         if (share <= 1.0) {
-            best = std::max(best, ratio);
+            safe_ratio = std::max(safe_ratio, ratio);
         }
-        if (!(share > 0.0) || (share > 0.985 && share <= 1.0)) {
+        if (share > smallest_share && share <= 1.0) {
             break;
         }
-        ratio = std::clamp(ratio * std::pow(0.995 / share, 1.0 / exponent), 0.01, 5.0);
+        const double wanted_N = 0.5 * (smallest_share + 1.0) * limit_N;
+        ratio = std::clamp(ratio * feed_factor(force, run.hardest_cut, wanted_N), smallest_ratio, largest_ratio);
     }
-    return best > 0.0 ? best : ratio * 0.9;
+    return safe_ratio > 0.0 ? safe_ratio : 0.9 * ratio;
 }
 
 }  // namespace millforce::sim

@@ -12,7 +12,6 @@
 #include "cnc/cnc.hpp"
 #include "cnc/gcode.hpp"
 #include "files/input_error.hpp"
-#include "loop/milling_plant.hpp"
 
 namespace millforce::sim {
 
@@ -92,6 +91,7 @@ class Loop {
             }
         }
         simulated.result = plant_.judge().result(name, cnc_.finished());
+        simulated.hardest_cut = plant_.hardest_cut();
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
         simulated.result.figures.real_time_factor = plant_.time_s() / std::max(wall.count(), 1e-9);
         return simulated;
