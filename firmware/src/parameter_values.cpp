@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/number/fixed_point.hpp"
-#include "firmware/parameters_in.hpp"
+#include "firmware/parameters_in_impl.hpp"
 
 #include <cstddef>
 
@@ -12,15 +12,6 @@ ParameterValues values_of(const Parameters<float>& parameters) {
     for_each_parameter(parameters, [&](const ParameterName& /*name*/, const auto& field, float /*minimum*/,
                                        float /*maximum*/) { values[next++] = static_cast<float>(field); });
     return values;
-}
-
-template <typename Scalar>
-Parameters<Scalar> parameters_of(const ParameterValues& values) {
-    Parameters<Scalar> parameters;
-    std::size_t next = 0;
-    for_each_parameter(parameters, [&]<typename Field>(const ParameterName& /*name*/, Field& field, float /*minimum*/,
-                                                       float /*maximum*/) { field = field_of<Field>(values[next++]); });
-    return parameters;
 }
 
 template Parameters<float> parameters_of(const ParameterValues&);

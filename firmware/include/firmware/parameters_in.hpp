@@ -5,7 +5,8 @@
 
 #include "firmware/parameter_fields.hpp"
 
-/// Parameters as a list of floats, and in another scalar. For float and estimation::Fixed (src/parameter_values.cpp).
+/// Parameters as a list of floats, and in another scalar. For float and estimation::Fixed; other
+/// scalars include parameters_in_impl.hpp.
 
 namespace millforce::firmware {
 

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <cstdio>
+#include <cstdlib>
 
 #include "files/parameter_table.hpp"
 
@@ -20,7 +21,8 @@ CalibrationKey key_of(std::string_view table, std::string_view name) noexcept {
             return {row.key, row.unit};
         }
     }
-    throw std::logic_error(fmt::format("{}.{} is in neither parameter table", table, name));
+    fmt::print(stderr, "{}.{} is in neither parameter table\n", table, name);
+    std::abort();
 }
 
 }  // namespace millforce::host

@@ -13,6 +13,7 @@
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
+#include "firmware/parameter_fields.hpp"
 #include "firmware/wide_band_settings.hpp"
 
 namespace millforce::host {

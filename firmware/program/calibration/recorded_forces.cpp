@@ -76,7 +76,7 @@ std::vector<StretchConditions> cuts_of_tool(const std::filesystem::path& table,
     for (const StretchConditions& cut : cuts) {
         if (std::abs(cut.tool_diameter_mm - diameter_mm) > 1e-3 * diameter_mm || cut.flutes != tool.teeth) {
             throw InputError(
-                fmt::format("{}: a tool of Ø{:g} mm with {} flutes, expected the tool file's Ø{:g} mm and {:g}",
+                fmt::format("{}: a tool of Ø{:g} mm with {} flutes, expected the tool file's Ø{:g} mm and {}",
                             cut.place, cut.tool_diameter_mm, cut.flutes, diameter_mm, tool.teeth));
         }
     }

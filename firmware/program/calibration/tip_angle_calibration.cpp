@@ -118,12 +118,11 @@ int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostrea
     const auto parameters = read_parameters(options.machine.string(), options.tool.string());
     refuse_tools_without_shape(options, parameters.tool);
     const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
-    const double pitch_rad =
-        2.0 * static_cast<double>(estimation::pi<float>) / static_cast<double>(parameters.tool.teeth);
+    const double pitch_rad = 2.0 * static_cast<double>(estimation::pi<float>) / parameters.tool.teeth;
     const MeanAngle mean = mean_of(angles_of(options, parameters, cuts), pitch_rad);
     if (mean.cuts == 0) {
         throw InputError(
-            fmt::format("{}: '{}' cannot be determined: no cut tells it; expected {:g} revolutions of a steady "
+            fmt::format("{}: '{}' cannot be determined: no cut tells it; expected {} revolutions of a steady "
                         "cut of known depths, its sweep no whole number of tooth pitches",
                         options.cuts.string(), tip_angle_key.name, parameters.tool.depth_shape.revolutions));
     }

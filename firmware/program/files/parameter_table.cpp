@@ -307,6 +307,9 @@ std::vector<ParameterRow> complete_rows() {
                                 text.choices == nullptr ? std::vector<std::string>{} : words_of(text.choices)});
             }
         });
+    if (rows.size() != parameter_texts.size()) {
+        throw std::logic_error("a row of the parameter table has no field");
+    }
     return rows;
 }
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/parameter_fields.hpp"
+#include "estimation/number/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
+#include "firmware/some_parameters.hpp"
+
+#include <set>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::firmware;
+
+namespace {
+
+using Fixed = estimation::Fixed;
+
+/// Which bytes of the parameters belong to a field.
+class CoveredBytes {
+  public:
+    explicit CoveredBytes(const Parameters<float>& parameters)
+        : begin_(reinterpret_cast<const unsigned char*>(&parameters)), covered_(sizeof(parameters), false) {}
+
+    template <typename Field>
+    void cover(const Field& field) {
+        const auto first = static_cast<std::size_t>(reinterpret_cast<const unsigned char*>(&field) - begin_);
+        for (std::size_t k = 0; k < sizeof(Field); ++k) {
+            covered_[first + k] = true;
+        }
+    }
+    [[nodiscard]] std::size_t longest_gap() const {
+        std::size_t longest = 0;
+        std::size_t gap = 0;
+        for (const bool is_covered : covered_) {
+            gap = is_covered ? 0 : gap + 1;
+            longest = gap > longest ? gap : longest;
+        }
+        return longest;
+    }
+
+  private:
+    const unsigned char* begin_;
+    std::vector<bool> covered_;
+};
+
+ParameterValues values_of_fixed(const Parameters<Fixed>& parameters) {
+    ParameterValues values{};
+    std::size_t next = 0;
+    for_each_parameter(parameters, [&](const ParameterName& /*name*/, const auto& field, float /*minimum*/,
+                                       float /*maximum*/) { values[next++] = static_cast<float>(field); });
+    return values;
+}
+
+}  // namespace
+
+TEST_GROUP(ParameterFields){};
+
+TEST(ParameterFields, are_as_many_as_their_count_and_each_another) {
+    const Parameters<float> parameters;
+    std::set<const void*> fields;
+    for_each_parameter(parameters, [&](const ParameterName& name, const auto& field, float /*minimum*/,
+                                       float /*maximum*/) { CHECK_TEXT(fields.insert(&field).second, name.key); });
+    UNSIGNED_LONGS_EQUAL(parameter_count, fields.size());
+}
+
+TEST(ParameterFields, are_all_of_the_structure_but_what_is_worked_out_of_them) {
+    const Parameters<float> parameters;
+    CoveredBytes bytes(parameters);
+    for_each_parameter(parameters, [&](const ParameterName& /*name*/, const auto& field, float /*minimum*/,
+                                       float /*maximum*/) { bytes.cover(field); });
+    // Set by controller_parameters() and force_drop_law().
+    const auto& control = parameters.tool.control;
+    bytes.cover(control.tooth_force_limit_N);
+    bytes.cover(control.override_min);
+    bytes.cover(control.override_max);
+    bytes.cover(control.stale_s);
+    bytes.cover(control.teeth);
+    bytes.cover(control.monitor_only);
+    const auto& law = parameters.tool.force_drop.law;
+    bytes.cover(law.valid);
+    bytes.cover(law.a_b_covariance(1, 0));
+    bytes.cover(law.c_covariance(1, 0));
+    bytes.cover(law.c_covariance(2, 0));
+    bytes.cover(law.c_covariance(2, 1));
+    // Shorter gaps are padding.
+    CHECK_TRUE(bytes.longest_gap() < sizeof(float));
+}
+
+TEST(ParameterFields, become_a_list_of_values_and_back) {
+    const Parameters<float> written = test::distinct_parameters();
+    const ParameterValues values = values_of(written);
+    STRCMP_EQUAL("", test::first_difference(values, values_of(parameters_of<float>(values))));
+    CHECK_TRUE(*test::first_difference(values, values_of(Parameters<float>{})) != '\0');
+}
+
+TEST(ParameterFields, are_the_same_in_fixed_point) {
+    const Parameters<float> parameters = test::distinct_parameters();
+    const ParameterValues in_fixed = values_of_fixed(parameters_in<Fixed>(parameters));
+    STRCMP_EQUAL("", test::first_difference(values_of(parameters), in_fixed, 1e-5F));
+}
+
+TEST(ParameterFields, of_all_four_drives_arrive_in_fixed_point) {
+    Parameters<float> parameters;
+    for (std::size_t k = 0; k < 4; ++k) {
+        parameters.machine.bus.drives[k].node_id = static_cast<std::uint8_t>(10 + k);
+        parameters.machine.bus.drives[k].stale_ms = static_cast<float>(5 + k);
+    }
+    const auto in_fixed = parameters_in<Fixed>(parameters);
+    for (std::size_t k = 0; k < 4; ++k) {
+        UNSIGNED_LONGS_EQUAL(10 + k, in_fixed.machine.bus.drives[k].node_id);
+        CHECK_TRUE(in_fixed.machine.bus.drives[k].stale_ms == Fixed(static_cast<int>(5 + k)));
+    }
+}
