@@ -5,7 +5,6 @@
 #include "firmware/some_parameters.hpp"
 
 #include <set>
-#include <vector>
 
 #include <CppUTest/TestHarness.h>
 
@@ -15,34 +14,6 @@ using namespace millforce::firmware;
 namespace {
 
 using Fixed = estimation::Fixed;
-
-/// Which bytes of the parameters belong to a field.
-class CoveredBytes {
-  public:
-    explicit CoveredBytes(const Parameters<float>& parameters)
-        : begin_(reinterpret_cast<const unsigned char*>(&parameters)), covered_(sizeof(parameters), false) {}
-
-    template <typename Field>
-    void cover(const Field& field) {
-        const auto first = static_cast<std::size_t>(reinterpret_cast<const unsigned char*>(&field) - begin_);
-        for (std::size_t k = 0; k < sizeof(Field); ++k) {
-            covered_[first + k] = true;
-        }
-    }
-    [[nodiscard]] std::size_t longest_gap() const {
-        std::size_t longest = 0;
-        std::size_t gap = 0;
-        for (const bool is_covered : covered_) {
-            gap = is_covered ? 0 : gap + 1;
-            longest = gap > longest ? gap : longest;
-        }
-        return longest;
-    }
-
-  private:
-    const unsigned char* begin_;
-    std::vector<bool> covered_;
-};
 
 ParameterValues values_of_fixed(const Parameters<Fixed>& parameters) {
     ParameterValues values{};
@@ -62,29 +33,6 @@ TEST(ParameterFields, are_as_many_as_their_count_and_each_another) {
     for_each_parameter(parameters, [&](const ParameterName& name, const auto& field, float /*minimum*/,
                                        float /*maximum*/) { CHECK_TEXT(fields.insert(&field).second, name.key); });
     UNSIGNED_LONGS_EQUAL(parameter_count, fields.size());
-}
-
-TEST(ParameterFields, are_all_of_the_structure_but_what_is_worked_out_of_them) {
-    const Parameters<float> parameters;
-    CoveredBytes bytes(parameters);
-    for_each_parameter(parameters, [&](const ParameterName& /*name*/, const auto& field, float /*minimum*/,
-                                       float /*maximum*/) { bytes.cover(field); });
-    // Set by controller_parameters() and force_drop_law().
-    const auto& control = parameters.tool.control;
-    bytes.cover(control.tooth_force_limit_N);
-    bytes.cover(control.override_min);
-    bytes.cover(control.override_max);
-    bytes.cover(control.stale_s);
-    bytes.cover(control.teeth);
-    bytes.cover(control.monitor_only);
-    const auto& law = parameters.tool.force_drop.law;
-    bytes.cover(law.valid);
-    bytes.cover(law.a_b_covariance(1, 0));
-    bytes.cover(law.c_covariance(1, 0));
-    bytes.cover(law.c_covariance(2, 0));
-    bytes.cover(law.c_covariance(2, 1));
-    // Shorter gaps are padding.
-    CHECK_TRUE(bytes.longest_gap() < sizeof(float));
 }
 
 TEST(ParameterFields, become_a_list_of_values_and_back) {

@@ -22,7 +22,7 @@ void write_value(TomlWriter& writer, const ParameterRow& row, Field field) {
     if constexpr (std::is_same_v<Field, bool>) {
         writer.flag_key(row.key, field);
     } else if constexpr (std::is_enum_v<Field>) {
-        writer.key(row.key, row.choices[static_cast<std::size_t>(field)]);
+        writer.key(row.key, words_of(row.choices)[static_cast<std::size_t>(field)]);
     } else if constexpr (std::is_integral_v<Field>) {
         writer.integer_key(row.key, field);
     } else {

@@ -42,7 +42,7 @@ std::string default_of(const ParameterRow& row) {
         case ParameterType::flag:
             return row.default_value > 0.5F ? "true" : "false";
         case ParameterType::enumeration:
-            return row.choices[static_cast<std::size_t>(row.default_value)];
+            return words_of(row.choices)[static_cast<std::size_t>(row.default_value)];
         case ParameterType::number:
         case ParameterType::integer:
             break;
@@ -55,7 +55,7 @@ std::string range_of(const ParameterRow& row) {
         case ParameterType::flag:
             return "false, true";
         case ParameterType::enumeration:
-            return fmt::format("{}", fmt::join(row.choices, ", "));
+            return joined_words(row.choices);
         case ParameterType::integer:
             return fmt::format("{:.0f} … {:.0f}", row.minimum, row.maximum);
         case ParameterType::number:

@@ -30,7 +30,7 @@ void read_field(const ParameterRow& row, TomlFile::Table& table, Field& field) {
     if constexpr (std::is_same_v<Field, bool>) {
         field = table.boolean(row.key, field);
     } else if constexpr (std::is_enum_v<Field>) {
-        field = static_cast<Field>(table.choice(row.key, row.choices, static_cast<std::size_t>(field)));
+        field = static_cast<Field>(table.choice(row.key, words_of(row.choices), static_cast<std::size_t>(field)));
     } else if constexpr (std::is_integral_v<Field>) {
         field = static_cast<Field>(table.integer(row.key, static_cast<std::int64_t>(row.minimum),
                                                  static_cast<std::int64_t>(row.maximum), fallback, row.unit));

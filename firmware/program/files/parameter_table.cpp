@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "files/parameter_choices.hpp"
-
 namespace millforce::host {
 
 namespace {
@@ -295,19 +293,22 @@ constexpr ParameterType type_of() {
     }
 }
 
-std::vector<ParameterRow> complete_rows() {
-    std::vector<ParameterRow> rows;
+using Rows = std::array<ParameterRow, parameter_texts.size()>;
+
+Rows complete_rows() {
+    Rows rows{};
+    std::size_t next = 0;
     const firmware::Parameters<float> defaults;
     firmware::for_each_parameter(
         defaults, [&]<typename Field>(const ParameterName& name, const Field& field, float minimum, float maximum) {
             if (name.place == 0) {
                 const ParameterText& text = text_of(name);
-                rows.push_back({name.file, name.table, name.key, text.unit, text.sentence, type_of<Field>(),
-                                text.is_required, static_cast<float>(field), minimum, maximum,
-                                text.choices == nullptr ? std::vector<std::string>{} : words_of(text.choices)});
+                rows.at(next++) = {name.file,     name.table,       name.key,         text.unit,
+                                   text.sentence, type_of<Field>(), text.is_required, static_cast<float>(field),
+                                   minimum,       maximum,          text.choices};
             }
         });
-    if (rows.size() != parameter_texts.size()) {
+    if (next != rows.size()) {
         throw std::logic_error("a row of the parameter table has no field");
     }
     return rows;
@@ -315,8 +316,8 @@ std::vector<ParameterRow> complete_rows() {
 
 }  // namespace
 
-const std::vector<ParameterRow>& parameter_table() {
-    static const std::vector<ParameterRow> rows = complete_rows();
+std::span<const ParameterRow> parameter_table() {
+    static const Rows rows = complete_rows();
     return rows;
 }
 

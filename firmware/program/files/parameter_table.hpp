@@ -3,8 +3,6 @@
 
 #include <array>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "firmware/parameter_fields.hpp"
 
@@ -35,11 +33,11 @@ struct ParameterRow {
     float default_value;  ///< of an optional key; an enumeration's as an index
     float minimum;
     float maximum;
-    std::vector<std::string> choices;  ///< of an enumeration, in the order of its values
+    const char* choices;  ///< the names of an enumeration in the order of its values, separated by '|'; else null
 };
 
 /// In the order of firmware::for_each_parameter; the keys of "axis" and "bus.drive" once.
-const std::vector<ParameterRow>& parameter_table();
+std::span<const ParameterRow> parameter_table();
 const ParameterRow& row_of(const firmware::ParameterName& name);
 
 /// The tables of a file that `table` stands for: "x", "y", "z" for "axis". `table` must outlive the answer.
@@ -53,7 +51,7 @@ struct InformationRow {
     const char* key;
     const char* unit;
     const char* sentence;
-    const char* choices = nullptr;  ///< names, separated by '|'
+    const char* choices = nullptr;  ///< as in ParameterRow
 };
 std::span<const InformationRow> information_table();
 

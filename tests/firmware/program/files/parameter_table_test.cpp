@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/parameter_table.hpp"
+#include "files/parameter_choices.hpp"
 #include "firmware/crc32.hpp"
 #include "firmware/parameter_block.hpp"
 
@@ -8,6 +9,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include <CppUTest/TestHarness.h>
 
@@ -34,6 +36,37 @@ std::uint32_t fingerprint() {
     return crc;
 }
 
+/// As wide as any alignment in the parameters, so that no padding can hide a field of it.
+using Wide = long double;
+
+/// Which bytes of the parameters belong to a field.
+class CoveredBytes {
+  public:
+    explicit CoveredBytes(const firmware::Parameters<Wide>& parameters)
+        : begin_(reinterpret_cast<const unsigned char*>(&parameters)), covered_(sizeof(parameters), false) {}
+
+    template <typename Field>
+    void cover(const Field& field) {
+        const auto first = static_cast<std::size_t>(reinterpret_cast<const unsigned char*>(&field) - begin_);
+        for (std::size_t k = 0; k < sizeof(Field); ++k) {
+            covered_[first + k] = true;
+        }
+    }
+    [[nodiscard]] std::size_t longest_gap() const {
+        std::size_t longest = 0;
+        std::size_t gap = 0;
+        for (const bool is_covered : covered_) {
+            gap = is_covered ? 0 : gap + 1;
+            longest = gap > longest ? gap : longest;
+        }
+        return longest;
+    }
+
+  private:
+    const unsigned char* begin_;
+    std::vector<bool> covered_;
+};
+
 }  // namespace
 
 TEST_GROUP(ParameterTable){};
@@ -56,6 +89,29 @@ TEST(ParameterTable, describes_each_field_by_the_row_of_its_key) {
         keys_of_files += tables_of(row.table).size();
     }
     UNSIGNED_LONGS_EQUAL(fields, keys_of_files);
+}
+
+TEST(ParameterTable, has_all_fields_of_the_structures_but_those_worked_out_of_others) {
+    const firmware::Parameters<Wide> parameters;
+    CoveredBytes bytes(parameters);
+    firmware::for_each_parameter(parameters, [&](const firmware::ParameterName& /*name*/, const auto& field,
+                                                 float /*minimum*/, float /*maximum*/) { bytes.cover(field); });
+    // Set by controller_parameters() and force_drop_law().
+    const auto& control = parameters.tool.control;
+    bytes.cover(control.tooth_force_limit_N);
+    bytes.cover(control.override_min);
+    bytes.cover(control.override_max);
+    bytes.cover(control.stale_s);
+    bytes.cover(control.teeth);
+    bytes.cover(control.monitor_only);
+    const auto& law = parameters.tool.force_drop.law;
+    bytes.cover(law.valid);
+    bytes.cover(law.a_b_covariance(1, 0));
+    bytes.cover(law.c_covariance(1, 0));
+    bytes.cover(law.c_covariance(2, 0));
+    bytes.cover(law.c_covariance(2, 1));
+    // Shorter gaps are padding.
+    CHECK_TRUE(bytes.longest_gap() < sizeof(Wide));
 }
 
 TEST(ParameterTable, names_no_key_of_a_table_twice_for_information_neither) {
@@ -94,8 +150,10 @@ TEST(ParameterTable, has_a_name_for_each_value_of_an_enumeration_and_for_nothing
     std::size_t enumerations = 0;
     for (const ParameterRow& row : parameter_table()) {
         const bool is_enumeration = row.type == ParameterType::enumeration;
-        const auto values = static_cast<std::size_t>(std::lround(row.maximum)) + 1;
-        CHECK_EQUAL_TEXT(is_enumeration ? values : 0, row.choices.size(), row.key);
+        CHECK_EQUAL_TEXT(is_enumeration, row.choices != nullptr, row.key);
+        if (is_enumeration) {
+            CHECK_EQUAL_TEXT(std::lround(row.maximum) + 1, static_cast<long>(words_of(row.choices).size()), row.key);
+        }
         enumerations += is_enumeration ? 1 : 0;
     }
     UNSIGNED_LONGS_EQUAL(6, enumerations);
