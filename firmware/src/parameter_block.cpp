@@ -24,14 +24,35 @@ std::uint32_t get(std::span<const std::uint8_t> bytes, std::size_t offset) {
     return value;
 }
 
-/// False for NaN.
-bool is_in_range(float value, float minimum, float maximum) {
-    return value >= minimum && value <= maximum;
-}
+/// Takes the values of a block one by one.
+class ValueReader {
+  public:
+    explicit ValueReader(std::span<const std::uint8_t> values) : values_(values) {}
 
-bool is_whole(float value) {
-    return static_cast<float>(static_cast<std::uint32_t>(value)) == value;
-}
+    [[nodiscard]] bool all_in_range() const { return all_in_range_; }
+
+    template <typename Field>
+    void read(Field& field, float minimum, float maximum) {
+        const float value = next();
+        const bool is_in_range = value >= minimum && value <= maximum;  // not so NaN
+        if (is_in_range && (std::is_floating_point_v<Field> || is_whole(value))) {
+            field = field_of<Field>(value);
+        } else {
+            all_in_range_ = false;
+        }
+    }
+
+  private:
+    float next() {
+        const auto value = std::bit_cast<float>(get(values_, 0));
+        values_ = values_.subspan(4);
+        return value;
+    }
+    static bool is_whole(float value) { return static_cast<float>(static_cast<std::uint32_t>(value)) == value; }
+
+    std::span<const std::uint8_t> values_;
+    bool all_in_range_ = true;
+};
 
 }  // namespace
 
@@ -77,17 +98,11 @@ BlockError decode(std::span<const std::uint8_t> bytes, Parameters<float>& parame
         return error;
     }
     Parameters<float> read;
-    std::size_t offset = block_header_bytes;
-    bool all_in_range = true;
-    for_each_parameter(read, [&]<typename Field>(const ParameterName& /*name*/, Field& field, float minimum,
-                                                 float maximum) {
-        const float value = std::bit_cast<float>(get(bytes, offset));
-        offset += 4;
-        const bool fits = is_in_range(value, minimum, maximum) && (std::is_floating_point_v<Field> || is_whole(value));
-        all_in_range = all_in_range && fits;
-        field = fits ? field_of<Field>(value) : field;
+    ValueReader reader(bytes.subspan(block_header_bytes, 4 * parameter_count));
+    for_each_parameter(read, [&reader](const ParameterName& /*name*/, auto& field, float minimum, float maximum) {
+        reader.read(field, minimum, maximum);
     });
-    if (!all_in_range) {
+    if (!reader.all_in_range()) {
         return BlockError::out_of_range;
     }
     parameters = read;
