@@ -43,8 +43,9 @@ std::string default_of(const ParameterRow& row) {
             return row.default_value > 0.5F ? "true" : "false";
         case ParameterType::enumeration:
             return words_of(row.choices)[static_cast<std::size_t>(row.default_value)];
-        case ParameterType::number:
         case ParameterType::integer:
+            return fmt::format("{:.0f}", row.default_value);
+        case ParameterType::number:
             break;
     }
     return fmt::format("{:g}", row.default_value);
