@@ -37,7 +37,7 @@ void write_file(TomlWriter& writer, firmware::ParameterFile file, const firmware
             return;
         }
         const ParameterRow& row = row_of(name);
-        const std::string_view table = tables_of(row.table)[name.place];
+        const std::string_view table = tables_in_file(row.table)[name.place];
         if (table != written) {
             writer.table(table);
             written = table;

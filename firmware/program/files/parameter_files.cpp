@@ -73,7 +73,7 @@ class TableReader {
                 return;
             }
             const ParameterRow& row = row_of(name);
-            TomlFile::Table& in = table(tables_of(row.table)[name.place]);
+            TomlFile::Table& in = table(tables_in_file(row.table)[name.place]);
             read_field(row, in, field);
             if (row.type == ParameterType::number || row.type == ParameterType::integer) {
                 check_standard_error(row.key, in);
@@ -84,7 +84,7 @@ class TableReader {
             if (!is_asked(row)) {
                 continue;
             }
-            for (const char* name : tables_of(row.table)) {
+            for (const char* name : tables_in_file(row.table)) {
                 check_information(row, table(name));
                 if (row.choices == nullptr) {
                     check_standard_error(row.key, table(name));

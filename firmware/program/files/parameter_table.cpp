@@ -23,13 +23,13 @@ struct ParameterText {
     bool is_required = false;
     const char* choices = nullptr;  ///< names of the values 0, 1, … of an enumeration, separated by '|'
 };
-constexpr bool required = true;
-constexpr bool optional = false;
+constexpr bool must_be_given = true;
+constexpr bool may_be_left_out = false;
 
 // The rows are data; one row a line keeps them readable as the table that they are.
 // clang-format off
 constexpr auto parameter_texts = std::to_array<ParameterText>({
-    {"spindle", "K_t1_Nm_per_A", "N·m/A", "Spindle torque per ampere below base speed: the paper's K_t1 times the cutter radius.", required},
+    {"spindle", "K_t1_Nm_per_A", "N·m/A", "Spindle torque per ampere below base speed: the paper's K_t1 times the cutter radius.", must_be_given},
     {"spindle", "K_t2_Nm", "N·m", "Torque at zero current, minus K_t1 times the idle current; re-zeroed in air."},
     {"spindle", "idle_torque_slope_Nm_s", "N·m·s/rad", "Growth of the idle torque with speed."},
     {"spindle", "inertia_kg_m2", "kg·m²", "Inertia of spindle, rotor and tool."},
@@ -68,7 +68,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"cnc", "stale_s", "s", "Without a drive sample for longer the controller faults and holds the feed."},
     {"cnc", "sample_rate_hz", "Hz", "Rate of the drive samples."},
 
-    {"bus", "role", "", "Master: reads rated values, writes what is asked to and starts the drives (SDO, NMT). Listener: sends none of these, the CNC is the master.", optional, "listener|master"},
+    {"bus", "role", "", "Master: reads rated values, writes what is asked to and starts the drives (SDO, NMT). Listener: sends none of these, the CNC is the master.", may_be_left_out, "listener|master"},
     {"bus", "produces_sync", "", "Send SYNC; else the CNC or a drive does."},
     {"bus", "sync_id", "", "CAN id of SYNC."},
     {"bus", "sync_period_ms", "ms", "Time between two SYNCs, and so between two samples."},
@@ -81,13 +81,13 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"bus", "program_status_timeout_ms", "ms", "The feed is held when a CNC that has reported its status is silent for longer."},
 
     {"bus.drive", "node_id", "", "CANopen node of the drive; 0: this drive is not on the bus."},
-    {"bus.drive", "current_source", "", "Source of the current: 0x6078 (current), or 0x6077 (torque) over the torque constant.", optional, "current|torque"},
-    {"bus.drive", "current_basis", "", "What the drive means by its rated current.", optional, "rms|peak"},
+    {"bus.drive", "current_source", "", "Source of the current: 0x6078 (current), or 0x6077 (torque) over the torque constant.", may_be_left_out, "current|torque"},
+    {"bus.drive", "current_basis", "", "What the drive means by its rated current.", may_be_left_out, "rms|peak"},
     {"bus.drive", "current_reversed", "", "The drive counts the current against the machine axis."},
     {"bus.drive", "rated_torque_Nm", "N·m", "Unit of 0x6077; 0: read from 0x6076. Of the current: rated_current_A in the drive's own table; 0 there: read from 0x6075."},
     {"bus.drive", "torque_constant_Nm_per_A", "N·m/A", "Of the motor, for current_source = \"torque\"."},
     {"bus.drive", "largest_share_of_rated", "1", "Current or torque beyond it, over the rated one, is not used."},
-    {"bus.drive", "velocity_source", "", "Axes: 0x606C (velocity), or the difference of 0x6064 between two SYNCs (position).", optional, "velocity|position"},
+    {"bus.drive", "velocity_source", "", "Axes: 0x606C (velocity), or the difference of 0x6064 between two SYNCs (position).", may_be_left_out, "velocity|position"},
     {"bus.drive", "velocity_mm_s_per_unit", "mm/s", "Unit of 0x606C; negative: the drive counts against the machine axis."},
     {"bus.drive", "position_mm_per_unit", "mm", "Unit of 0x6064; with both units the two are compared. 0: not known."},
     {"bus.drive", "largest_velocity_mm_s", "mm/s", "A velocity beyond it is not used."},
@@ -107,19 +107,19 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"bus.drive", "tpdo3_every", "", "TPDO 3 comes at every n-th SYNC; 0: when something changes."},
     {"bus.drive", "tpdo4_every", "", "TPDO 4 comes at every n-th SYNC; 0: when something changes."},
 
-    {"tool", "teeth", "1", "Number of teeth or inserts.", required},
-    {"tool", "diameter_mm", "mm", "Cutting diameter.", required},
+    {"tool", "teeth", "1", "Number of teeth or inserts.", must_be_given},
+    {"tool", "diameter_mm", "mm", "Cutting diameter.", must_be_given},
     {"tool", "helix_deg", "°", "Helix angle of the flutes; 0 for inserts."},
-    {"tool", "flute_length_mm", "mm", "Longest axial depth that the tool can cut.", required},
+    {"tool", "flute_length_mm", "mm", "Longest axial depth that the tool can cut.", must_be_given},
     {"tool", "runout_um", "µm", "Largest difference between the radii of two teeth."},
-    {"tool", "side", "", "Which edge of the cut is fixed while its width varies; unknown: inferred from the forces.", optional, "down|up|centred|unknown"},
+    {"tool", "side", "", "Which edge of the cut is fixed while its width varies; unknown: inferred from the forces.", may_be_left_out, "down|up|centred|unknown"},
     {"tool", "centre_offset_mm", "mm", "Offset of the workpiece's centre line from the cutter's axis, for side = \"centred\"."},
-    {"tool", "tooth_force_limit_N", "N", "F_tooth,max: the largest in-plane force that one tooth may carry.", required},
+    {"tool", "tooth_force_limit_N", "N", "F_tooth,max: the largest in-plane force that one tooth may carry.", must_be_given},
     {"tool", "break_share", "1", "A tooth breaks at this multiple of its limit (simulation)."},
 
-    {"cutting", "k_s_N_per_mm2", "N/mm²", "K_s at a mean chip thickness of 1 mm: K_s = k_s t_a^p_s.", required},
+    {"cutting", "k_s_N_per_mm2", "N/mm²", "K_s at a mean chip thickness of 1 mm: K_s = k_s t_a^p_s.", must_be_given},
     {"cutting", "p_s", "1", "Exponent of K_s over the mean chip thickness."},
-    {"cutting", "k_1", "1", "r_1 = F_r/F_t at a mean chip thickness of 1 mm: r_1 = k_1 t_a^p_1.", required},
+    {"cutting", "k_1", "1", "r_1 = F_r/F_t at a mean chip thickness of 1 mm: r_1 = k_1 t_a^p_1.", must_be_given},
     {"cutting", "p_1", "1", "Exponent of r_1 over the mean chip thickness."},
     {"cutting", "K_te_N_per_mm", "N/mm", "Tangential edge force per length of edge."},
     {"cutting", "K_re_N_per_mm", "N/mm", "Radial edge force per length of edge."},
@@ -132,7 +132,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"cutting", "maximum_chip_thickness_mm", "mm", "Thickest mean chip of the calibration cuts; 0: not known."},
     {"cutting", "law_relative_sd", "1", "Misfit of the law itself, relative to the tangential force."},
 
-    {"roughness", "measure", "", "Which roughness the model predicts: R_a or R_z.", optional, "Ra|Rz"},
+    {"roughness", "measure", "", "Which roughness the model predicts: R_a or R_z.", may_be_left_out, "Ra|Rz"},
     {"roughness", "constant_um", "µm", "C of R = C V^a f^b φ^c D^d ρ^e (V rpm, f mm/rev, φ and D mm, ρ = F_x/F_z); 0: no model, no prediction."},
     {"roughness", "spindle_speed_exponent", "1", "Exponent of the spindle speed."},
     {"roughness", "feed_exponent", "1", "Exponent of the feed per revolution."},
@@ -214,9 +214,9 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"depth_shape", "tip_angle_deg", "°", "Angle of a tooth's tip at the encoder's zero, with the feed in +x."},
     {"depth_shape", "tip_angle_sd_deg", "°", "Standard deviation of tip_angle_deg; 0: not known, estimated with the depths."},
 
-    {"control", "entry_feed_per_tooth_mm", "mm", "Feed ceiling from contact until the engagement is known.", required},
-    {"control", "air_feed_per_tooth_mm", "mm", "Feed ceiling in air: the feed at which the tool may meet the workpiece.", required},
-    {"control", "max_feed_per_tooth_mm", "mm", "Feed ceiling in cut: what edge and chip space allow.", required},
+    {"control", "entry_feed_per_tooth_mm", "mm", "Feed ceiling from contact until the engagement is known.", must_be_given},
+    {"control", "air_feed_per_tooth_mm", "mm", "Feed ceiling in air: the feed at which the tool may meet the workpiece.", must_be_given},
+    {"control", "max_feed_per_tooth_mm", "mm", "Feed ceiling in cut: what edge and chip space allow.", must_be_given},
     {"control", "highest_programmed_feed_mm_s", "mm/s", "Highest F of the program, which the ceilings before contact hold for; 0: learned as blocks come."},
     {"control", "setpoint_share", "1", "Share of the tooth's limit that steady cutting is held at."},
     {"control", "caution_sd", "1", "Standard deviations of the tooth's force that are counted on top of it."},
@@ -338,7 +338,7 @@ std::span<const TextRow> text_table() {
     return text_rows;
 }
 
-std::span<const char* const> tables_of(const char* const& table) {
+std::span<const char* const> tables_in_file(const char* const& table) {
     const std::string_view name = table;
     if (name == "axis") {
         return axis_tables;

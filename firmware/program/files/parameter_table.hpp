@@ -41,7 +41,7 @@ std::span<const ParameterRow> parameter_table();
 const ParameterRow& row_of(const firmware::ParameterName& name);
 
 /// The tables of a file that `table` stands for: "x", "y", "z" for "axis". `table` must outlive the answer.
-std::span<const char* const> tables_of(const char* const& table);
+std::span<const char* const> tables_in_file(const char* const& table);
 
 /// Keys that a calibration writes for the reader of the file, not for the controller: they are checked and ignored.
 /// A numeric key of either table may also have a companion KEY_se, the standard error of its fit.

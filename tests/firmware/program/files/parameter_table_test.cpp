@@ -81,12 +81,12 @@ TEST(ParameterTable, describes_each_field_by_the_row_of_its_key) {
             CHECK_EQUAL_TEXT(static_cast<float>(field), row.default_value, row.key);
             CHECK_EQUAL_TEXT(minimum, row.minimum, row.key);
             CHECK_EQUAL_TEXT(maximum, row.maximum, row.key);
-            CHECK_TEXT(name.place < tables_of(row.table).size(), row.key);
+            CHECK_TEXT(name.place < tables_in_file(row.table).size(), row.key);
             ++fields;
         });
     std::size_t keys_of_files = 0;
     for (const ParameterRow& row : parameter_table()) {
-        keys_of_files += tables_of(row.table).size();
+        keys_of_files += tables_in_file(row.table).size();
     }
     UNSIGNED_LONGS_EQUAL(fields, keys_of_files);
 }
