@@ -13,9 +13,7 @@ using namespace millforce::firmware;
 
 namespace {
 
-using Fixed = estimation::Fixed;
-
-ParameterValues values_of_fixed(const Parameters<Fixed>& parameters) {
+ParameterValues values_of_fixed(const Parameters<estimation::Fixed>& parameters) {
     ParameterValues values{};
     std::size_t next = 0;
     for_each_parameter(parameters, [&](const ParameterName& /*name*/, const auto& field, float /*minimum*/,
@@ -44,7 +42,7 @@ TEST(ParameterFields, become_a_list_of_values_and_back) {
 
 TEST(ParameterFields, are_the_same_in_fixed_point) {
     const Parameters<float> parameters = test::distinct_parameters();
-    const ParameterValues in_fixed = values_of_fixed(parameters_in<Fixed>(parameters));
+    const ParameterValues in_fixed = values_of_fixed(parameters_in<estimation::Fixed>(parameters));
     STRCMP_EQUAL("", test::first_difference(values_of(parameters), in_fixed, 1e-5F));
 }
 
@@ -54,9 +52,9 @@ TEST(ParameterFields, of_all_four_drives_arrive_in_fixed_point) {
         parameters.machine.bus.drives[k].node_id = static_cast<std::uint8_t>(10 + k);
         parameters.machine.bus.drives[k].stale_ms = static_cast<float>(5 + k);
     }
-    const auto in_fixed = parameters_in<Fixed>(parameters);
+    const auto in_fixed = parameters_in<estimation::Fixed>(parameters);
     for (std::size_t k = 0; k < 4; ++k) {
         UNSIGNED_LONGS_EQUAL(10 + k, in_fixed.machine.bus.drives[k].node_id);
-        CHECK_TRUE(in_fixed.machine.bus.drives[k].stale_ms == Fixed(static_cast<int>(5 + k)));
+        CHECK_TRUE(in_fixed.machine.bus.drives[k].stale_ms == estimation::Fixed(static_cast<int>(5 + k)));
     }
 }

@@ -6,6 +6,7 @@
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
+#include "files/parameter_table.hpp"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,6 @@ namespace {
 using estimation::DriveGainFit;
 using estimation::StandardCutLack;
 using Stretch = estimation::StandardCutStretch;
-
-constexpr std::array<std::string_view, 3> axis_tables{"x", "y", "z"};
 
 const CalibrationKey K_t1_key = key_of("spindle", "K_t1_Nm_per_A");
 const CalibrationKey K_t2_key = key_of("spindle", "K_t2_Nm");
