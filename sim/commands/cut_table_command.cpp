@@ -52,7 +52,7 @@ std::vector<Cut> grid_of(const Scenario& scenario) {
 }
 
 estimation::CutSide side_of(const Scenario& scenario) {
-    const auto side = firmware::cut_side(scenario.parameters.tool);
+    const auto side = scenario.parameters.tool.side;
     return side == estimation::CutSide::up ? side : estimation::CutSide::down;
 }
 

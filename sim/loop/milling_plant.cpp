@@ -16,7 +16,7 @@ std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
         return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
     }
     const auto& tool = scenario.parameters.tool;
-    return std::make_unique<ProfileWorkpiece>(scenario.profile, scenario.cutter, firmware::cut_side(tool),
+    return std::make_unique<ProfileWorkpiece>(scenario.profile, scenario.cutter, tool.side,
                                               static_cast<double>(tool.centre_offset_mm));
 }
 

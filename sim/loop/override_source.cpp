@@ -9,7 +9,7 @@ namespace millforce::sim {
 namespace {
 
 firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
-    parameters.tool.monitor_only = 1.0F;
+    parameters.tool.monitor_only = true;
     return parameters;
 }
 

@@ -78,7 +78,7 @@ void read_cutter(Table& root, const firmware::ToolParameters<float>& tool, Cutte
     Table table = root.table("cutter");
     constexpr CutterType types[] = {CutterType::end_mill, CutterType::face_mill, CutterType::ball_end_mill};
     cutter.type = types[table.choice("type", {"end_mill", "face_mill", "ball_end_mill"}, 0)];
-    cutter.teeth = static_cast<std::size_t>(tool.teeth);
+    cutter.teeth = tool.teeth;
     cutter.diameter_mm = static_cast<double>(tool.diameter_mm);
     cutter.flute_length_mm = static_cast<double>(tool.flute_length_mm);
     cutter.helix_rad = table.number("helix_deg", 0.0, 60.0, static_cast<double>(tool.helix_deg)) * rad_per_deg;
@@ -205,8 +205,7 @@ Scenario read_scenario(const std::string& path) {
         read_stock(root, scenario.stock);
     }
     root.reject_unknown_keys();
-    scenario.machine.encoder_counts_per_rev =
-        static_cast<std::uint32_t>(scenario.parameters.machine.encoder_counts_per_rev);
+    scenario.machine.encoder_counts_per_rev = scenario.parameters.machine.encoder_counts_per_rev;
     return scenario;
 }
 

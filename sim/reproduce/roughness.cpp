@@ -49,7 +49,7 @@ std::array<Published, 2> published() {
     Ra.constant_um = 7.5e-6;
     Ra.exponent = {0.964, 0.195, 2.69, 0.917, -2.6};
     Model Rz;
-    Rz.measure = 1.0;
+    Rz.measure = estimation::RoughnessMeasure::Rz;
     Rz.constant_um = 2.91;
     Rz.exponent = {0.16, 0.438, 1.25, 0.474, -2.84};
     return {{{"R_a", "Eq. 3", 10U, Ra}, {"R_z", "Eq. 4", 20U, Rz}}};

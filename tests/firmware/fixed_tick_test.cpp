@@ -13,7 +13,7 @@
 #include "control/path_turn_impl.hpp"
 #include "estimation/cut_estimator_impl.hpp"
 #include "estimation/number/fixed_point.hpp"
-#include "firmware/parameters_in.hpp"
+#include "firmware/parameters_in_impl.hpp"
 #include "firmware/tick_impl.hpp"
 #include "firmware/wide_band_monitor_impl.hpp"
 #include "instructions/synthetic_cut.hpp"
@@ -74,10 +74,10 @@ Shop drawn_shop(Draw& draw) {
     auto& p = shop.parameters;
     p = instructions::machine_and_tool();
     p.tool.diameter_mm = draw.log_between(3.0F, 80.0F);
-    p.tool.teeth = static_cast<float>(1U + draw.below(8));
+    p.tool.teeth = static_cast<std::uint8_t>(1U + draw.below(8));
     p.tool.helix_deg = draw.between(0.0F, 45.0F);
     p.tool.flute_length_mm = 2.0F * p.tool.diameter_mm;
-    p.tool.side = static_cast<float>(draw.below(2));
+    p.tool.side = draw.below(2) == 0 ? CutSide::down : CutSide::up;
     const float chip_mm = p.tool.diameter_mm * draw.between(0.003F, 0.008F);
     const float K_s = draw.log_between(600.0F, 4000.0F);
     p.tool.law = estimation::linear_edge_law(K_s, 0.013F * K_s, 0.35F * K_s, 0.016F * K_s);
@@ -117,10 +117,6 @@ struct Cut {
     float direction_rad = 0.0F;
 };
 
-CutSide side_of(const firmware::ToolParameters<float>& tool) {
-    return static_cast<CutSide>(static_cast<unsigned char>(tool.side));
-}
-
 struct Clock {
     float time_s = 0.0F;
     float turned_counts = 0.0F;
@@ -137,8 +133,8 @@ Cut drawn_cut(const Shop& shop, bool in_air, Draw& draw) {
     const float share = draw.log_between(0.2F, 2.0F);
     const auto per_mm = estimation::average_forces(
         tool.law, estimation::CutConditions<float>{2.0F * tool.control.entry_feed_per_tooth_mm, 1.0F,
-                                                   estimation::engagement_angles(side_of(tool), cut.immersion, 0.0F),
-                                                   tool.teeth});
+                                                   estimation::engagement_angles(tool.side, cut.immersion, 0.0F),
+                                                   static_cast<float>(tool.teeth)});
     const float most_mm = tool.flute_length_mm;
     const float depth_mm = in_air ? 0.0F : share * tool.tooth_force_limit_N / per_mm.tangential_N;
     cut.depth_mm = depth_mm < most_mm ? depth_mm : most_mm;
@@ -150,15 +146,16 @@ hal::DriveSample sample_of(const Shop& shop, const Cut& cut, float feed_mm_s, Cl
     const auto& p = shop.parameters;
     const float dt_s = sample_interval_s(shop);
     clock.time_us += static_cast<std::uint32_t>(dt_s * 1e6F);
-    clock.turned_counts += dt_s * shop.spindle_speed_rad_s / 6.2831853F * p.machine.encoder_counts_per_rev;
+    clock.turned_counts +=
+        dt_s * shop.spindle_speed_rad_s / 6.2831853F * static_cast<float>(p.machine.encoder_counts_per_rev);
     const auto whole = static_cast<std::uint32_t>(clock.turned_counts);
     clock.count += whole;
     clock.turned_counts -= static_cast<float>(whole);
     const float feed_per_tooth_mm = feed_mm_s * 6.2831853F / (shop.spindle_speed_rad_s * p.tool.teeth);
     const auto forces = estimation::average_forces(
-        p.tool.law, estimation::CutConditions<float>{
-                        feed_per_tooth_mm, cut.depth_mm,
-                        estimation::engagement_angles(side_of(p.tool), cut.immersion, 0.0F), p.tool.teeth});
+        p.tool.law, estimation::CutConditions<float>{feed_per_tooth_mm, cut.depth_mm,
+                                                     estimation::engagement_angles(p.tool.side, cut.immersion, 0.0F),
+                                                     static_cast<float>(p.tool.teeth)});
     const float c = std::cos(cut.direction_rad);
     const float s = std::sin(cut.direction_rad);
     const float force_N[] = {c * forces.feed_N - s * forces.normal_N, s * forces.feed_N + c * forces.normal_N, 0.0F};

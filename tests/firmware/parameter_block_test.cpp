@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/parameter_block.hpp"
+#include "firmware/crc32.hpp"
+#include "firmware/some_parameters.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -8,6 +11,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+using namespace millforce;
 using namespace millforce::firmware;
 
 namespace {
@@ -60,22 +64,19 @@ class FakeFlash {
 
 using Store = ParameterStore<FakeFlash>;
 
-/// The table's defaults, and something for the keys that have none.
-Parameters<float> complete_parameters() {
-    Parameters<float> parameters;
-    for (const auto& row : parameter_table<float>) {
-        for (std::size_t axis = 0; axis < axes_of(row.table); ++axis) {
-            const bool has_default = row.default_value - row.default_value == 0.0F;
-            row.field(parameters, axis) = has_default ? row.default_value : 0.5F * (row.minimum + row.maximum);
-        }
-    }
+Parameters<float> with_limit(float tooth_force_limit_N) {
+    Parameters<float> parameters = test::complete_parameters();
+    parameters.tool.tooth_force_limit_N = tooth_force_limit_N;
     return parameters;
 }
 
-Parameters<float> with_limit(float tooth_force_limit_N) {
-    Parameters<float> parameters = complete_parameters();
-    parameters.tool.tooth_force_limit_N = tooth_force_limit_N;
-    return parameters;
+/// Puts both CRCs right.
+void sign(ParameterBlock& block) {
+    const std::span<const std::uint8_t> bytes(block);
+    const std::uint32_t values = crc32(0, bytes.subspan(block_header_bytes));
+    std::memcpy(block.data() + 16, &values, sizeof(values));
+    const std::uint32_t header = crc32(0, bytes.first(20));
+    std::memcpy(block.data() + 20, &header, sizeof(header));
 }
 
 /// The limit that a store gives, −1 where it has no parameters.
@@ -89,22 +90,11 @@ float limit_in(FakeFlash& flash) {
 TEST_GROUP(ParameterBlock){};
 
 TEST(ParameterBlock, gives_back_every_parameter_to_the_last_bit) {
-    Parameters<float> written = complete_parameters();
-    float step = 0.001F;
-    for (const auto& row : parameter_table<float>) {
-        for (std::size_t axis = 0; axis < axes_of(row.table); ++axis) {
-            row.field(written, axis) = row.minimum + (row.maximum - row.minimum) * step;
-            step += step < 0.99F ? 0.004F : -0.987F;
-        }
-    }
+    const Parameters<float> written = test::distinct_parameters();
     const ParameterBlock block = encoded(written, 7);
     Parameters<float> read;
     LONGS_EQUAL(BlockError::none, decode(block, read));
-    for (const auto& row : parameter_table<float>) {
-        for (std::size_t axis = 0; axis < axes_of(row.table); ++axis) {
-            CHECK_EQUAL_TEXT(row.field(written, axis), row.field(read, axis), row.key);
-        }
-    }
+    STRCMP_EQUAL("", test::first_difference(values_of(written), values_of(read)));
     UNSIGNED_LONGS_EQUAL(7, sequence_of(block));
 }
 
@@ -180,11 +170,22 @@ TEST(ParameterBlock, refuses_values_out_of_range_however_well_signed) {
     LONGS_EQUAL(BlockError::out_of_range, decode(encoded(parameters, 1), read));
 }
 
+TEST(ParameterBlock, refuses_half_an_identifier) {
+    ParameterValues values = values_of(test::complete_parameters());
+    const float default_id = test::complete_parameters().machine.bus.sync_id;
+    const auto place = static_cast<std::size_t>(std::find(values.begin(), values.end(), default_id) - values.begin());
+    ParameterBlock block = encoded(test::complete_parameters(), 1);
+    const float half = default_id + 0.5F;
+    std::memcpy(block.data() + block_header_bytes + 4 * place, &half, sizeof(half));
+    sign(block);
+    Parameters<float> read;
+    LONGS_EQUAL(BlockError::out_of_range, decode(block, read));
+}
+
 TEST(ParameterBlock, refuses_a_block_of_another_table) {
-    ParameterBlock block = encoded(complete_parameters(), 1);
+    ParameterBlock block = encoded(test::complete_parameters(), 1);
     block[4] ^= 1U;
-    const std::uint32_t crc = crc32(0, std::span<const std::uint8_t>(block).first(20));
-    std::memcpy(block.data() + 20, &crc, sizeof(crc));
+    sign(block);
     Parameters<float> read;
     LONGS_EQUAL(BlockError::other_table, decode(block, read));
 }

@@ -51,7 +51,7 @@ Parameters parameters_with(const RoughnessModel<float>& roughness) {
         axis.friction_relative_sd = 0.01F;
         axis.gain_relative_sd = 0.02F;
     }
-    p.tool.side = 0.0F;
+    p.tool.side = millforce::estimation::CutSide::down;
     p.tool.tooth_force_limit_N = 5000.0F;
     p.tool.declared_axial_depth_mm = 5.0F;
     p.tool.control.max_feed_per_tooth_mm = 1.0F;
@@ -177,7 +177,7 @@ TEST(RoughnessTick, does_not_raise_the_feed_under_a_limit_without_a_prediction) 
     cut(tick, p, 800, 0.0F);
     CHECK_FALSE(tick.roughness().valid);
     CHECK(tick.control().ratio <= held);
-    p.tool.roughness.measure = 1.0F;  // a model of R_z says nothing about R_a
+    p.tool.roughness.measure = millforce::estimation::RoughnessMeasure::Rz;  // a model of R_z says nothing about R_a
     ForceControlTick<float> other(p);
     cut(other, p);
     const float at_contact = other.control().ratio;

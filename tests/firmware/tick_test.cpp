@@ -33,7 +33,7 @@ Parameters machine_and_tool() {
         axis.K_x4_N_per_A = 120.0F;
         axis.mass_kg = 250.0F;
     }
-    p.tool.side = 0.0F;
+    p.tool.side = millforce::estimation::CutSide::down;
     p.tool.tooth_force_limit_N = 700.0F;
     p.tool.law = millforce::estimation::linear_edge_law(1650.0F, 22.0F, 620.0F, 28.0F);
     return p;
@@ -79,7 +79,7 @@ Parameters well_known_machine() {
 /// With an encoder so fine that one window tells the torque.
 Parameters with_fine_encoder() {
     Parameters p = machine_and_tool();
-    p.machine.encoder_counts_per_rev = 65536.0F;
+    p.machine.encoder_counts_per_rev = 65536;
     return p;
 }
 
@@ -188,7 +188,7 @@ TEST(Tick, estimates_in_its_work_and_answers_with_the_next_step) {
 }
 
 TEST(Tick, finds_the_same_cut_one_slice_a_step_even_where_teeth_pass_faster_than_slices) {
-    for (const float teeth : {4.0F, 12.0F}) {  // a tooth in 3.75 and in 1.25 steps
+    for (const std::uint8_t teeth : {std::uint8_t{4}, std::uint8_t{12}}) {  // a tooth in 3.75 and in 1.25 steps
         Parameters parameters = well_known_machine();
         parameters.tool.teeth = teeth;
         ForceControlTick<float> at_once(parameters);

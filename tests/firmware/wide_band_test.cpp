@@ -23,10 +23,10 @@ constexpr float feed_mm_s = static_cast<float>(feed_per_tooth_mm * teeth * speed
 /// A law without edges and size effect: K the same everywhere, r = r_av = 0.4.
 Parameters parameters() {
     Parameters p;
-    p.machine.encoder_counts_per_rev = 8192.0F;
+    p.machine.encoder_counts_per_rev = 8192;
     p.tool.teeth = teeth;
     p.tool.diameter_mm = 100.0F;
-    p.tool.side = 1.0F;
+    p.tool.side = estimation::CutSide::up;
     p.tool.force_sensor.low_pass_hz = 300.0F;
     auto& law = p.tool.force_drop.law;
     law.a = 0.0F;

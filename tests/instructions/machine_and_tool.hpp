@@ -3,12 +3,14 @@
 
 #include "firmware/parameters.hpp"
 
+#include <cstdint>
+
 /// The machine and the tool whose costs are counted and timed.
 
 namespace millforce::bench {
 
-inline constexpr float encoder_counts_per_rev = 8192.0F;
-inline constexpr float teeth = 4.0F;
+inline constexpr std::uint32_t encoder_counts_per_rev = 8192;
+inline constexpr std::uint8_t teeth = 4;
 
 inline firmware::Parameters<float> machine_and_tool() {
     firmware::Parameters<float> parameters;
@@ -25,7 +27,7 @@ inline firmware::Parameters<float> machine_and_tool() {
         axis.velocity_floor_mm_s = 2.0F;
     }
     parameters.tool.teeth = teeth;
-    parameters.tool.side = static_cast<float>(estimation::CutSide::down);
+    parameters.tool.side = estimation::CutSide::down;
     parameters.tool.tooth_force_limit_N = 700.0F;
     parameters.tool.law = estimation::linear_edge_law(1650.0F, 22.0F, 620.0F, 28.0F);
     parameters.tool.law.K_s_relative_sd = 0.15F;

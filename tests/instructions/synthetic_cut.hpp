@@ -54,7 +54,7 @@ inline hal::DriveSample sample_of(int index, const firmware::Parameters<float>& 
 
     hal::DriveSample sample;
     sample.time_us = static_cast<std::uint32_t>(index) * sample_interval_us;
-    sample.spindle_count = static_cast<std::uint32_t>(turned_rev * encoder_counts_per_rev);
+    sample.spindle_count = static_cast<std::uint32_t>(turned_rev * static_cast<float>(encoder_counts_per_rev));
     sample.present = hal::all_present;
     sample.spindle_current_A =
         (torque_Nm - parameters.machine.spindle.K_t2_Nm) / parameters.machine.spindle.K_t1_Nm_per_A;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "emulator_pipes.hpp"
+#include "firmware/parameters_in.hpp"
 #include "target/lock_step.hpp"
 
 namespace millforce {
@@ -15,7 +16,7 @@ class EmulatedController {
         const std::string source = MILLFORCE_SOURCE_DIR;
         pipes_.start({source + "/toolchains/run-on-mps2", processor,
                       source + "/build/" + processor + "/tests/target/lock_step_controller.elf"});
-        pipes_.tell(lock_step::values_of(parameters));
+        pipes_.tell(firmware::values_of(parameters));
     }
 
     [[nodiscard]] bool works() const { return pipes_.works(); }

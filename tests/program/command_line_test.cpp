@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs.hpp"
 
-#include "firmware/parameter_table.hpp"
+#include "files/parameter_table.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -100,10 +100,10 @@ TEST(CommandLine, a_value_out_of_range_or_of_the_wrong_kind_is_refused) {
 TEST(CommandLine, parameters_lists_every_key_of_the_table) {
     const Ended listed = run_millforce({"parameters"});
     LONGS_EQUAL(0, listed.exit_code);
-    for (const auto& row : millforce::firmware::parameter_table<float>) {
+    for (const auto& row : millforce::host::parameter_table()) {
         CHECK(contains(listed.out, std::string("| `") + row.key + "` |"));
     }
-    for (const auto& row : millforce::firmware::information_table) {
+    for (const auto& row : millforce::host::information_table()) {
         CHECK(contains(listed.out, std::string("| `") + row.key + "` |"));
     }
 }

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstdint>
 
-#include "firmware/parameter_table.hpp"
 #include "firmware/tick.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
@@ -14,9 +13,6 @@
 /// pair of pipes, one request and one answer per sample. Both sides are little-endian and align alike.
 
 namespace millforce::lock_step {
-
-inline constexpr std::size_t parameter_rows = firmware::parameter_table<float>.size();
-using ParameterValues = std::array<std::array<float, firmware::axis_tables.size()>, parameter_rows>;
 
 struct Request {
     hal::DriveSample sample;
@@ -34,27 +30,6 @@ struct Answer {
                                  ///< (instruction_counter.hpp)
 };
 static_assert(sizeof(hal::FeedOverride) == 12 && sizeof(Answer) == 56);
-
-inline ParameterValues values_of(firmware::Parameters<float> parameters) {
-    ParameterValues values{};
-    for (std::size_t row = 0; row < parameter_rows; ++row) {
-        for (std::size_t axis = 0; axis < values[row].size(); ++axis) {
-            values[row][axis] = firmware::parameter_table<float>[row].field(parameters, axis);
-        }
-    }
-    return values;
-}
-
-template <typename Scalar>
-firmware::Parameters<Scalar> parameters_of(const ParameterValues& values) {
-    firmware::Parameters<Scalar> parameters;
-    for (std::size_t row = 0; row < parameter_rows; ++row) {
-        for (std::size_t axis = 0; axis < values[row].size(); ++axis) {
-            firmware::parameter_table<Scalar>[row].field(parameters, axis) = Scalar(values[row][axis]);
-        }
-    }
-    return parameters;
-}
 
 /// What is to be told of a tick that has just given this override.
 template <typename Scalar>

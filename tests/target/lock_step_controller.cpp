@@ -8,6 +8,7 @@
 
 #include "common/processor.hpp"
 #include "estimation/number/fixed_point.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/tick.hpp"
 #include "target/instruction_counter.hpp"
 #include "target/lock_step.hpp"
@@ -19,7 +20,7 @@ using namespace millforce;
 using Tick = firmware::SmallTick<MILLFORCE_SCALAR>;
 
 char command_line[512];
-lock_step::ParameterValues parameter_values;
+firmware::ParameterValues parameter_values;
 
 /// The command line's next word after `text`, which is cut off behind it.
 char* next_word(char* text) {
@@ -51,7 +52,7 @@ std::uint32_t finish_work(Tick& tick, const target::InstructionCounter& counter)
 }
 
 void serve(target::HostFile& requests, target::HostFile& answers) {
-    static Tick tick(lock_step::parameters_of<MILLFORCE_SCALAR>(parameter_values));
+    static Tick tick(firmware::parameters_of<MILLFORCE_SCALAR>(parameter_values));
     const target::InstructionCounter counter;
     lock_step::Request request{};
     while (requests.read(&request, sizeof(request))) {

@@ -66,7 +66,7 @@ bool count_cut(estimation::CutSide side, Worst& worst) {
     const target::InstructionCounter counter;
     const instructions::Cut& cut = instructions::fast_widening_cut;
     auto parameters = instructions::machine_and_tool();
-    parameters.tool.side = static_cast<float>(side);
+    parameters.tool.side = side;
     alignas(Tick) static unsigned char memory[sizeof(Tick)];
     Tick& tick = *new (memory) Tick(firmware::parameters_in<Scalar>(parameters));
     for (int index = 0; index < cut.samples(); ++index) {

@@ -227,7 +227,7 @@ RoughnessFit fit_roughness(std::span<const RoughnessTest> tests, unsigned held) 
 
 RoughnessModel<float> in_float(const RoughnessModel<double>& model) {
     RoughnessModel<float> result;
-    result.measure = static_cast<float>(model.measure);
+    result.measure = model.measure;
     result.constant_um = static_cast<float>(model.constant_um);
     narrow(model.exponent, result.exponent);
     narrow(model.minimum, result.minimum);

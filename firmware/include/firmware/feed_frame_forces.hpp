@@ -32,7 +32,7 @@ class FeedFrameForces {
     };
 
     explicit FeedFrameForces(const Parameters<Scalar>& p)
-        : encoder_(static_cast<std::uint32_t>(p.machine.encoder_counts_per_rev)),
+        : encoder_(p.machine.encoder_counts_per_rev),
           x_drive_({p.machine.axes[0].K_x4_N_per_A, p.machine.axes[0].mass_kg}),
           y_drive_({p.machine.axes[1].K_x4_N_per_A, p.machine.axes[1].mass_kg}),
           has_sensor_(has_force_sensor(p.tool)) {}

@@ -11,9 +11,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
-/// The parameters of a machine and a tool: plain structures, and the tables that describe each of their fields once.
-/// The tables (parameter_table.hpp) feed the TOML reader, the documentation and, on a target, the flash block.
+/// The parameters of a machine and a tool: plain structures with their defaults, which stand nowhere else. Keys and
+/// ranges: parameter_fields.hpp. On a host: parameter_table.hpp of the program, with units and sentences.
 
 namespace millforce::firmware {
 
@@ -28,44 +29,49 @@ struct CncParameters {
     Scalar sample_rate_hz{1000};
 };
 
-/// One drive on the bus. Which objects its PDOs carry stands beside the numbers, as text (text_table).
+enum class CurrentSource : std::uint8_t { current, torque };
+enum class CurrentBasis : std::uint8_t { rms, peak };
+enum class VelocitySource : std::uint8_t { velocity, position };
+enum class BusRole : std::uint8_t { listener, master };
+
+/// One drive on the bus. Which objects its PDOs carry is text in machine.toml, and no part of this.
 template <typename Scalar>
 struct BusDriveParameters {
-    Scalar node_id{0};
-    Scalar current_source{0};  ///< index into cia402::CurrentSource
-    Scalar current_basis{0};   ///< index into cia402::CurrentBasis
-    Scalar current_reversed{0};
+    std::uint8_t node_id{0};  ///< 0: not on the bus
+    CurrentSource current_source{CurrentSource::current};
+    CurrentBasis current_basis{CurrentBasis::rms};
+    bool current_reversed{false};
     Scalar rated_torque_Nm{0};
     Scalar torque_constant_Nm_per_A{0};
     Scalar largest_share_of_rated{4};
-    Scalar velocity_source{0};  ///< index into cia402::VelocitySource
+    VelocitySource velocity_source{VelocitySource::velocity};
     Scalar velocity_mm_s_per_unit{0};
     Scalar position_mm_per_unit{0};
     Scalar largest_velocity_mm_s{2000};
-    Scalar count_modulus{0};
-    Scalar largest_count_step{1048576};
-    Scalar count_reversed{0};
+    std::uint32_t count_modulus{0};
+    std::uint32_t largest_count_step{1048576};
+    bool count_reversed{false};
     Scalar heartbeat_timeout_ms{0};
     Scalar heartbeat_period_ms{0};
-    Scalar write_mapping{0};
+    bool write_mapping{false};
     Scalar stale_ms{20};
-    std::array<Scalar, 4> tpdo_id{};
-    std::array<Scalar, 4> tpdo_every{Scalar(1), Scalar(1), Scalar(1), Scalar(1)};
+    std::array<std::uint16_t, 4> tpdo_id{};              ///< 0: 0x180 + node_id, 0x280 + node_id …
+    std::array<std::uint8_t, 4> tpdo_every{1, 1, 1, 1};  ///< SYNCs; 0: when something changes
 };
 
 /// The bus that drives and CNC are on. A machine without one has no drive with a node id.
 template <typename Scalar>
 struct BusParameters {
-    Scalar role{0};
-    Scalar produces_sync{0};
-    Scalar sync_id{0x080};
+    BusRole role{BusRole::listener};
+    bool produces_sync{false};
+    std::uint16_t sync_id{0x080};
     Scalar sync_period_ms{1};
     Scalar collect_time_ms{static_cast<Scalar>(0.8L)};
-    Scalar override_id{0x1FE};
-    Scalar override_node_id{126};
+    std::uint16_t override_id{0x1FE};
+    std::uint8_t override_node_id{126};
     Scalar override_period_ms{2};
     Scalar override_heartbeat_ms{100};
-    Scalar program_status_id{0x1FD};
+    std::uint16_t program_status_id{0x1FD};
     Scalar program_status_timeout_ms{100};
     std::array<BusDriveParameters<Scalar>, 4> drives{};  ///< spindle, x, y, z
 };
@@ -74,7 +80,7 @@ template <typename Scalar>
 struct MachineParameters {
     estimation::SpindleDriveParameters<Scalar> spindle{};
     Scalar spindle_rated_current_A{0};
-    Scalar encoder_counts_per_rev{4096};
+    std::uint32_t encoder_counts_per_rev{4096};
     std::array<estimation::FeedDriveParameters<Scalar>, 3> axes{};
     std::array<Scalar, 3> axis_rated_current_A{};
     CncParameters<Scalar> cnc{};
@@ -92,7 +98,7 @@ struct ForceSensorParameters {
 template <typename Scalar>
 struct ForceDropParameters {
     estimation::ForceDropLaw<Scalar> law{.largest_immersion = Scalar(0)};
-    Scalar revolutions{4};
+    std::uint16_t revolutions{4};
 };
 
 /// Depths of cut from the shape of the force.
@@ -101,27 +107,28 @@ struct DepthShapeParameters {
     Scalar nominal_axial_depth_mm{0};
     Scalar nominal_radial_width_mm{0};
     Scalar feed_per_tooth_mm{0};
-    Scalar revolutions{20};
+    std::uint16_t revolutions{20};
     Scalar tip_angle_deg{0};
     Scalar tip_angle_sd_deg{0};
 };
 
 template <typename Scalar>
 struct ToolParameters {
-    Scalar teeth{4};
+    std::uint8_t teeth{4};
     Scalar diameter_mm{10};
     Scalar helix_deg{30};
     Scalar flute_length_mm{20};
     Scalar runout_um{0};
-    Scalar side{0};  ///< index into estimation::CutSide
+    estimation::CutSide side{estimation::CutSide::unknown};
     Scalar centre_offset_mm{0};
     Scalar tooth_force_limit_N{0};
     Scalar break_share{static_cast<Scalar>(1.5L)};
     Scalar declared_axial_depth_mm{0};
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
-    estimation::CuttingLaw<Scalar> law{};
+    estimation::CuttingLaw<Scalar> law{.K_s_relative_sd = static_cast<Scalar>(0.05L),
+                                       .r_1_relative_sd = static_cast<Scalar>(0.05L)};
     control::FeedControllerParameters<Scalar> control{};
-    Scalar monitor_only{0};
+    bool monitor_only{false};
     estimation::RoughnessModel<Scalar> roughness{};
     ForceSensorParameters<Scalar> force_sensor{};
     ForceDropParameters<Scalar> force_drop{};
@@ -134,21 +141,16 @@ struct Parameters {
     ToolParameters<Scalar> tool{};
 };
 
-template <typename Scalar>
-estimation::CutSide cut_side(const ToolParameters<Scalar>& tool) {
-    return static_cast<estimation::CutSide>(static_cast<unsigned char>(tool.side));
-}
-
 /// Settings of the estimator, worked out from the parameters.
 template <typename Scalar>
 estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Scalar>& p) {
     estimation::CutEstimatorSettings<Scalar> s;
     const Scalar radius_mm = p.tool.diameter_mm * Scalar(0.5F);
-    s.teeth = p.tool.teeth;
+    s.teeth = Scalar(p.tool.teeth);
     s.cutter_radius_mm = radius_mm;
     s.helix_rad = p.tool.helix_deg * estimation::pi<Scalar> / Scalar(180);
     s.runout_mm = p.tool.runout_um * Scalar(0.001F);
-    s.side = cut_side(p.tool);
+    s.side = p.tool.side;
     s.centre_offset_in_radii = p.tool.centre_offset_mm / radius_mm;
     s.largest_depth_mm = p.tool.flute_length_mm;
     s.nominal_feed_per_tooth_mm = p.tool.control.entry_feed_per_tooth_mm;
@@ -157,7 +159,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.tooth_force_limit_N = p.tool.tooth_force_limit_N;
     s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;
-    s.encoder_counts_per_rev = static_cast<std::uint32_t>(p.machine.encoder_counts_per_rev);
+    s.encoder_counts_per_rev = p.machine.encoder_counts_per_rev;
     return s;
 }
 
@@ -166,11 +168,11 @@ template <typename Scalar>
 control::FeedControllerParameters<Scalar> controller_parameters(const Parameters<Scalar>& p) {
     control::FeedControllerParameters<Scalar> c = p.tool.control;
     c.tooth_force_limit_N = p.tool.tooth_force_limit_N;
-    c.teeth = p.tool.teeth;
+    c.teeth = Scalar(p.tool.teeth);
     c.override_min = p.machine.cnc.override_min;
     c.override_max = p.machine.cnc.override_max;
     c.stale_s = p.machine.cnc.stale_s;
-    c.monitor_only = p.tool.monitor_only > Scalar(0.5F);
+    c.monitor_only = p.tool.monitor_only;
     return c;
 }
 

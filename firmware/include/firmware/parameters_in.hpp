@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <type_traits>
+#include <array>
 
-#include "firmware/parameter_table.hpp"
+#include "firmware/parameter_fields.hpp"
+
+/// Parameters as a list of floats, and in another scalar. For float and estimation::Fixed; other
+/// scalars include parameters_in_impl.hpp.
 
 namespace millforce::firmware {
 
-/// The same parameters in another scalar, by the parameter table.
+/// In the order of for_each_parameter. Integers are exact: none is above 2^24.
+using ParameterValues = std::array<float, parameter_count>;
+
+ParameterValues values_of(const Parameters<float>& parameters);
+
+/// `values` must be within the ranges of their fields.
 template <typename Scalar>
-Parameters<Scalar> parameters_in(Parameters<float> from) {
-    if constexpr (std::is_same_v<Scalar, float>) {
-        return from;
-    } else {
-        Parameters<Scalar> to;
-        for (std::size_t row = 0; row < parameter_table<float>.size(); ++row) {
-            for (std::size_t axis = 0; axis < axis_tables.size(); ++axis) {
-                parameter_table<Scalar>[row].field(to, axis) = Scalar(parameter_table<float>[row].field(from, axis));
-            }
-        }
-        return to;
-    }
+Parameters<Scalar> parameters_of(const ParameterValues& values);
+
+/// The same parameters in another scalar.
+template <typename Scalar>
+Parameters<Scalar> parameters_in(const Parameters<float>& from) {
+    return parameters_of<Scalar>(values_of(from));
+}
+template <>
+inline Parameters<float> parameters_in(const Parameters<float>& from) {
+    return from;
 }
 
 }  // namespace millforce::firmware

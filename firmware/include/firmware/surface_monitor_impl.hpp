@@ -35,7 +35,7 @@ template <typename Scalar>
 void SurfaceMonitor<Scalar>::set_ceiling(const estimation::CutEstimate<Scalar>& e,
                                          const estimation::RoughnessConditions<Scalar>& cut, Scalar turns_per_s) {
     for_control_ = {};
-    const bool is_Ra = !(model_.model().measure > Scalar(0.5F));
+    const bool is_Ra = model_.model().measure == estimation::RoughnessMeasure::Ra;
     if (!is_Ra || !(Ra_limit_um_ > Scalar(0))) {
         return;
     }

@@ -8,9 +8,9 @@ namespace millforce::firmware {
 template <typename Scalar>
 WideBandMonitor<Scalar>::WideBandMonitor(const Parameters<Scalar>& p)
     : forces_(p),
-      teeth_(p.tool.teeth),
-      force_drop_revolutions_(p.tool.force_drop.revolutions),
-      depth_revolutions_(p.tool.depth_shape.revolutions) {
+      teeth_(Scalar(p.tool.teeth)),
+      force_drop_revolutions_(Scalar(p.tool.force_drop.revolutions)),
+      depth_revolutions_(Scalar(p.tool.depth_shape.revolutions)) {
     const bool has_sensor = has_force_sensor(p.tool);
     const bool has_drives = p.machine.axes[0].K_x4_N_per_A > Scalar(0) && p.machine.axes[1].K_x4_N_per_A > Scalar(0);
     uses_force_drop_ = has_force_drop_law(p.tool) && (has_sensor || has_drives);

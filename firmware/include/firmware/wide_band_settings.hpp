@@ -23,7 +23,7 @@ bool has_nominal_depths(const ToolParameters<Scalar>& tool) {
 }
 template <typename Scalar>
 bool force_has_shape(const ToolParameters<Scalar>& tool) {
-    return !(tool.helix_deg < Scalar(5)) && cut_side(tool) != estimation::CutSide::centred;
+    return !(tool.helix_deg < Scalar(5)) && tool.side != estimation::CutSide::centred;
 }
 
 template <typename Scalar>
@@ -47,9 +47,9 @@ estimation::ForceDropLaw<Scalar> force_drop_law(const ToolParameters<Scalar>& to
 template <typename Scalar>
 estimation::ForceDropSettings<Scalar> force_drop_settings(const Parameters<Scalar>& p) {
     estimation::ForceDropSettings<Scalar> settings;
-    settings.detector.teeth = static_cast<int>(p.tool.teeth);
-    settings.revolutions = static_cast<int>(p.tool.force_drop.revolutions);
-    settings.side = cut_side(p.tool);
+    settings.detector.teeth = p.tool.teeth;
+    settings.revolutions = p.tool.force_drop.revolutions;
+    settings.side = p.tool.side;
     if (has_force_sensor(p.tool)) {
         settings.detector.response.corner_hz = p.tool.force_sensor.low_pass_hz;
         settings.zero_drift_sd_N = p.tool.force_sensor.zero_drift_sd_N;
@@ -76,9 +76,9 @@ estimation::FluteProfileFitSettings<Scalar> depth_shape_settings(const ToolParam
     constexpr Scalar degree_rad = estimation::pi<Scalar> / Scalar(180);
     const DepthShapeParameters<Scalar>& shape = tool.depth_shape;
     estimation::FluteProfileFitSettings<Scalar> settings;
-    settings.cutter = {static_cast<int>(tool.teeth), Scalar(0.5F) * tool.diameter_mm, tool.helix_deg * degree_rad};
+    settings.cutter = {tool.teeth, Scalar(0.5F) * tool.diameter_mm, tool.helix_deg * degree_rad};
     settings.feed_per_tooth_mm = shape.feed_per_tooth_mm;
-    settings.side = cut_side(tool);
+    settings.side = tool.side;
     settings.axial = depth_range_about(shape.nominal_axial_depth_mm, tool.flute_length_mm);
     settings.radial = depth_range_about(shape.nominal_radial_width_mm, tool.diameter_mm);
     if (has_force_sensor(tool)) {

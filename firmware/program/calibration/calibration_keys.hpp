@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "firmware/parameter_table.hpp"
-
 #include <array>
 #include <string_view>
 
-/// Keys of the TOML files that `millforce calibrate` writes. They are looked up in the parameter tables while this is
-/// compiled: what is written can be read as machine.toml or tool.toml. Each fitted key has a companion KEY_se, its
-/// standard error.
+/// Keys of the TOML files that `millforce calibrate` writes. They are looked up in the parameter tables, so that what
+/// is written can be read as machine.toml or tool.toml. Each fitted key has a companion KEY_se, its standard error.
 
 namespace millforce::host {
 
@@ -20,23 +17,11 @@ struct CalibrationKey {
     float maximum = 1e12F;
 };
 
-/// The row of the parameter tables; a key that neither has does not compile.
-consteval CalibrationKey key_of(std::string_view table, std::string_view name) {
-    for (const auto& row : firmware::parameter_table<float>) {
-        if (table == row.table && name == row.key) {
-            return {row.key, std::string_view(row.unit) == "1" ? "" : row.unit, row.minimum, row.maximum};
-        }
-    }
-    for (const auto& row : firmware::information_table) {
-        if (table == row.table && name == row.key) {
-            return {row.key, row.unit};
-        }
-    }
-    throw "not a key of the parameter tables";
-}
+/// Ends the program at its start where neither table has the key.
+CalibrationKey key_of(std::string_view table, std::string_view name) noexcept;
 
 /// Table [x], [y] or [z], from position and motor force; order of estimation::SymmetricFrictionIndex …
-inline constexpr std::array<CalibrationKey, 4> symmetric_friction_keys{{
+inline const std::array<CalibrationKey, 4> symmetric_friction_keys{{
     key_of("axis", "mass_kg"),
     key_of("axis", "viscous_N_s_per_m"),
     key_of("axis", "coulomb_N"),
@@ -44,7 +29,7 @@ inline constexpr std::array<CalibrationKey, 4> symmetric_friction_keys{{
 }};
 
 /// … and of estimation::DirectionalFrictionIndex. The mass is the one above.
-inline constexpr std::array<CalibrationKey, 5> directional_friction_keys{{
+inline const std::array<CalibrationKey, 5> directional_friction_keys{{
     key_of("axis", "directional_mass_kg"),
     key_of("axis", "positive_viscous_N_s_per_m"),
     key_of("axis", "negative_viscous_N_s_per_m"),
@@ -52,11 +37,11 @@ inline constexpr std::array<CalibrationKey, 5> directional_friction_keys{{
     key_of("axis", "negative_coulomb_N"),
 }};
 
-inline constexpr CalibrationKey friction_force_residual_key = key_of("axis", "residual_rms_N");
+inline const CalibrationKey friction_force_residual_key = key_of("axis", "residual_rms_N");
 
 /// Table [x], [y] or [z], from recorded currents in air; order of estimation::FeedCurrentIndex. K_x3 is one for both
 /// directions: see estimation_calibration/friction_fit.hpp.
-inline constexpr std::array<CalibrationKey, 6> feed_current_keys{{
+inline const std::array<CalibrationKey, 6> feed_current_keys{{
     key_of("axis", "K_x1_positive_A_min2_per_m2"),
     key_of("axis", "K_x2_positive_A_min_per_m"),
     key_of("axis", "K_x1_negative_A_min2_per_m2"),
@@ -65,10 +50,10 @@ inline constexpr std::array<CalibrationKey, 6> feed_current_keys{{
     key_of("axis", "gravity_A"),
 }};
 
-inline constexpr CalibrationKey friction_current_residual_key = key_of("axis", "friction_residual_rms_A");
+inline const CalibrationKey friction_current_residual_key = key_of("axis", "friction_residual_rms_A");
 
 /// Table [spindle]; order of estimation::SpindleFitIndex.
-inline constexpr std::array<CalibrationKey, 5> spindle_keys{{
+inline const std::array<CalibrationKey, 5> spindle_keys{{
     key_of("spindle", "K_t1_Nm_per_A"),
     key_of("spindle", "K_t2_Nm"),
     key_of("spindle", "idle_torque_slope_Nm_s"),
@@ -76,10 +61,10 @@ inline constexpr std::array<CalibrationKey, 5> spindle_keys{{
     key_of("spindle", "base_speed_rad_s"),
 }};
 
-inline constexpr CalibrationKey torque_residual_key = key_of("spindle", "torque_residual_rms_Nm");
+inline const CalibrationKey torque_residual_key = key_of("spindle", "torque_residual_rms_Nm");
 
 /// Table [cutting]: the law's coefficients.
-inline constexpr std::array<CalibrationKey, 6> cutting_coefficient_keys{{
+inline const std::array<CalibrationKey, 6> cutting_coefficient_keys{{
     key_of("cutting", "k_s_N_per_mm2"),
     key_of("cutting", "p_s"),
     key_of("cutting", "k_1"),
@@ -89,7 +74,7 @@ inline constexpr std::array<CalibrationKey, 6> cutting_coefficient_keys{{
 }};
 
 /// Table [cutting]: what the law's doubt and range are made of. No KEY_se.
-inline constexpr std::array<CalibrationKey, 9> cutting_doubt_keys{{
+inline const std::array<CalibrationKey, 9> cutting_doubt_keys{{
     key_of("cutting", "K_s_relative_sd"),
     key_of("cutting", "K_s_exponent_sd"),
     key_of("cutting", "r_1_relative_sd"),
@@ -102,10 +87,10 @@ inline constexpr std::array<CalibrationKey, 9> cutting_doubt_keys{{
 }};
 
 /// Table [depth_shape].
-inline constexpr CalibrationKey tip_angle_key = key_of("depth_shape", "tip_angle_deg");
-inline constexpr CalibrationKey tip_angle_doubt_key = key_of("depth_shape", "tip_angle_sd_deg");
+inline const CalibrationKey tip_angle_key = key_of("depth_shape", "tip_angle_deg");
+inline const CalibrationKey tip_angle_doubt_key = key_of("depth_shape", "tip_angle_sd_deg");
 
 /// Table [cutting]: "down" or "up".
-inline constexpr CalibrationKey cut_side_key = key_of("cutting", "cut_side");
+inline const CalibrationKey cut_side_key = key_of("cutting", "cut_side");
 
 }  // namespace millforce::host

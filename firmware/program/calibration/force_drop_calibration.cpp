@@ -13,6 +13,7 @@
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
+#include "firmware/parameter_fields.hpp"
 #include "firmware/wide_band_settings.hpp"
 
 namespace millforce::host {
@@ -172,17 +173,18 @@ void write_law(TomlWriter& toml, const estimation::ForceDropLaw<double>& law) {
     firmware::Parameters<float> holder;
     holder.tool.force_drop.law = estimation::in_float(law);
     toml.table("force_drop");
-    for (const auto& row : firmware::parameter_table<float>) {
-        if (std::string_view(row.table) != "force_drop" || std::string_view(row.key) == "revolutions") {
-            continue;
+    const auto write = [&toml](const firmware::ParameterName& name, const auto& field, float minimum, float maximum) {
+        if (std::string_view(name.table) != "force_drop" || std::string_view(name.key) == "revolutions") {
+            return;
         }
-        const float value = row.field(holder, 0);
-        if (value < row.minimum || value > row.maximum) {
+        const auto value = static_cast<float>(field);
+        if (value < minimum || value > maximum) {
             throw InputError(fmt::format("'{}' comes out as {:g}, expected {:g} to {:g}: these cuts are no tool's",
-                                         row.key, value, row.minimum, row.maximum));
+                                         name.key, value, minimum, maximum));
         }
-        toml.key(row.key, static_cast<double>(value));
-    }
+        toml.key(name.key, static_cast<double>(value));
+    };
+    firmware::for_each_parameter(holder, write);
 }
 
 void print_law(std::ostream& out, const DropCalibration::Result& result) {
@@ -205,7 +207,7 @@ void print_law(std::ostream& out, const DropCalibration::Result& result) {
 int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostream& out) {
     constexpr double largest_error = 0.1;
     auto parameters = read_parameters(options.machine.string(), options.tool.string());
-    const CutSide side = firmware::cut_side(parameters.tool);
+    const CutSide side = parameters.tool.side;
     if (side == CutSide::centred) {
         throw InputError(
             fmt::format("{}: side = \"centred\", expected down, up or unknown: a centred cut has no wall "

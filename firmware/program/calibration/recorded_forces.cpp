@@ -37,7 +37,7 @@ std::vector<RunningCut> cuts_in(const std::filesystem::path& recording, const st
 void read_recorded_forces(const std::vector<std::filesystem::path>& recordings,
                           const std::vector<StretchConditions>& cuts, const firmware::Parameters<float>& parameters,
                           const ForceTaker& take) {
-    const auto counts_per_rev = static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev);
+    const auto counts_per_rev = parameters.machine.encoder_counts_per_rev;
     for (const auto& path : recordings) {
         std::vector<RunningCut> running = cuts_in(path, cuts, parameters);
         RecordingReader reader(path, counts_per_rev);
@@ -74,11 +74,10 @@ std::vector<StretchConditions> cuts_of_tool(const std::filesystem::path& table,
     }
     const auto diameter_mm = static_cast<double>(tool.diameter_mm);
     for (const StretchConditions& cut : cuts) {
-        if (std::abs(cut.tool_diameter_mm - diameter_mm) > 1e-3 * diameter_mm ||
-            cut.flutes != static_cast<int>(tool.teeth)) {
+        if (std::abs(cut.tool_diameter_mm - diameter_mm) > 1e-3 * diameter_mm || cut.flutes != tool.teeth) {
             throw InputError(
-                fmt::format("{}: a tool of Ø{:g} mm with {} flutes, expected the tool file's Ø{:g} mm and {:g}",
-                            cut.place, cut.tool_diameter_mm, cut.flutes, diameter_mm, static_cast<double>(tool.teeth)));
+                fmt::format("{}: a tool of Ø{:g} mm with {} flutes, expected the tool file's Ø{:g} mm and {}",
+                            cut.place, cut.tool_diameter_mm, cut.flutes, diameter_mm, tool.teeth));
         }
     }
     return cuts;

@@ -5,6 +5,7 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_table.hpp"
 
 #include <fmt/format.h>
 
@@ -24,16 +25,16 @@ using Test = estimation::RoughnessTest;
 constexpr int variables = estimation::roughness_variable_count;
 
 /// Order of estimation::RoughnessVariable.
-constexpr std::array<CalibrationKey, 5> exponent_keys{{
+const std::array<CalibrationKey, 5> exponent_keys{{
     key_of("roughness", "spindle_speed_exponent"),
     key_of("roughness", "feed_exponent"),
     key_of("roughness", "tool_diameter_exponent"),
     key_of("roughness", "axial_depth_exponent"),
     key_of("roughness", "force_ratio_exponent"),
 }};
-constexpr CalibrationKey constant_key = key_of("roughness", "constant_um");
-constexpr CalibrationKey middle_key = key_of("roughness", "roughness_at_means_um");
-constexpr CalibrationKey determination_key = key_of("roughness", "determination");
+const CalibrationKey constant_key = key_of("roughness", "constant_um");
+const CalibrationKey middle_key = key_of("roughness", "roughness_at_means_um");
+const CalibrationKey determination_key = key_of("roughness", "determination");
 
 /// A test and where it stands, for the report.
 struct TestRow {
@@ -218,6 +219,16 @@ double constant_standard_error(const RoughnessFit& fit) {
     return error_um <= largest_error_um ? error_um : no_estimate;
 }
 
+/// Of the exponents and the constant; other keys have none.
+double standard_error_of(std::string_view key, const RoughnessFit& fit) {
+    for (std::size_t k = 0; k < exponent_keys.size(); ++k) {
+        if (exponent_keys[k].name == key) {
+            return fit.exponent_standard_error[k];
+        }
+    }
+    return key == constant_key.name ? constant_standard_error(fit) : no_estimate;
+}
+
 void write_model(const RoughnessCalibrationOptions& options, const std::string& measure, const RoughnessFit& fit) {
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
@@ -226,25 +237,19 @@ void write_model(const RoughnessCalibrationOptions& options, const std::string& 
     toml.table("roughness");
     firmware::Parameters<double> parameters;
     parameters.tool.roughness = fit.model;
-    for (const auto& row : firmware::parameter_table<double>) {
-        if (std::string_view(row.table) != "roughness") {
-            continue;
+    const auto write = [&]<typename Field>(const firmware::ParameterName& name, const Field& field, float minimum,
+                                           float maximum) {
+        if (std::string_view(name.table) != "roughness") {
+            return;
         }
-        const CalibrationKey key{row.key, row.unit, row.minimum, row.maximum};
-        const auto* const exponent = std::find_if(exponent_keys.begin(), exponent_keys.end(),
-                                                  [&](const CalibrationKey& k) { return k.name == key.name; });
-        double standard_error = no_estimate;
-        if (exponent != exponent_keys.end()) {
-            standard_error = fit.exponent_standard_error[static_cast<std::size_t>(exponent - exponent_keys.begin())];
-        } else if (key.name == constant_key.name) {
-            standard_error = constant_standard_error(fit);
-        }
-        if (row.choices != nullptr) {
-            toml.key(key.name, measure);
+        if constexpr (std::is_enum_v<Field>) {
+            toml.key(name.key, measure);
         } else {
-            write_fitted(toml, {key, row.field(parameters, 0), standard_error});
+            const CalibrationKey key{name.key, row_of(name).unit, minimum, maximum};
+            write_fitted(toml, {key, static_cast<double>(field), standard_error_of(name.key, fit)});
         }
-    }
+    };
+    firmware::for_each_parameter(parameters, write);
     write_fitted(toml, {middle_key, fit.reference_um, fit.reference_um * fit.reference_ln_standard_error});
     toml.key(determination_key.name, fit.determination);
     file.commit();

@@ -6,6 +6,7 @@
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
+#include "files/parameter_table.hpp"
 
 #include <fmt/format.h>
 
@@ -20,14 +21,12 @@ using estimation::DriveGainFit;
 using estimation::StandardCutLack;
 using Stretch = estimation::StandardCutStretch;
 
-constexpr std::array<std::string_view, 3> axis_tables{"x", "y", "z"};
-
-constexpr CalibrationKey K_t1_key = key_of("spindle", "K_t1_Nm_per_A");
-constexpr CalibrationKey K_t2_key = key_of("spindle", "K_t2_Nm");
-constexpr CalibrationKey K_x4_key = key_of("axis", "K_x4_N_per_A");
-constexpr CalibrationKey K_x5_key = key_of("axis", "K_x5_N_m_per_min");
-constexpr CalibrationKey spindle_doubt_key = key_of("spindle", "gain_relative_sd");
-constexpr CalibrationKey axis_doubt_key = key_of("axis", "gain_relative_sd");
+const CalibrationKey K_t1_key = key_of("spindle", "K_t1_Nm_per_A");
+const CalibrationKey K_t2_key = key_of("spindle", "K_t2_Nm");
+const CalibrationKey K_x4_key = key_of("axis", "K_x4_N_per_A");
+const CalibrationKey K_x5_key = key_of("axis", "K_x5_N_m_per_min");
+const CalibrationKey spindle_doubt_key = key_of("spindle", "gain_relative_sd");
+const CalibrationKey axis_doubt_key = key_of("axis", "gain_relative_sd");
 
 estimation::AverageForces<double> known_forces(const RecordedStretch& stretch,
                                                const estimation::CuttingLaw<double>& law, estimation::CutSide side) {

@@ -27,7 +27,7 @@ DepthMonitor monitor_of(const StretchConditions& cut, firmware::ToolParameters<f
     tool.depth_shape.nominal_axial_depth_mm = static_cast<float>(cut.axial_depth_mm);
     tool.depth_shape.nominal_radial_width_mm = static_cast<float>(cut.radial_width_mm);
     tool.depth_shape.tip_angle_sd_deg = 0.0F;
-    return DepthMonitor(firmware::depth_shape_settings(tool), static_cast<int>(tool.depth_shape.revolutions));
+    return DepthMonitor(firmware::depth_shape_settings(tool), tool.depth_shape.revolutions);
 }
 
 void refuse_tools_without_shape(const ForceShapeCalibrationOptions& options,
@@ -35,7 +35,7 @@ void refuse_tools_without_shape(const ForceShapeCalibrationOptions& options,
     const auto refuse = [&](std::string_view why) {
         throw InputError(fmt::format("{}: {}", options.tool.string(), why));
     };
-    if (!firmware::force_has_shape(tool) || firmware::cut_side(tool) == estimation::CutSide::unknown) {
+    if (!firmware::force_has_shape(tool) || tool.side == estimation::CutSide::unknown) {
         refuse("the angle of the tips takes helix_deg of at least 5 and side = \"down\" or \"up\"");
     }
     if (!firmware::has_force_sensor(tool)) {
@@ -118,14 +118,13 @@ int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostrea
     const auto parameters = read_parameters(options.machine.string(), options.tool.string());
     refuse_tools_without_shape(options, parameters.tool);
     const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
-    const double pitch_rad =
-        2.0 * static_cast<double>(estimation::pi<float>) / static_cast<double>(parameters.tool.teeth);
+    const double pitch_rad = 2.0 * static_cast<double>(estimation::pi<float>) / parameters.tool.teeth;
     const MeanAngle mean = mean_of(angles_of(options, parameters, cuts), pitch_rad);
     if (mean.cuts == 0) {
-        throw InputError(fmt::format(
-            "{}: '{}' cannot be determined: no cut tells it; expected {:g} revolutions of a steady "
-            "cut of known depths, its sweep no whole number of tooth pitches",
-            options.cuts.string(), tip_angle_key.name, static_cast<double>(parameters.tool.depth_shape.revolutions)));
+        throw InputError(
+            fmt::format("{}: '{}' cannot be determined: no cut tells it; expected {} revolutions of a steady "
+                        "cut of known depths, its sweep no whole number of tooth pitches",
+                        options.cuts.string(), tip_angle_key.name, parameters.tool.depth_shape.revolutions));
     }
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());

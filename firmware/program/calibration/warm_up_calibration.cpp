@@ -21,9 +21,9 @@ namespace millforce::host {
 
 namespace {
 
-constexpr CalibrationKey torque_key = key_of("spindle", "warm_up_torque_Nm");
-constexpr CalibrationKey time_key = key_of("spindle", "warm_up_time_s");
-constexpr CalibrationKey torque_doubt_key = key_of("spindle", "warm_up_torque_sd_Nm");
+const CalibrationKey torque_key = key_of("spindle", "warm_up_torque_Nm");
+const CalibrationKey time_key = key_of("spindle", "warm_up_time_s");
+const CalibrationKey torque_doubt_key = key_of("spindle", "warm_up_torque_sd_Nm");
 
 /// About a second of the recording.
 struct IdleSecond {

@@ -23,7 +23,7 @@ struct ParametersOptions {
 
 void write_block(const ParametersOptions& options) {
     write_parameter_block(options.block_to_write, read_parameters(options.machine, options.tool));
-    fmt::print("{}: {} bytes, {} values\n", options.block_to_write, firmware::block_bytes, firmware::block_values);
+    fmt::print("{}: {} bytes, {} values\n", options.block_to_write, firmware::block_bytes, firmware::parameter_count);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOpti
 /// come out.
 int replay_table(const ReplayOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
-    RecordingReader recording(options.log, static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
+    RecordingReader recording(options.log, parameters.machine.encoder_counts_per_rev);
     firmware::ForceControlTick<float> tick(parameters);
     const estimation::TotalForce<float> total = firmware::total_force(parameters);
     std::optional<AtomicFile> file;

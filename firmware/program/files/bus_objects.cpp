@@ -10,7 +10,7 @@
 
 #include "cia402/objects.hpp"
 #include "files/input_error.hpp"
-#include "firmware/parameter_table.hpp"
+#include "files/parameter_table.hpp"
 
 namespace millforce::host {
 
@@ -104,7 +104,7 @@ bool maps(const cia402::DriveSettings& drive, std::uint16_t index) {
 /// is left the drive is not on the bus.
 void take_from_bus(const std::string& file, std::size_t place, const LocalDriveKeys& keys,
                    cia402::DriveSettings& drive) {
-    const char* table = firmware::drive_tables[place];
+    const char* table = drive_tables[place];
     const std::uint16_t motion = place == 0 ? drive.count_object.index : cia402::object::velocity_actual;
     if (maps(drive, cia402::object::current_actual) || (keys.has_counter() && maps(drive, motion))) {
         refuse_local(file, place, fmt::format("a tpdo of [{}] tells the same, expected one of the two", table));
@@ -175,7 +175,7 @@ void check_bus(const std::string& file, const cia402::BusSettings& settings) {
         alone.drives[k] = settings.drives[k];
         const SettingsError error = settings.drives[k].node_id == 0 ? SettingsError::none : check(alone);
         if (error != SettingsError::none) {
-            refuse(file, error == SettingsError::sync ? "bus" : firmware::drive_tables[k], error);
+            refuse(file, error == SettingsError::sync ? "bus" : drive_tables[k], error);
         }
     }
     if (const SettingsError error = check(settings); error != SettingsError::none) {

@@ -3,55 +3,47 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <string_view>
-#include <vector>
+#include <type_traits>
 
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_choices.hpp"
+#include "files/parameter_table.hpp"
 #include "files/toml_writer.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-using Row = firmware::ParameterRow<float>;
-
-void write_value(TomlWriter& writer, const Row& row, float value) {
-    if (row.choices != nullptr) {
-        writer.key(row.key, words_of(row.choices)[static_cast<std::size_t>(value)]);
+template <typename Field>
+void write_value(TomlWriter& writer, const ParameterRow& row, Field field) {
+    if constexpr (std::is_same_v<Field, bool>) {
+        writer.flag_key(row.key, field);
+    } else if constexpr (std::is_enum_v<Field>) {
+        writer.key(row.key, words_of(row.choices)[static_cast<std::size_t>(field)]);
+    } else if constexpr (std::is_integral_v<Field>) {
+        writer.integer_key(row.key, field);
     } else {
-        writer.key(row.key, decimal(value));
+        writer.key(row.key, decimal(field));
     }
 }
 
-/// The rows of one table, in the order of the parameter table.
-void write_table(TomlWriter& writer, firmware::ParameterFile file, std::string_view table, std::size_t axis,
-                 firmware::Parameters<float>& parameters) {
-    writer.table(table == "axis"        ? firmware::axis_tables[axis]
-                 : table == "bus.drive" ? firmware::drive_tables[axis]
-                                        : table);
-    for (const Row& row : firmware::parameter_table<float>) {
-        if (row.file == file && row.table == table) {
-            write_value(writer, row, row.field(parameters, axis));
+void write_file(TomlWriter& writer, firmware::ParameterFile file, const firmware::Parameters<float>& parameters) {
+    std::string_view written;
+    firmware::for_each_parameter(parameters, [&](const firmware::ParameterName& name, const auto& field, float, float) {
+        if (name.file != file) {
+            return;
         }
-    }
-}
-
-void write_file(TomlWriter& writer, firmware::ParameterFile file, firmware::Parameters<float>& parameters) {
-    std::vector<std::string_view> written;
-    for (const Row& row : firmware::parameter_table<float>) {
-        const std::string_view table = row.table;
-        if (row.file != file || std::find(written.begin(), written.end(), table) != written.end()) {
-            continue;
+        const ParameterRow& row = row_of(name);
+        const std::string_view table = tables_in_file(row.table)[name.place];
+        if (table != written) {
+            writer.table(table);
+            written = table;
         }
-        written.push_back(table);
-        for (std::size_t axis = 0; axis < firmware::axes_of(row.table); ++axis) {
-            write_table(writer, file, table, axis, parameters);
-        }
-    }
+        write_value(writer, row, field);
+    });
 }
 
 }  // namespace
@@ -84,7 +76,7 @@ firmware::Parameters<float> read_parameter_block(const std::string& path) {
     return parameters;
 }
 
-void write_parameters_as_toml(std::ostream& out, firmware::Parameters<float> parameters) {
+void write_parameters_as_toml(std::ostream& out, const firmware::Parameters<float>& parameters) {
     TomlWriter writer(out);
     writer.comment("machine.toml");
     write_file(writer, firmware::ParameterFile::machine, parameters);

@@ -16,6 +16,6 @@ void write_parameter_block(const std::string& path, const firmware::Parameters<f
 firmware::Parameters<float> read_parameter_block(const std::string& path);
 
 /// Both files as TOML, one after the other, each key of the table with its value.
-void write_parameters_as_toml(std::ostream& out, firmware::Parameters<float> parameters);
+void write_parameters_as_toml(std::ostream& out, const firmware::Parameters<float>& parameters);
 
 }  // namespace millforce::host

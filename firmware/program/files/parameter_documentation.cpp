@@ -6,6 +6,7 @@
 #include "files/local_io.hpp"
 #include "files/parameter_choices.hpp"
 #include "files/parameter_files.hpp"
+#include "files/parameter_table.hpp"
 
 namespace millforce::host {
 
@@ -19,12 +20,49 @@ std::string joined_words(const char* choices) {
     return list;
 }
 
-std::string default_of(const firmware::ParameterRow<float>& row) {
-    if (std::isnan(row.default_value)) {
+const char* name_of(ParameterType type) {
+    switch (type) {
+        case ParameterType::number:
+            return "number";
+        case ParameterType::integer:
+            return "integer";
+        case ParameterType::flag:
+            return "flag";
+        case ParameterType::enumeration:
+            return "enumeration";
+    }
+    return "";
+}
+
+std::string default_of(const ParameterRow& row) {
+    if (row.is_required) {
         return "required";
     }
-    return row.choices != nullptr ? words_of(row.choices)[static_cast<std::size_t>(row.default_value)]
-                                  : fmt::format("{:g}", row.default_value);
+    switch (row.type) {
+        case ParameterType::flag:
+            return row.default_value > 0.5F ? "true" : "false";
+        case ParameterType::enumeration:
+            return words_of(row.choices)[static_cast<std::size_t>(row.default_value)];
+        case ParameterType::integer:
+            return fmt::format("{:.0f}", row.default_value);
+        case ParameterType::number:
+            break;
+    }
+    return fmt::format("{:g}", row.default_value);
+}
+
+std::string range_of(const ParameterRow& row) {
+    switch (row.type) {
+        case ParameterType::flag:
+            return "false, true";
+        case ParameterType::enumeration:
+            return joined_words(row.choices);
+        case ParameterType::integer:
+            return fmt::format("{:.0f} … {:.0f}", row.minimum, row.maximum);
+        case ParameterType::number:
+            break;
+    }
+    return fmt::format("{:g} … {:g}", row.minimum, row.maximum);
 }
 
 std::string heading_of(const std::string& table) {
@@ -44,8 +82,9 @@ class Headings {
             return;
         }
         table_ = table;
-        text_ += fmt::format("\n### {}\n\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n",
-                             heading_of(table_));
+        text_ +=
+            fmt::format("\n### {}\n\n| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n",
+                        heading_of(table_));
     }
 
   private:
@@ -55,13 +94,11 @@ class Headings {
 
 void document_file(firmware::ParameterFile file, std::string& text) {
     Headings headings(text);
-    for (const auto& row : firmware::parameter_table<float>) {
+    for (const ParameterRow& row : parameter_table()) {
         if (row.file == file) {
             headings.enter(row.table);
-            text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, default_of(row),
-                                row.choices != nullptr ? joined_words(row.choices)
-                                                       : fmt::format("{:g} … {:g}", row.minimum, row.maximum),
-                                row.sentence);
+            text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, name_of(row.type), row.unit,
+                                default_of(row), range_of(row), row.sentence);
         }
     }
 }
@@ -70,7 +107,7 @@ void document_objects(std::string& text) {
     text +=
         "\n### Objects of [bus.spindle], [bus.x], [bus.y], [bus.z]\n\n| key | form | default | meaning "
         "|\n|---|---|---|---|\n";
-    for (const auto& row : firmware::text_table) {
+    for (const auto& row : text_table()) {
         text += fmt::format("| `{}` | `{}` | {} | {} |\n", row.key, row.form, row.default_text, row.sentence);
     }
 }
@@ -115,7 +152,7 @@ void document_information(std::string& text) {
         "them. Each key with a\nnumber, here or above, may have a companion `KEY_se`: the standard error of its "
         "fit.\n\n"
         "| table | key | unit | meaning |\n|---|---|---|---|\n";
-    for (const auto& row : firmware::information_table) {
+    for (const auto& row : information_table()) {
         const std::string_view table = row.table;
         const std::string range = row.choices != nullptr ? fmt::format(" ({})", joined_words(row.choices)) : "";
         text += fmt::format("| {} | `{}` | {} | {}{} |\n", heading_of(std::string(table)), row.key, row.unit,

@@ -3,37 +3,40 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstdint>
 #include <map>
 #include <string_view>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "files/bus_objects.hpp"
 #include "files/input_error.hpp"
 #include "files/local_io_reader.hpp"
 #include "files/machine_bus.hpp"
 #include "files/parameter_choices.hpp"
+#include "files/parameter_table.hpp"
 #include "files/toml_reader.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-using firmware::InformationRow;
 using firmware::ParameterFile;
 
-template <typename Scalar>
-void read_row(const firmware::ParameterRow<Scalar>& row, TomlFile::Table& table, std::size_t axis,
-              firmware::Parameters<Scalar>& parameters) {
-    const std::optional<double> fallback =
-        std::isnan(row.default_value) ? std::nullopt : std::optional(decimal(row.default_value));
-    Scalar& field = row.field(parameters, axis);
-    if (row.choices != nullptr) {
-        const auto choice = fallback ? std::optional(static_cast<std::size_t>(*fallback)) : std::nullopt;
-        field = static_cast<Scalar>(table.choice(row.key, words_of(row.choices), choice));
+/// What stands in the field already is the default.
+template <typename Field>
+void read_field(const ParameterRow& row, TomlFile::Table& table, Field& field) {
+    const std::optional<Field> fallback = row.is_required ? std::nullopt : std::optional(field);
+    if constexpr (std::is_same_v<Field, bool>) {
+        field = table.boolean(row.key, field);
+    } else if constexpr (std::is_enum_v<Field>) {
+        field = static_cast<Field>(table.choice(row.key, words_of(row.choices), static_cast<std::size_t>(field)));
+    } else if constexpr (std::is_integral_v<Field>) {
+        field = static_cast<Field>(table.integer(row.key, static_cast<std::int64_t>(row.minimum),
+                                                 static_cast<std::int64_t>(row.maximum), fallback, row.unit));
     } else {
-        field = static_cast<Scalar>(table.number(row.key, decimal(row.minimum), decimal(row.maximum), fallback));
+        field =
+            static_cast<Field>(table.number(row.key, decimal(row.minimum), decimal(row.maximum), fallback, row.unit));
     }
 }
 
@@ -65,24 +68,27 @@ class TableReader {
         const auto is_asked = [&](const auto& row) {
             return row.file == file_ && (only_table.empty() || only_table == row.table);
         };
-        for (const auto& row : firmware::parameter_table<Scalar>) {
-            if (is_asked(row)) {
-                for_each_table(row, [&](std::size_t axis, TomlFile::Table& table) {
-                    read_row(row, table, axis, parameters_);
-                    if (row.choices == nullptr) {
-                        check_standard_error(row.key, table);
-                    }
-                });
+        const auto read_parameter = [&](const firmware::ParameterName& name, auto& field, float, float) {
+            if (!is_asked(name)) {
+                return;
             }
-        }
-        for (const InformationRow& row : firmware::information_table) {
-            if (is_asked(row)) {
-                for_each_table(row, [&](std::size_t, TomlFile::Table& table) {
-                    check_information(row, table);
-                    if (row.choices == nullptr) {
-                        check_standard_error(row.key, table);
-                    }
-                });
+            const ParameterRow& row = row_of(name);
+            TomlFile::Table& in = table(tables_in_file(row.table)[name.place]);
+            read_field(row, in, field);
+            if (row.type == ParameterType::number || row.type == ParameterType::integer) {
+                check_standard_error(row.key, in);
+            }
+        };
+        firmware::for_each_parameter(parameters_, read_parameter);
+        for (const InformationRow& row : information_table()) {
+            if (!is_asked(row)) {
+                continue;
+            }
+            for (const char* name : tables_in_file(row.table)) {
+                check_information(row, table(name));
+                if (row.choices == nullptr) {
+                    check_standard_error(row.key, table(name));
+                }
             }
         }
     }
@@ -106,19 +112,6 @@ class TableReader {
     }
 
   private:
-    template <typename Row, typename Act>
-    void for_each_table(const Row& row, Act act) {
-        const std::string_view name = row.table;
-        const std::vector<const char*> tables =
-            name == "axis" ? std::vector<const char*>(firmware::axis_tables.begin(), firmware::axis_tables.end())
-            : name == "bus.drive"
-                ? std::vector<const char*>(firmware::drive_tables.begin(), firmware::drive_tables.end())
-                : std::vector<const char*>{row.table};
-        for (std::size_t k = 0; k < tables.size(); ++k) {
-            act(k, table(tables[k]));
-        }
-    }
-
     ParameterFile file_;
     TomlFile::Table& root_;
     firmware::Parameters<Scalar>& parameters_;
@@ -140,7 +133,7 @@ MachineFileParts read_file(ParameterFile file, const std::string& path, firmware
     MachineFileParts parts;
     if (file == ParameterFile::machine) {
         for (std::size_t drive = 0; drive < parts.objects.size(); ++drive) {
-            parts.objects[drive] = read_drive_objects(reader.table(firmware::drive_tables[drive]));
+            parts.objects[drive] = read_drive_objects(reader.table(drive_tables[drive]));
         }
         parts.local = read_local_io([&](const std::string& name) -> TomlFile::Table& { return reader.table(name); });
     }
@@ -152,7 +145,7 @@ MachineFileParts read_file(ParameterFile file, const std::string& path, firmware
 /// A limit of R_a without a prediction of it would hold the feed where contact found it, and tell nobody why.
 void refuse_a_limit_that_cannot_be_kept(const std::string& path, const firmware::ToolParameters<float>& tool) {
     const estimation::RoughnessPredictor<float> predictor(tool.roughness);
-    const bool is_Ra = tool.roughness.measure < 0.5F;
+    const bool is_Ra = tool.roughness.measure == estimation::RoughnessMeasure::Ra;
     if (tool.control.Ra_limit_um > 0.0F && !(predictor.has_interval() && is_Ra)) {
         throw InputError(
             fmt::format("{}: control.Ra_limit_um = {}: the file has no model of R_a with an interval; expected a "

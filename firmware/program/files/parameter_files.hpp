@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "firmware/parameter_table.hpp"
+#include "firmware/parameters.hpp"
 
 namespace millforce::host {
 
 struct MachineBus;
 
-/// Reads machine.toml and tool.toml by the parameter tables: every key has its range and default there; an unknown key
+/// Reads machine.toml and tool.toml by the parameter tables: every key has its type and range there; an unknown key
 /// is an error that names the nearest known one, a missing required key is named. Standard errors (KEY_se) and what a
 /// calibration writes for information are checked and ignored, so that its tables stand in the files as they are.
 /// Throws InputError.

@@ -43,6 +43,10 @@ std::string joined(const std::vector<std::string>& words) {
     return list;
 }
 
+std::string after_number(std::string_view unit) {
+    return unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
+}
+
 }  // namespace
 
 TomlFile TomlFile::open(const std::string& path) {
@@ -96,20 +100,38 @@ bool TomlFile::Table::has(const std::string& key) const {
     return table_ != nullptr && table_->contains(key);
 }
 
-double TomlFile::Table::number(const std::string& key, double minimum, double maximum, std::optional<double> fallback) {
+std::optional<double> TomlFile::Table::number_in_range(const std::string& key, double minimum, double maximum,
+                                                       const std::string& expected, bool has_fallback) {
     const toml::node* node = find(key);
-    const std::string range = fmt::format("a number from {} to {}", minimum, maximum);
     if (node == nullptr) {
-        if (!fallback) {
-            fail(key, fmt::format("missing, expected {}", range));
+        if (!has_fallback) {
+            fail(key, fmt::format("missing, expected {}", expected));
         }
-        return *fallback;
+        return std::nullopt;
     }
     const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value) || *value < minimum || *value > maximum) {
-        fail(key, fmt::format("expected {}", range));
+        fail(key, fmt::format("expected {}", expected));
     }
-    return *value;
+    return value;
+}
+
+double TomlFile::Table::number(const std::string& key, double minimum, double maximum, std::optional<double> fallback,
+                               std::string_view unit) {
+    const std::string expected = fmt::format("a number from {} to {}{}", minimum, maximum, after_number(unit));
+    const auto value = number_in_range(key, minimum, maximum, expected, fallback.has_value());
+    return value ? *value : *fallback;
+}
+
+std::int64_t TomlFile::Table::integer(const std::string& key, std::int64_t minimum, std::int64_t maximum,
+                                      std::optional<std::int64_t> fallback, std::string_view unit) {
+    const std::string expected = fmt::format("an integer from {} to {}{}", minimum, maximum, after_number(unit));
+    const auto value = number_in_range(key, static_cast<double>(minimum), static_cast<double>(maximum), expected,
+                                       fallback.has_value());
+    if (value && *value != std::floor(*value)) {
+        fail(key, fmt::format("expected {}", expected));
+    }
+    return value ? static_cast<std::int64_t>(*value) : *fallback;
 }
 
 std::string TomlFile::Table::text(const std::string& key, std::optional<std::string> fallback) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <toml++/toml.h>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millforce::host {
@@ -23,8 +25,13 @@ class TomlFile {
         [[nodiscard]] bool exists() const { return table_ != nullptr; }
         [[nodiscard]] bool has(const std::string& key) const;
 
-        /// Number within [minimum, maximum]; `fallback` where the key is missing, an error where there is none.
-        double number(const std::string& key, double minimum, double maximum, std::optional<double> fallback = {});
+        /// Number within [minimum, maximum]; `fallback` where the key is missing, an error where there is none. The
+        /// unit stands in the messages alone.
+        double number(const std::string& key, double minimum, double maximum, std::optional<double> fallback = {},
+                      std::string_view unit = {});
+        /// As number, and whole: 4 or 4.0.
+        std::int64_t integer(const std::string& key, std::int64_t minimum, std::int64_t maximum,
+                             std::optional<std::int64_t> fallback = {}, std::string_view unit = {});
         std::string text(const std::string& key, std::optional<std::string> fallback = {});
         /// An array of texts; empty where the key is missing.
         std::vector<std::string> texts(const std::string& key);
@@ -44,6 +51,8 @@ class TomlFile {
         friend class TomlFile;
         Table(const toml::table* table, std::string file, std::string name)
             : table_(table), file_(std::move(file)), name_(std::move(name)) {}
+        std::optional<double> number_in_range(const std::string& key, double minimum, double maximum,
+                                              const std::string& expected, bool has_fallback);
         const toml::node* find(const std::string& key);
         [[nodiscard]] std::string place(const toml::node* node) const;
         [[nodiscard]] std::string full(const std::string& key) const;

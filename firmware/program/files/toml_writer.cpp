@@ -54,6 +54,14 @@ void TomlWriter::key(std::string_view name, std::string_view value, std::string_
     line(name, toml_string(value), comment);
 }
 
+void TomlWriter::integer_key(std::string_view name, std::int64_t value) {
+    line(name, fmt::to_string(value), {});
+}
+
+void TomlWriter::flag_key(std::string_view name, bool value) {
+    line(name, value ? "true" : "false", {});
+}
+
 void TomlWriter::line(std::string_view name, const std::string& value, std::string_view comment) {
     out_ << name << " = " << value;
     if (!comment.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ class TomlWriter {
     /// project have no NaN.
     void key(std::string_view name, double value, std::string_view comment = {});
     void key(std::string_view name, std::string_view value, std::string_view comment = {});
+    void integer_key(std::string_view name, std::int64_t value);
+    void flag_key(std::string_view name, bool value);
 
   private:
     void line(std::string_view name, const std::string& value, std::string_view comment);

@@ -28,7 +28,7 @@ void write_estimate_row(std::ostream& out, double time_s, const firmware::TickRe
 class RoughnessCells {
   public:
     explicit RoughnessCells(const estimation::RoughnessModel<float>& model)
-        : is_there_(model.constant_um > 0.0F), name_(model.measure < 0.5F ? "Ra" : "Rz") {}
+        : is_there_(model.constant_um > 0.0F), name_(model.measure == estimation::RoughnessMeasure::Ra ? "Ra" : "Rz") {}
 
     void write_header(std::ostream& out) const {
         out << (is_there_ ? fmt::format(",{0}_um,{0}_low_um,{0}_high_um,{0}_in_range", name_) : std::string());

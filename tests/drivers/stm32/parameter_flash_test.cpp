@@ -2,6 +2,7 @@
 #include "stm32/parameter_flash.hpp"
 
 #include "firmware/parameter_block.hpp"
+#include "firmware/some_parameters.hpp"
 
 #include <array>
 #include <limits>
@@ -86,13 +87,7 @@ Flash started(FakeFlashChip& chip) {
 }
 
 firmware::Parameters<float> with_limit(float tooth_force_limit_N) {
-    firmware::Parameters<float> parameters;
-    for (const auto& row : firmware::parameter_table<float>) {
-        for (std::size_t axis = 0; axis < firmware::axes_of(row.table); ++axis) {
-            const bool has_default = row.default_value - row.default_value == 0.0F;
-            row.field(parameters, axis) = has_default ? row.default_value : 0.5F * (row.minimum + row.maximum);
-        }
-    }
+    firmware::Parameters<float> parameters = test::complete_parameters();
     parameters.tool.tooth_force_limit_N = tooth_force_limit_N;
     return parameters;
 }

@@ -26,7 +26,7 @@ inline estimation::RoughnessModel<double> published_Ra() {
 
 inline estimation::RoughnessModel<double> published_Rz() {
     estimation::RoughnessModel<double> model;
-    model.measure = 1.0;
+    model.measure = estimation::RoughnessMeasure::Rz;
     model.constant_um = 2.91;
     model.exponent = {0.16, 0.438, 1.25, 0.474, -2.84};
     return model;

@@ -58,7 +58,7 @@ enum class RoughnessMeasure : unsigned char { Ra, Rz };
 template <typename Scalar>
 struct RoughnessModel {
     static constexpr std::size_t pairs = 15;
-    Scalar measure{0};                     ///< index into RoughnessMeasure
+    RoughnessMeasure measure{RoughnessMeasure::Ra};
     Scalar constant_um{0};                 ///< C; 0: there is no model
     RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
     RoughnessValues<Scalar> minimum{};     ///< range of the tests …

@@ -47,7 +47,7 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
     tick_.emplace(parameters);
     largest_ratio_ = parameters.machine.cnc.override_max;
     period_us_ = static_cast<std::uint32_t>(1e6F / parameters.machine.cnc.sample_rate_hz);
-    drives_.watch_spindle(static_cast<std::uint32_t>(parameters.machine.encoder_counts_per_rev));
+    drives_.watch_spindle(parameters.machine.encoder_counts_per_rev);
     watchdog_.start(wiring_.watchdog_us);
 }
 

@@ -19,13 +19,13 @@ namespace {
 firmware::Parameters<float> with_a_bus() {
     firmware::Parameters<float> parameters = bench::machine_and_tool();
     auto& bus = parameters.machine.bus;
-    bus.produces_sync = 1.0F;
+    bus.produces_sync = true;
     parameters.machine.spindle_rated_current_A = 10.0F;
     parameters.machine.axis_rated_current_A = {5.0F, 5.0F, 5.0F};
     for (std::size_t k = 0; k < bus.drives.size(); ++k) {
-        bus.drives[k].node_id = static_cast<float>(k + 1);
+        bus.drives[k].node_id = static_cast<std::uint8_t>(k + 1);
         bus.drives[k].velocity_mm_s_per_unit = 0.001F;
-        bus.drives[k].tpdo_every[1] = 4.0F;
+        bus.drives[k].tpdo_every[1] = 4;
     }
     return parameters;
 }

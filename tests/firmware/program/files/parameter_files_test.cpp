@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/parameter_files.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_table.hpp"
+#include "firmware/parameters_in.hpp"
 #include "firmware/program/files/temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -54,6 +56,50 @@ TEST(ParameterFiles, give_the_default_of_a_key_that_is_not_there) {
     DOUBLES_EQUAL(30.0, static_cast<double>(p.tool.helix_deg), 0.0);
     DOUBLES_EQUAL(1.5, static_cast<double>(p.machine.cnc.override_max), 0.0);
     DOUBLES_EQUAL(0.0, static_cast<double>(p.machine.axes[2].K_x4_N_per_A), 0.0);
+}
+
+TEST(ParameterFiles, give_the_default_of_every_optional_key) {
+    const auto p = read(machine, tool_and_control + cutting);
+    const auto read_values = millforce::firmware::values_of(p);
+    const auto defaults = millforce::firmware::values_of({});
+    std::size_t next = 0;
+    millforce::firmware::for_each_parameter(
+        p, [&](const millforce::firmware::ParameterName& name, const auto&, float, float) {
+            if (!row_of(name).is_required) {
+                CHECK_EQUAL_TEXT(defaults[next], read_values[next], name.key);
+            }
+            ++next;
+        });
+    CHECK(p.tool.side == millforce::estimation::CutSide::unknown);
+    DOUBLES_EQUAL(0.05, static_cast<double>(p.tool.law.K_s_relative_sd), 1e-8);
+    DOUBLES_EQUAL(0.05, static_cast<double>(p.tool.law.r_1_relative_sd), 1e-8);
+}
+
+TEST(ParameterFiles, say_what_type_of_value_a_key_takes) {
+    const auto machine_error = [](const std::string& lines) {
+        return error_of(machine + lines, tool_and_control + cutting);
+    };
+    const auto tool_error = [](const std::string& lines) {
+        return error_of(machine, tool_and_control + lines + cutting);
+    };
+    CHECK(contains(machine_error("K_t2_Nm = \"low\"\n"),
+                   "machine.toml:3:11: spindle.K_t2_Nm = \"low\": expected a number from -10000 to 10000 N·m"));
+    CHECK(contains(machine_error("current_sd_A = -1\n"),
+                   "spindle.current_sd_A = -1: expected a number from 0 to 1000 A"));
+    CHECK(contains(machine_error("[bus]\nsync_id = 128.5\n"),
+                   "machine.toml:4:11: bus.sync_id = 128.5: expected an integer from 1 to 2047"));
+    CHECK(contains(machine_error("[bus]\nsync_id = 2048\n"), "bus.sync_id = 2048: expected an integer from 1 to 2047"));
+    CHECK(contains(machine_error("[bus]\nproduces_sync = \"yes\"\n"),
+                   "bus.produces_sync = \"yes\": expected true or false"));
+    CHECK(contains(machine_error("[bus]\nproduces_sync = 1\n"), "bus.produces_sync = 1: expected true or false"));
+    CHECK(
+        contains(machine_error("[bus]\nrole = \"slave\"\n"), "bus.role = \"slave\": expected one of listener, master"));
+    CHECK(contains(tool_error("monitor_only = \"true\"\n"), "control.monitor_only = \"true\": expected true or false"));
+}
+
+TEST(ParameterFiles, take_a_whole_number_with_a_decimal_point_as_an_integer) {
+    const auto p = read(machine + "[bus]\nsync_id = 129.0\n", tool_and_control + cutting);
+    UNSIGNED_LONGS_EQUAL(129, p.machine.bus.sync_id);
 }
 
 TEST(ParameterFiles, take_the_ends_of_a_range_as_they_are_written) {
