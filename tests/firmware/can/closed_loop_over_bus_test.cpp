@@ -70,11 +70,18 @@ TEST(ClosedLoopOverBus, stamps_20_us_off_and_at_times_60_cost_neither_time_nor_e
     const sim::Scenario scenario = scenario_named("slot_entry");
     ControllerOnLoopback on_time(scenario);
     const sim::RunFigures undisturbed = sim::simulate(scenario, on_time, "millforce").result.figures;
-    ControllerOnLoopback late(scenario);
-    std::mt19937 random{11};
-    late.sync_stamp_late_us = [&random] { return random() % 20 == 0 ? 60 : random() % 20; };
-    const sim::RunFigures disturbed = sim::simulate(scenario, late, "millforce").result.figures;
-    CHECK(sim::bounds_hold(disturbed));
-    DOUBLES_EQUAL(undisturbed.time_s, disturbed.time_s, 0.05 * undisturbed.time_s);
-    DOUBLES_EQUAL(undisturbed.estimate_share, disturbed.estimate_share, 0.05);
+    constexpr unsigned runs = 3;  // one alone depends on single decisions at the entry: 7.9 to 8.4 s
+    double mean_time_s = 0.0;
+    double mean_estimate_share = 0.0;
+    for (unsigned seed = 11; seed < 11 + runs; ++seed) {
+        ControllerOnLoopback late(scenario);
+        std::mt19937 random{seed};
+        late.sync_stamp_late_us = [&random] { return random() % 20 == 0 ? 60 : random() % 20; };
+        const sim::RunFigures disturbed = sim::simulate(scenario, late, "millforce").result.figures;
+        CHECK(sim::bounds_hold(disturbed));
+        mean_time_s += disturbed.time_s / runs;
+        mean_estimate_share += disturbed.estimate_share / runs;
+    }
+    DOUBLES_EQUAL(undisturbed.time_s, mean_time_s, 0.05 * undisturbed.time_s);
+    DOUBLES_EQUAL(undisturbed.estimate_share, mean_estimate_share, 0.05);
 }
