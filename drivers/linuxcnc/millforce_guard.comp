@@ -26,15 +26,15 @@ pin in float override "From millforce-hal: the override that the controller asks
 pin in unsigned heartbeat "From millforce-hal: ticks of the controller; must change within timeout";
 pin in bit hold "From millforce-hal: stop the feed, whatever the override says";
 pin in bit enable "The controller must be there, e.g. spindle.0.on";
-pin in bit reset "On its rising edge a latched fault is left: where enable is false, or the controller is sound";
+pin in bit reset "Its rising edge clears a latched fault if enable is false or the controller is healthy";
 pin in float requested_velocity "motion.requested-vel, to find out that the override is not obeyed (M52 missing); not wired: not checked";
 pin in float current_velocity "motion.current-vel, for that check and for machine-ok";
 pin out float out "To motion.adaptive-feed";
 pin out bit feed_inhibit "To motion.feed-inhibit";
-pin out bit machine_ok=1 "Into the emergency-stop chain: false where the machine moves on though it was told to stop; true again once it stands, with enable false";
+pin out bit machine_ok=1 "For the emergency-stop chain: false if the machine keeps moving after it was told to stop; true again when it is at rest with enable false";
 pin out bit ok "The controller lives and its override is a number from 0 on";
 pin out bit fault "Latched";
-pin out unsigned reason "Of the latched fault: 1 never heard, 2 heartbeat stands still or begins anew, 3 not a number, 4 negative, 5 not obeyed";
+pin out unsigned reason "Reason of the latched fault: 1 never heard, 2 heartbeat stopped or restarted, 3 not a number, 4 negative, 5 not obeyed";
 pin out unsigned faults "Number of faults since the start";
 param rw float timeout=0.1 "Without a new heartbeat for longer, in s, the controller is dead";
 param rw float max=1.0 "Largest override that is passed on";
@@ -90,7 +90,7 @@ FUNCTION(_) {
     } else if (alive && !sound) {
         why = is_number(asked) ? NEGATIVE : NOT_A_NUMBER;
     }
-    /* Without M52 P1 the machine runs as programmed, whatever stands on the pin; with it, it slows down. */
+    /* Without M52 P1 the machine runs as programmed, whatever the pin says; with it, it slows down. */
     if (enable && requested_velocity > 0.0 && current_velocity > requested_velocity * last_out * 1.02 + 0.02) {
         if (disobeyed_s == 0.0 || current_velocity < 0.98 * slowest) {
             slowest = current_velocity;

@@ -21,7 +21,7 @@ pin in bit feed_hold "Operator or CNC hold the feed, e.g. halui.program.is-pause
 pin in bit reset "Leaves a fault of the controller; the same signal as the guard's";
 pin in float operator_limit=1.0 "Largest override that the operator allows, at most 1";
 pin out unsigned cycle "Cycles since the start: the sequence of the newest sample";
-pin out unsigned overruns "Samples that nobody fetched in time";
+pin out unsigned overruns "Samples that were not fetched in time";
 param rw float spindle_current_scale=1.0 "A per unit of spindle-current: 1 over the torque constant where it is a torque";
 param rw float x_current_scale=1.0;
 param rw float y_current_scale=1.0;
@@ -63,7 +63,7 @@ FUNCTION(_) {
         double counts = spindle_revs * counts_per_rev;
         count = (long)counts - (counts < (long)counts);
     }
-    /* motion tells the velocity of a block one cycle before its kind: a rapid's must not be taken for an F. */
+    /* motion shows the velocity of a block one cycle before its kind: a rapid's must not be taken for an F. */
     const double feed = requested_velocity < last_requested ? requested_velocity : last_requested;
     last_requested = requested_velocity;
     time_ns += period;

@@ -55,7 +55,7 @@ CncOnBusSettings cnc_on_bus(const Scenario& scenario, const host::MachineBus& bu
 PlantOnCanSettings plant_on_bus(const Scenario& scenario, const std::string& interface) {
     const auto bus = host::read_machine_bus(scenario.machine_file);
     if (!bus) {
-        throw host::InputError(fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] …",
+        throw host::InputError(fmt::format("{}: no drive on the bus; expected the tables [bus] and [bus.spindle] …",
                                            scenario.machine_file));
     }
     PlantOnCanSettings settings;

@@ -133,7 +133,7 @@ int bench(const std::string& path) {
         print_cost("instructions", tick_cost(scenario, recording, [&] { return counter.read_count(); }));
     } else {
         fmt::print(
-            "instructions          not counted: this kernel gives no hardware counters; "
+            "instructions          not counted: this kernel has no hardware counters; "
             "toolchains/target-figures counts those of emulated processors\n");
     }
     fmt::print("\nRAM of the tick: {} bytes\n", sizeof(firmware::ForceControlTick<float>));
@@ -145,7 +145,7 @@ int bench(const std::string& path) {
 
 void add_bench(host::Command& program) {
     auto scenario = std::make_shared<std::string>();
-    host::Command command = program.subcommand("bench", "The performance tables");
+    host::Command command = program.subcommand("bench", "Print the performance tables");
     command.option("scenario", *scenario, "Scenario to run").required().value_name("SCENARIO.toml");
     command.on_run([scenario] { return bench(*scenario); });
 }

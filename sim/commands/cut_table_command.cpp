@@ -91,7 +91,7 @@ int cut_table(const CutTableOptions& options) {
 void add_cut_table(host::Command& program) {
     auto options = std::make_shared<CutTableOptions>();
     host::Command command = program.subcommand(
-        "cut-table", "Straight cuts with torque and normal force, as a dynamometer on the plant would measure them");
+        "cut-table", "Make a table of straight cuts with the torque and normal force that a dynamometer would measure");
     command.footer(
         "The cuts: feeds per tooth of 1/8, 1/4, 1/2 and 1 of the tool's max_feed_per_tooth_mm, six widths from 8 to\n"
         "80 % of its diameter, depths of 10 and 25 % of its flute length. The table is what 'millforce calibrate\n"

@@ -61,13 +61,13 @@ int ensemble(const EnsembleOptions& options) {
 void add_ensemble(host::Command& program) {
     auto options = std::make_shared<EnsembleOptions>();
     host::Command command =
-        program.subcommand("ensemble", "The same scenario with many plants: how sure the figures are");
+        program.subcommand("ensemble", "Mill the same scenario with many plants: how certain the figures are");
     command.footer(
         "K_s, friction, torque and force constants of each plant are drawn from the deviations that the machine and\n"
         "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit or above the "
         "limit\n"
         "later than the reaction time after the engagement grew, or a program did not finish.");
-    command.option("scenario", options->scenario, "What to mill").required().value_name("SCENARIO.toml");
+    command.option("scenario", options->scenario, "Scenario to mill").required().value_name("SCENARIO.toml");
     command.option("--runs", options->runs, "Number of plants").within(1, 10000).shows_default();
     command.on_run([options] { return ensemble(*options); });
 }

@@ -49,7 +49,7 @@ bool exchange(host::UnixServer& server, LinuxCncPlant& plant) {
     }
     std::memcpy(&command, bytes.data(), sizeof command);
     if (!is_sound(command)) {
-        fmt::print(stderr, "millforce: a command is not sound: is millforce_plant of another version?\n");
+        fmt::print(stderr, "millforce: invalid command: is millforce_plant of another version?\n");
         server.drop_peer();
         return false;
     }
@@ -97,20 +97,20 @@ int run_plant(const PlantOptions& options) {
 
 void add_plant(host::Command& program) {
     auto options = std::make_shared<PlantOptions>();
-    host::Command command = program.subcommand("plant", "A simulated machine and workpiece behind a real LinuxCNC");
+    host::Command command = program.subcommand("plant", "Run a simulated machine and workpiece behind a real LinuxCNC");
     command.footer(
-        "LinuxCNC's component millforce_plant connects and tells the commanded positions (sim/linuxcnc/run starts all "
+        "LinuxCNC's component millforce_plant connects and sends the commanded positions (sim/linuxcnc/run starts all "
         "of\n"
         "it). Each run from spindle start to spindle stop gives a summary and a report.\n"
         "Exit code 1: the last run broke a bound, as with 'simulate'.");
     command.option("scenario", options->scenario, "Machine, tool, material and stock; the moves are LinuxCNC's")
         .required()
         .value_name("SCENARIO.toml");
-    command.option("socket", options->socket, "Path of the socket to make").required().value_name("SOCKET");
+    command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
         .value_name("DIR")
         .shows_default();
-    command.flag("--once", options->once, "End when LinuxCNC has gone");
+    command.flag("--once", options->once, "Exit when LinuxCNC disconnects");
     command.on_run([options] { return run_plant(*options); });
 }
 

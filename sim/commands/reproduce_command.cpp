@@ -94,7 +94,8 @@ int reproduce_papers(const ReproduceOptions& options) {
 
 void add_reproduce(host::Command& program) {
     auto options = std::make_shared<ReproduceOptions>();
-    host::Command command = program.subcommand("reproduce", "Published figures beside ours: value, difference, bound");
+    host::Command command =
+        program.subcommand("reproduce", "Compare published figures with ours: value, difference, bound");
     command.footer(
         "Each paper's system runs on simulated cuts; every random number is seeded. A figure without a bound is shown\n"
         "for comparison. DIR gets reproduce.html, with all figures, plots and deviations from print, and\n"
@@ -104,7 +105,7 @@ void add_reproduce(host::Command& program) {
     command.option("--out", options->out, "Folder for reproduce.html and reproduce.json")
         .value_name("DIR")
         .shows_default();
-    command.flag("--verbose", options->verbose, "Every row of the long tables");
+    command.flag("--verbose", options->verbose, "Print every row of the long tables");
     command.on_run([options] { return reproduce_papers(*options); });
 }
 

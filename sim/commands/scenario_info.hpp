@@ -6,7 +6,7 @@
 
 namespace millforce::sim {
 
-/// What a report tells of the scenario. `constant_ratio`: override of the constant feed that is safe everywhere.
+/// What a report says about the scenario. `constant_ratio`: override of the constant feed that is safe everywhere.
 ScenarioInfo info_of(const Scenario& scenario, double constant_ratio);
 
 }  // namespace millforce::sim

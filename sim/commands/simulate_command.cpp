@@ -127,7 +127,7 @@ int simulate_scenario(const SimulateOptions& options) {
     if (!options.interface.empty()) {
         const auto controller = controller_behind(options.interface, options.pace, scenario);
         if (!options.pace.lock_step) {
-            host::become_real_time();  // what is not allowed costs samples, and the controller tells how many
+            host::become_real_time();  // without permission samples are lost, and the controller counts them
         }
         results.push_back(run(scenario, "millforce", *controller, recording));
         host::leave_real_time();
@@ -157,17 +157,17 @@ int simulate_scenario(const SimulateOptions& options) {
 
 void add_simulate(host::Command& program) {
     auto options = std::make_shared<SimulateOptions>();
-    host::Command command =
-        program.subcommand("simulate", "Closed loop against the plant: a summary table, traces, a report");
+    host::Command command = program.subcommand(
+        "simulate", "Mill a scenario in closed loop on the simulated machine: summary table, traces, report");
     command.footer(
-        "The baseline beside it is the largest constant feed with which no tooth exceeds its limit, though the "
+        "The baseline for comparison is the largest constant feed with which no tooth exceeds its limit even if the "
         "material\n"
-        "be harder (--hardest).\n"
+        "is harder (--hardest).\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
         "the\n"
         "reaction time after the engagement grew, or the program did not finish.");
-    command.option("scenario", options->scenario, "What to mill").required().value_name("SCENARIO.toml");
-    host::Option controller = command.option("--controller", options->controller, "Who sets the override")
+    command.option("scenario", options->scenario, "Scenario to mill").required().value_name("SCENARIO.toml");
+    host::Option controller = command.option("--controller", options->controller, "Controller that sets the override")
                                   .one_of(controller_names())
                                   .shows_default();
     command.option("--seed", options->seed, "Seed of all noise; default: the scenario's").within(0.0, 4e9);
@@ -175,19 +175,21 @@ void add_simulate(host::Command& program) {
         .value_name("DIR")
         .shows_default();
     command.flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
-    command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s over the scenario's")
+    command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s relative to the scenario's")
         .within(0.1, 10.0);
-    command.option("--friction-scale", options->friction_scale, "True friction over the machine's").within(0.0, 10.0);
-    command.option("--current-noise", options->current_noise_share, "Noise of a current sample over rated current")
+    command.option("--friction-scale", options->friction_scale, "True friction relative to the machine file's")
+        .within(0.0, 10.0);
+    command
+        .option("--current-noise", options->current_noise_share, "Noise of a current sample relative to rated current")
         .within(0.0, 0.5);
     command
         .option("--hardest", options->hardest,
-                "The baseline's margin: K_s of the hardest material over the scenario's; 1: the best in hindsight")
+                "Margin of the baseline: K_s of the hardest material relative to the scenario's; 1: best in hindsight")
         .within(1.0, 10.0)
         .shows_default();
     command
         .option("--bus", options->interface,
-                "Drives and CNC on this CAN interface, in real time; the controller is 'millforce run' there")
+                "Put drives and CNC on this CAN interface, in real time, for 'millforce run' as another process")
         .value_name("IFACE")
         .excludes(controller);
     host::add_bus_pace(command, options->pace);

@@ -13,7 +13,7 @@ constexpr double plant_step_s = 0.25e-3;
 constexpr double trace_interval_s = 0.02;
 constexpr std::int32_t rapid_motion = 1;
 
-/// LinuxCNC's controller sits behind HAL pins: its estimates as they stand there.
+/// LinuxCNC's controller is connected by HAL pins: its estimates as the pins show them.
 class EstimatesOnPins : public OverrideSource {
   public:
     explicit EstimatesOnPins(const millforce_plant_command& pins) : pins_(pins) {}

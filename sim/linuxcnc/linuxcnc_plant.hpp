@@ -11,8 +11,8 @@
 namespace millforce::sim {
 
 /// The simulated machine behind LinuxCNC: LinuxCNC's commanded positions move drives, tool and workpiece, one servo
-/// cycle per message. A run begins with the spindle's start, from rest and with new stock, and ends when the spindle
-/// is told to stop; before and after it the axes are ideal and nothing is cut.
+/// cycle per message. A run begins with the spindle's start, from rest and with new stock, and ends with the command
+/// that stops the spindle; before and after it the axes are ideal and nothing is cut.
 class LinuxCncPlant {
   public:
     explicit LinuxCncPlant(const Scenario& scenario) : scenario_(scenario) {}

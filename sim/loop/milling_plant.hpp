@@ -80,7 +80,7 @@ class MillingPlant {
 
     struct Command {
         Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the path; zero: it stands
+        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the path; zero: at rest
         double feed_mm_s = 0.0;
         double programmed_feed_mm_s = 0.0;
         double path_mm = 0.0;  ///< commanded, since the start

@@ -119,7 +119,7 @@ void read_material(Table& root, Scenario& scenario) {
     table.reject_unknown_keys();
 }
 
-/// What the operation asks of the controller beyond the tool's own settings.
+/// What the operation requires of the controller in addition to the tool's settings.
 void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
     control::FeedControllerParameters<float>& control = tool.control;
     Table table = root.table("operation");
@@ -137,7 +137,7 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
     table.reject_unknown_keys();
 }
 
-/// A force sensor under the workpiece, beside the drives. The low-pass is the one that the tool's parameters tell.
+/// A force sensor under the workpiece, in addition to the drives. Its low-pass is that of the tool's parameters.
 void read_force_sensor(Table& root, Scenario& scenario) {
     if (!root.has("force_sensor")) {
         return;

@@ -54,7 +54,7 @@ CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& set
     return cnc;
 }
 
-/// Long enough for the override of the first rapid to rise from its minimum, behind a bus that starts meanwhile, too.
+/// Long enough for the override to rise from its minimum in the first rapid, even over a bus that is still starting.
 constexpr double spindle_start_s = 2.0;
 
 class Loop {
@@ -98,7 +98,7 @@ class Loop {
     }
 
   private:
-    /// Spindle on, axes standing: as long as a CNC waits for its spindle, and until the controller is there.
+    /// Spindle on, axes at rest: for the time that a CNC waits for its spindle, and until the controller has answered.
     void start_spindle() {
         const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
         while (!controller_.is_ready() || plant_.time_s() < -0.5 * steps_.step_s) {

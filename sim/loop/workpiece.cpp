@@ -55,7 +55,7 @@ void StockWorkpiece::remove_up_to(const Eigen::Vector3d& tip_mm, const Eigen::Ve
 
 namespace {
 
-/// The strip of material in front of the cutter, beside its axis: from `low` to `high`, positive towards φ = 0.
+/// The strip of material in front of the cutter, across the feed: from `low` to `high`, positive towards φ = 0.
 struct Strip {
     double low_mm;
     double high_mm;
@@ -74,7 +74,7 @@ Strip strip_of(estimation::CutSide side, double width_mm, double radius_mm, doub
     return {-radius_mm, -radius_mm + width_mm};
 }
 
-/// A tooth stands at y = R cos φ.
+/// A tooth is at y = R cos φ.
 double angle_at(double y_mm, double radius_mm) {
     return std::acos(std::clamp(y_mm / radius_mm, -1.0, 1.0));
 }

@@ -69,7 +69,7 @@ LookAhead::LookAhead(const Cutter& cutter, double cell_mm) : cell_mm_(cell_mm), 
 }
 
 /// The points lie on a circle that clears the removed one; at the very sides, where that would look further ahead than
-/// `furthest`, as far beside the axis as it does not.
+/// `furthest`, as far from the axis as keeps within it.
 LookAhead::Ring LookAhead::ring(double height_mm, double radius_mm) const {
     const double furthest_mm = 6.0 * cell_mm_;
     const double clearance_mm2 = 2.0 * radius_mm * cell_mm_ + cell_mm_ * cell_mm_;
@@ -113,8 +113,8 @@ EngagementMap::Bin LookAhead::flat_bin(const HeightMap::Material& material, doub
     EngagementMap::Bin bin;
     bin.covered = material.share;
     if (material.share > 0.0F && material.share < 1.0F) {
-        // The share of material passes one half where a wall is and changes by one over a cell: so as much of the bin
-        // is covered as the wall lies beside its middle.
+        // The share of material passes one half where a wall is and changes by one over a cell: so the covered part of
+        // the bin follows from the wall's distance from its middle.
         const double cells_across = 0.5 * cutter_.diameter_mm * EngagementMap::bin_rad / cell_mm_ * sine;
         const auto steepness = static_cast<float>(std::max(1.0, 1.0 / cells_across));
         bin.covered = std::clamp((material.share - 0.5F) * steepness + 0.5F, 0.0F, 1.0F);
@@ -148,8 +148,8 @@ EngagementMap::Bin LookAhead::ball_bin(const MaterialAt& material_at, double tip
 
 namespace {
 
-/// Of the thickest bin's height: what is thinner is the floor's own skin, which a tool pressed down by some micrometres
-/// scrapes off with its end, and no wall.
+/// Share of the thickest bin's height: what is thinner is not a wall but the skin of the floor, which a tool pressed
+/// down by some micrometres scrapes off with its end.
 constexpr float skin_share = 0.02F;
 
 float thickest_mm(const EngagementMap& map) {

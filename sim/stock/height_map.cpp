@@ -276,7 +276,7 @@ HeightMap::Material HeightMap::mean_material(float above_mm, double u, double v)
             return;
         }
         const std::size_t index = (k - 1) * columns_ + (i - 1);
-        // The larger part is the low one where more than half of the cell stands low.
+        // The larger part is the low one if more than half of the cell is low.
         const float low = static_cast<float>(low_shares_[index]) * (1.0F / 255.0F);
         const float smaller = std::min(low, 1.0F - low);
         const Cell& cell = cells_[index];

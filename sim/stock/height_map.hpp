@@ -18,10 +18,10 @@ class SweptDisc;
 /// The workpiece as the height of its material over each cell of a grid in x and y: what a three-axis tool can cut has
 /// no undercut. Cells are squares of `cell_mm`.
 ///
-/// A cell through which an edge runs holds two heights and the share of its area that stands at the lower one, to
-/// 1/255: so a wall stands where it was cut, and not where the cells end. As `material_above` sees it, a straight wall
-/// lies within 0.1 cells of its place, and without a bias. A third height in one cell (walls of two levels less than a
-/// cell apart) is merged into the lower one.
+/// A cell with an edge in it holds two heights and the share of its area at the lower one, to 1/255. So a wall is where
+/// it was cut, and not where the cells end. As `material_above` sees it, a straight wall lies within 0.1 cells of its
+/// place, and without a bias. A third height in one cell (walls of two levels less than a cell apart) is merged into
+/// the lower one.
 ///
 /// Memory: 9 bytes a cell, at most 64 million cells. Throws InputError where the block is empty, not finite or too
 /// large.
@@ -46,8 +46,8 @@ class HeightMap {
     /// Height of the cell that holds a point; of the larger part, where an edge runs through.
     [[nodiscard]] float height_mm(double x_mm, double y_mm) const;
 
-    /// How a point lies between four cells: what share of them stands above z (bilinear), and how high those stand on
-    /// average. The share is one half where a wall is.
+    /// How a point lies between four cells: the share of them above z (bilinear), and the mean height of those. The
+    /// share is one half where a wall is.
     struct Material {
         float share = 0.0F;
         float top_mm = nothing_mm;
@@ -93,7 +93,7 @@ class HeightMap {
     /// A tool that goes on and sinks by less leaves the ground as it is.
     static constexpr double height_resolution_mm = 1e-3;
 
-    /// What a row of cells needs to know of the cutter, in cells; the bottom's height in mm.
+    /// What a row of cells needs to know about the cutter, in cells; the height of its bottom in mm.
     struct CutterShape {
         double radius;
         bool ball;
@@ -135,7 +135,7 @@ class HeightMap {
     std::size_t rows_ = 0;
     float highest_mm_;
     std::vector<Cell> cells_;
-    std::vector<std::uint8_t> low_shares_;  // of 255: how much of the cell stands at the lower height; 0: one height
+    std::vector<std::uint8_t> low_shares_;  // of 255: how much of the cell is at the lower height; 0: one height
     std::optional<Standing> standing_;
 };
 

@@ -108,7 +108,7 @@ TEST(LiveBus, a_log_that_jumps_in_time_ends_all_the_same) {
 TEST(LiveBus, without_a_bus_in_the_machine_each_command_says_what_is_missing) {
     const LiveInputs in;
     in.write("machine.toml", machine_text);
-    const std::vector<std::string> parts{"machine.toml: no drive is on the bus; expected the tables [bus]"};
+    const std::vector<std::string> parts{"machine.toml: no drive on the bus; expected the tables [bus]"};
     STRCMP_EQUAL("", not_refused(in.run(), parts).c_str());
     replay_is_refused(in, {}, parts);
     STRCMP_EQUAL("",

@@ -56,7 +56,7 @@ enum class CutState : std::uint8_t {
 /// Why the controller has given up. Latched; every fault ends at the minimum override with the feed held.
 enum class Fault : std::uint8_t {
     none = 0,
-    overload = 1,         ///< the tooth's force stood above the stop level: the feed is held before the tooth breaks
+    overload = 1,         ///< the tooth's force stayed above the stop level: the feed is held before the tooth breaks
     stale_input = 2,      ///< no drive sample within the time limit
     spindle_stopped = 3,  ///< the spindle stopped turning while the tool was in cut
     bad_configuration = 4,

@@ -25,7 +25,7 @@ struct FeedControllerParameters {
     Scalar recovery_per_rev{Scalar(0.25F)};                  ///< share of the way up that one revolution goes
     Scalar slew_up_per_s{2};                                 ///< largest rise of the override per second
     Scalar slew_down_per_s{40};                              ///< largest fall
-    Scalar entry_feed_per_tooth_mm{literal<Scalar>(0.05L)};  ///< ceiling from contact until the estimate stands
+    Scalar entry_feed_per_tooth_mm{literal<Scalar>(0.05L)};  ///< ceiling from contact until there is an estimate
     Scalar air_feed_per_tooth_mm{
         literal<Scalar>(0.05L)};             ///< ceiling in air: the feed at which the tool may meet the workpiece
     Scalar highest_programmed_feed_mm_s{0};  ///< highest F of the program; 0: learnt as blocks come
@@ -33,7 +33,7 @@ struct FeedControllerParameters {
     Scalar entry_revolutions{2};
     Scalar entry_travel_mm{5};         ///< … and this travel: until then the engagement still grows (cutter radius)
     Scalar exit_travel_mm{2};          ///< without contact before `exit` becomes `air`
-    Scalar contact_force_N{40};        ///< F_at that counts as contact, beside its noise
+    Scalar contact_force_N{40};        ///< F_at that counts as contact, in addition to its noise
     Scalar contact_significance{4};    ///< … and this many standard deviations
     Scalar surge_radial_immersion{0};  ///< largest immersion that may come without warning; 0: none does
     Scalar surge_share{literal<Scalar>(1.03L)};     ///< of the limit that such a surge may reach
@@ -53,7 +53,7 @@ template <typename Scalar>
 struct CutEstimateForControl {
     bool fresh = false;
     Scalar tooth_periods{1};   ///< that have ended since the estimate before
-    bool force_valid = false;  ///< the spindle's F_at is there
+    bool force_valid = false;  ///< there is an F_at from the spindle
     Scalar tangential_N{0};    ///< F_at over the last tooth period or window, the larger counts
     Scalar tangential_sd_N{0};
     bool tooth_force_valid = false;     ///< the immersion behind it is an estimate, not a guess
@@ -73,7 +73,7 @@ struct CutEstimateForControl {
     bool spindle_turning = false;
 };
 
-/// What the roughness model says, for Ra_limit_um. It may hold the feed down; for want of it nothing speeds up.
+/// What the roughness model says, for Ra_limit_um. It may hold the feed down; without it the feed is not raised.
 template <typename Scalar>
 struct SurfaceForControl {
     bool valid = false;           ///< feed_ceiling_mm_s is a ceiling

@@ -68,7 +68,7 @@ struct CutEstimate {
     Measurement<Scalar> x_N{};  ///< mean force on the workpiece along the machine's axes, over the window
     Measurement<Scalar> y_N{};
     Measurement<Scalar> z_N{};
-    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid where a needed axis stands
+    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid if a needed axis is at rest
     EngagementEstimate<Scalar> engagement{};
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
@@ -84,7 +84,7 @@ struct CutEstimate {
         Scalar ratio{1};          ///< over its force now
         Scalar cutting_share{1};  ///< of it: what is not edge force
     };
-    Scalar section_mm2{0};        ///< width × depth that F_at stands for at the known K_s; 0: no F_at
+    Scalar section_mm2{0};        ///< width × depth that corresponds to F_at at the known K_s; 0: no F_at
     Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
     Change surge{};               ///< to settings.surge_immersion, where that is larger than now
     Change turn{};                ///< to settings.turn_immersion

@@ -3,15 +3,15 @@
 
 #include <cstdint>
 
-/// What every image begins with: exception vectors, start of the C++ world, a stack that cannot overflow unseen, and
-/// faults that end in one place. `cortex_m` and `cortex_r` implement it; the board gives memory.ld.
+/// The start of every image: exception vectors, C++ initialisation, a stack whose overflow is caught, and one handler
+/// for all faults. `cortex_m` and `cortex_r` implement it; the board gives memory.ld.
 ///
 /// The stack lies at the bottom of RAM, its lowest 256 bytes denied by the MPU: an overflow is a fault, not a corrupted
 /// variable. (Without an MPU it runs off the RAM, which is a bus fault as well.)
 
 namespace millforce::board {
 
-/// What a processor fault leaves behind.
+/// What is known after a processor fault.
 struct FaultRecord {
     /// Cortex-M: 2 NMI, 3 hard fault, 4 memory, 5 bus, 6 usage, 16… an interrupt without handler. Cortex-R, the place
     /// in the vectors: 1 undefined instruction, 2 supervisor call, 3 prefetch abort, 4 data abort, 6 IRQ, 7 FIQ.
@@ -23,7 +23,7 @@ struct FaultRecord {
     std::uint32_t address;        ///< MMFAR or BFAR, where `status` says that it is valid; IFAR or DFAR
 };
 
-/// Given by the image: what to do on a fault. Runs on a stack of its own, with interrupts masked.
+/// Defined by the image: what to do on a fault. Runs on a separate stack, with interrupts masked.
 extern "C" [[noreturn]] void on_processor_fault(const FaultRecord& record);
 
 /// Given by the image: the program. Must not return.

@@ -54,7 +54,7 @@ void guard_stack() {
         at(mpu_attributes) = execute_never | size_256 | 1U;
         at(mpu_control) = 1U << 2U | 1U;
     }
-    at(shcsr) = at(shcsr) | 7U << 16U;  // memory, bus and usage faults have handlers of their own
+    at(shcsr) = at(shcsr) | 7U << 16U;  // memory, bus and usage faults have separate handlers
     asm volatile("dsb\n isb" ::: "memory");
 }
 
@@ -70,7 +70,7 @@ void Reset_Handler() {
     millforce::board::start_program();
 }
 
-/// The stack may be what failed: the handler goes on with one of its own.
+/// The stack may be what failed: the handler uses another one.
 [[gnu::naked]] void Fault_Handler() {
     asm volatile(
         "cpsid i\n"

@@ -74,7 +74,7 @@ void guard_stack() {
 
 }  // namespace
 
-/// All exceptions end: they go on in supervisor mode, on a stack of their own, since the stack may be what failed.
+/// No exception returns: all continue in supervisor mode on a separate stack, because the stack may be what failed.
 [[gnu::naked, gnu::section(".vectors"), gnu::used]] void exception_vectors() {
     asm volatile(
         "b Reset_Handler\n"

@@ -108,7 +108,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
         return;
     }
     if (frame.id == settings_.feed_override.id || frame.id == own_heartbeat_id(settings_)) {
-        return;  // the time that passed is all that they tell
+        return;  // they only show that time has passed
     }
     program_receiver_.on_frame(frame, time_us);
     bus_.on_frame(frame, time_us);
@@ -231,7 +231,7 @@ hal::ProgramStatus CanController::program_at(std::uint64_t time_us) const {
     return program;
 }
 
-/// The CNC brakes by itself then; the override must not rise meanwhile, nor pull when the drive comes back.
+/// The CNC brakes by itself then; the override must neither rise meanwhile nor jump when the drive comes back.
 bool CanController::is_any_drive_stopped() const {
     for (std::size_t role = 0; role < cia402::drive_capacity; ++role) {
         const cia402::PowerState power = bus_.health(static_cast<cia402::DriveRole>(role)).power;

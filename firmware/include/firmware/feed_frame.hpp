@@ -12,7 +12,7 @@ namespace millforce::firmware {
 ///
 /// The direction is that of the velocity over the last quarter of a second, for a drive gives way to each tooth. It is
 /// followed sample by sample; once it has turned by more than 3° since the frame was taken, the frame is a new one, and
-/// what is averaged has to start anew. φ grows from the frame's +y to its +x: a frame turned by the feed's direction
+/// averages must start again. φ grows from the frame's +y to its +x: a frame turned by the feed's direction
 /// counter-clockwise sees each tooth that much further on. One division and one root a sample. Not thread-safe.
 template <typename Scalar>
 class FeedFrame {

@@ -14,10 +14,10 @@
 
 namespace millforce::firmware {
 
-/// Forces within a revolution in the feed's frame, sample by sample: of the force sensor where the tool's parameters
-/// tell its low-pass, else of the feed drives (FeedForceObserver), which follow the teeth where tooth passing is slow
-/// and both axes travel. Not valid where something is missing or not finite, the feed stands, or the spindle does not
-/// turn on. Some 60 operations a sample. Not thread-safe.
+/// Forces within a revolution in the feed's frame, sample by sample: of the force sensor if the tool's parameters give
+/// its low-pass, else of the feed drives (FeedForceObserver), which follow the teeth if tooth passing is slow and both
+/// axes travel. Not valid if something is missing or not finite, or the feed or the spindle is at rest. Some 60
+/// operations a sample. Not thread-safe.
 template <typename Scalar>
 class FeedFrameForces {
   public:

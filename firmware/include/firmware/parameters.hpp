@@ -87,7 +87,7 @@ struct MachineParameters {
     BusParameters<Scalar> bus{};
 };
 
-/// What stands between the force and the samples of a force sensor.
+/// What happens between the force and the samples of a force sensor.
 template <typename Scalar>
 struct ForceSensorParameters {
     Scalar low_pass_hz{0};

@@ -10,7 +10,7 @@ namespace millforce::firmware {
 
 /// The roughness of the surface in work, and the feed at which it would meet its limit.
 ///
-/// From F_x/F_z, F_z by the z drive's current: where z stands its force hides in static friction, and there is no
+/// From F_x/F_z, F_z by the z drive's current: while z is at rest its force hides in static friction, and there is no
 /// prediction. F_x is the force along the feed.
 template <typename Scalar>
 class SurfaceMonitor {

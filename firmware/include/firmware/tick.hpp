@@ -25,15 +25,15 @@
 /// loop: one bounded slice each time. Its law uses the newest estimate that is complete. The estimate does not depend
 /// on how its work was sliced; tooth periods that end meanwhile are merged into the next (cut_estimator.hpp).
 ///
-/// Rezeroing in air is its own: in a rapid, and while the controller's state is `air` and the torque is near its idle
-/// value, each new revolution corrects the idle torque and the friction of the moving axes. What a cut shows can so not
-/// be taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain. As long as the
+/// The tick re-zeroes in air by itself: in a rapid, and while the controller's state is `air` and the torque is near
+/// its idle value, each new revolution corrects the idle torque and the friction of the moving axes. So a cut cannot be
+/// taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain. As long as the
 /// idle torque is known no better than by its calibration, a light cut looks like drift, and no feed move teaches: the
 /// first time takes a rapid or axes at rest, some five revolutions of it.
 ///
-/// Beside it runs a WideBand monitor (NoWideBand where the memory is short): an immersion from force drops enters the
-/// solver as one more measurement of the engagement (carried_immersion.hpp). An evaluation of the monitor is one slice,
-/// of up to some milliseconds on a desktop processor.
+/// A WideBand monitor runs next to it (NoWideBand if memory is short): an immersion from force drops enters the solver
+/// as one more measurement of the engagement (carried_immersion.hpp). An evaluation of the monitor is one slice, of up
+/// to some milliseconds on a desktop processor.
 ///
 /// No heap, no clock. One thread. Bodies: tick_impl.hpp; instances for float and estimation::Fixed: firmware/src.
 

@@ -80,7 +80,7 @@ Scalar ForceControlTick<Scalar, WideBand>::elapsed_s(std::uint32_t time_us) {
 
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::follow_wide_band(Scalar dt_s, const hal::DriveSample& sample) {
-    // Without a tangential force (no spindle current: a force sensor alone) nothing tells air from cut.
+    // Without a tangential force (no spindle current: a force sensor alone) air and cut cannot be distinguished.
     const bool may_be_in_cut = !estimator_.estimate().tangential_N.valid || is_in_cut();
     if (!wide_band_.add(dt_s, sample, may_be_in_cut)) {
         drops_.forget_sections();

@@ -15,7 +15,7 @@ bool has_force_drop_law(const ToolParameters<Scalar>& tool) {
     return tool.force_drop.law.largest_immersion > Scalar(0);
 }
 
-/// The tool's file tells both nominal depths, and the force of such a cut has a shape: a helix, a wall to one side.
+/// The tool's file gives both nominal depths, and the force of such a cut has a shape: a helix, a wall to one side.
 template <typename Scalar>
 bool has_nominal_depths(const ToolParameters<Scalar>& tool) {
     const DepthShapeParameters<Scalar>& shape = tool.depth_shape;

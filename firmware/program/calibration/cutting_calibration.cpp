@@ -149,7 +149,8 @@ CutSide told_or_inferred_side(const CuttingCalibrationOptions& options, const st
     return told ? side : CutSide::down;
 }
 
-/// Values at t = 1 mm, as the law holds them. What the chosen form has not is 0, without a standard error.
+/// Values at t = 1 mm, as the law holds them. Parameters that the chosen form does not have are 0, without a standard
+/// error.
 std::array<FittedValue, 6> fitted_values(const CuttingFit& fit, CuttingLawForm form) {
     const auto& law = fit.law;
     const auto& keys = cutting_coefficient_keys;

@@ -13,11 +13,11 @@
 
 namespace millforce::host {
 
-/// What `millforce calibrate cutting` was asked for.
+/// What `millforce calibrate cutting` was called with.
 struct CuttingCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;
-    /// Not told: combined, and power for recordings of drives.
+    /// Not given: combined, and power for recordings of drives.
     std::optional<estimation::CuttingLawForm> asked_form;
     std::filesystem::path cuts;     ///< table of cuts: `data` are then recordings of drives; see recorded_cuts.hpp
     std::filesystem::path machine;  ///< calibrated drives, for recordings
@@ -34,12 +34,12 @@ struct CuttingCalibrationOptions {
 /// Coefficients of a material and tool from cuts with known conditions and measured torque and force; the fit is
 /// estimation::fit_cutting_law. Data: conditions (CSV) with spindle_torque_Nm, normal_force_N, or feed_force_N.
 ///
-/// Or recordings of drive currents, with a table that tells the cuts in them and a calibrated machine: torque and feed
-/// force then come from the currents (forces_of_cuts), and the standard errors hold the gains' doubt as well.
+/// Or recordings of drive currents, with a table of the cuts in them and a calibrated machine: torque and feed force
+/// then come from the currents (forces_of_cuts), and the standard errors include the uncertainty of the gains.
 ///
-/// Prints coefficients, scatter, odd cuts, and how well forces of cuts that were held out are foretold: each width in
-/// turn and each feed in turn, with the two classical laws beside the chosen one. The stated bound is that nine of ten
-/// held-out values lie within twice their stated standard deviation.
+/// Prints coefficients, scatter, odd cuts, and how well forces of held-out cuts are predicted: each width in turn and
+/// each feed in turn, with the two classical laws for comparison. The stated bound is that nine of ten held-out values
+/// lie within twice their stated standard deviation.
 ///
 /// Writes a complete [cutting] table to `output`. Returns 0, or 1 where the bound is broken. Throws InputError for bad
 /// data, and where the cuts cannot determine a parameter: it names the parameter and the missing cut.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<char, 3> axes{'x', 'y', 'z'};
 
-/// κ of a stretch in air. There F_ax = 0, so the current is κ I_f less what K_x5/w stands for.
+/// κ of a stretch in air. There F_ax = 0, so the current is κ I_f less the part of K_x5/w.
 double friction_scale_in_air(const RecordedStretch& air, const MachineParameters& machine) {
     const auto& axis = machine.axes[air.axis];
     const double w = air.feed_m_per_min();
@@ -30,7 +30,7 @@ bool is_air_for(const RecordedStretch& stretch, const RecordedStretch& cut) {
            stretch.axis == cut.axis && stretch.feed_mm_s * cut.feed_mm_s > 0.0;
 }
 
-/// The stretches in air before and after a cut; one twice where there is air on one side only.
+/// The stretches in air before and after a cut; the same one twice if there is air on one side only.
 struct Neighbours {
     const RecordedStretch* before = nullptr;
     const RecordedStretch* after = nullptr;

@@ -24,8 +24,8 @@ void refuse_below_velocity_floor(const RecordedStretch& stretch, const MachinePa
 double spindle_gain_Nm_per_A(const MachineParameters& machine, double spindle_rad_s);
 
 /// What the drives show in air at the time of a cut: between the stretches in air before and after it in the same
-/// recording, or as in the nearest where there is air on one side only. The friction is taken from air at the cut's own
-/// feed where there is any.
+/// recording, or as in the nearest if there is air on one side only. The friction is taken from air at the feed of the
+/// cut if there is any.
 struct AirBaseline {
     double idle_current_A = 0.0;
     double friction_scale = 1.0;  ///< κ: friction then over that of the machine file

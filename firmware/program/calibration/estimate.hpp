@@ -8,7 +8,7 @@
 
 namespace millforce::host {
 
-/// What `millforce estimate` was asked for.
+/// What `millforce estimate` was called with.
 struct EstimateOptions {
     std::filesystem::path conditions;
     std::filesystem::path tool;    ///< TOML with a [cutting] table, as `millforce calibrate cutting` writes it.
@@ -17,7 +17,7 @@ struct EstimateOptions {
 };
 
 /// Forces from conditions, and depth or width from measured torque, row by row. The rows of `conditions` are repeated
-/// as they stand, with eight columns appended: predicted_spindle_torque_Nm, predicted_normal_force_N,
+/// unchanged, with eight columns appended: predicted_spindle_torque_Nm, predicted_normal_force_N,
 /// axial_depth_from_torque_mm (needs the width), radial_width_from_torque_mm (needs the depth), each followed by its
 /// _sd. An empty cell is "no estimate": the row lacks what it takes, the measured torque is not positive, or it is more
 /// than a slot of this depth can take.

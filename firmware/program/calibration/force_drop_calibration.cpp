@@ -141,7 +141,7 @@ void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const Dr
     }
 }
 
-/// Each cut by the law of the others: its immersion as the equations tell it, in shares of the true one.
+/// Each cut by the law of the others: its immersion by the equations, relative to the true one.
 struct LeftOut {
     double mean = 0.0;
     double worst = 0.0;

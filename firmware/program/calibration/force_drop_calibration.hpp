@@ -22,9 +22,9 @@ struct ForceShapeCalibrationOptions {
 /// the law: it names what is missing.
 int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostream& out);
 
-/// tip_angle_deg of table [depth_shape]: where the teeth stand against the encoder's zero, from cuts of known depths
+/// tip_angle_deg of table [depth_shape]: the angle of the teeth at the encoder's zero, from cuts of known depths
 /// (estimation/depth_shape/flute_profile_fit.hpp). Several cuts are averaged by their standard deviations. Returns 0,
-/// or 1 where they disagree by more than four of them. Throws InputError for bad data, and where no cut tells the
+/// or 1 where they disagree by more than four of them. Throws InputError for bad data, and if no cut determines the
 /// angle.
 int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostream& out);
 

@@ -8,7 +8,7 @@
 
 namespace millforce::host {
 
-/// What `millforce calibrate friction` was asked for.
+/// What `millforce calibrate friction` was called with.
 struct FrictionCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;
@@ -17,18 +17,16 @@ struct FrictionCalibrationOptions {
     double minimum_speed_mm_s = 2.0;  ///< slower samples are pre-sliding: left out.
 };
 
-/// Friction and inertia of feed axes from motion without cutting. The columns tell which kind of data it is:
+/// Friction and inertia of feed axes from motion without cutting. The columns show which kind of data it is:
 ///
-///  - time_s, position_m, motor_force_N: one axis, evenly sampled. Position and force pass the same zero-phase
-///  low-pass;
+///  - time_s, position_m, motor_force_N: one axis, evenly sampled. Position and force pass one zero-phase low-pass;
 ///    velocity and acceleration are central differences; M, F_v, F_c and offset follow by least squares
 ///    (estimation::MechanicalFrictionFit), over both directions together and by direction. Standard errors count
 ///    correlated samples as few. As a check the axis is fitted on the first half alone, and the force that it then
 ///    seems to feel in the second half is a phantom: more than 1.5 times the residual is a broken bound.
 ///  - time_s, AXIS_velocity_mm_s, AXIS_current_A for AXIS x, y, z: a recording of air cuts at several feeds. Each
-///  stretch
-///    of steady feed becomes one row of estimation::FeedCurrentFit; K_x1…K_x3 in A and m/min. An axis that did not move
-///    enough is left out and named, unless none is left.
+///    stretch with steady feed becomes one row of estimation::FeedCurrentFit; K_x1…K_x3 in A and m/min. An axis that
+///    did not move enough is left out and named, unless none is left.
 ///
 /// Prints the fit on `out` and writes `output`. Returns 0, or 1 where the bound is broken. Throws InputError for bad
 /// data, and where the data cannot determine a parameter: it names the parameter and what to measure.

@@ -75,7 +75,7 @@ struct RecordingColumns {
     std::array<std::optional<CsvColumn>, 3> current, velocity;
 };
 
-/// Averages the stretches of one recording; they may overlap, and stand in any order.
+/// Averages the stretches of one recording; they may overlap, and be in any order.
 void average_recording(const std::filesystem::path& path, const std::vector<StretchConditions>& table,
                        std::vector<StretchAverage>& averages) {
     CsvReader csv(path);

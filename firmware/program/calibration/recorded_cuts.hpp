@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Calibration cuts as drives record them: recordings (CSV), and a table that tells which stretch of which recording is
+/// Calibration cuts as drives record them: recordings (CSV), and a table that says which stretch of which recording is
 /// which cut, or running in air.
 
 namespace millforce::host {

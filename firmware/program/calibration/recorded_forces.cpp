@@ -13,7 +13,7 @@ namespace millforce::host {
 
 namespace {
 
-/// A cut while its recording is read: it has a frame of its own, for cuts may overlap.
+/// A cut while its recording is read: each has its own frame, because cuts may overlap.
 struct RunningCut {
     std::size_t place = 0;
     StretchConditions conditions;

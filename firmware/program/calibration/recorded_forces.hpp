@@ -17,7 +17,7 @@ using FeedForces = firmware::FeedFrameForces<float>::Forces;
 using ForceTaker = std::function<void(std::size_t cut, float dt_s, const FeedForces& forces)>;
 
 /// Reads the recordings and hands over the samples within each cut of the table, in the recording's order. Samples that
-/// are not valid come too: what averages them starts anew. Throws InputError.
+/// are not valid come too: averages must restart there. Throws InputError.
 void read_recorded_forces(const std::vector<std::filesystem::path>& recordings,
                           const std::vector<StretchConditions>& cuts, const firmware::Parameters<float>& parameters,
                           const ForceTaker& take);

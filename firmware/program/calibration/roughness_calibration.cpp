@@ -36,7 +36,7 @@ const CalibrationKey constant_key = key_of("roughness", "constant_um");
 const CalibrationKey middle_key = key_of("roughness", "roughness_at_means_um");
 const CalibrationKey determination_key = key_of("roughness", "determination");
 
-/// A test and where it stands, for the report.
+/// A test and its place in the file, for the report.
 struct TestRow {
     Test test;
     std::string place;
@@ -183,7 +183,7 @@ void print_model(std::ostream& out, const std::string& measure, const RoughnessF
 
 /// Each test predicted by the model of all others; whether as many lie in their intervals as is stated.
 bool check_left_out(std::ostream& out, const std::vector<TestRow>& rows, unsigned held) {
-    constexpr double share_within = 0.85;  // of 36 sound tests, 99 of 100 series keep it
+    constexpr double share_within = 0.85;  // with 36 good tests, 99 of 100 series keep it
     int within = 0;
     int asked = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {

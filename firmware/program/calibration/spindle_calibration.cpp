@@ -22,7 +22,7 @@ namespace {
 
 using Sample = estimation::SpindleSample;
 
-/// Columns as they stand in the file; NaN where a cell is empty.
+/// Columns as in the file; NaN for an empty cell.
 struct SpindleRows {
     std::vector<double> time_s;
     std::vector<double> angle_rad;

@@ -7,7 +7,7 @@
 
 namespace millforce::host {
 
-/// What `millforce calibrate spindle` was asked for.
+/// What `millforce calibrate spindle` was called with.
 struct SpindleCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;

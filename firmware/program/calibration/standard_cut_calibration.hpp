@@ -13,7 +13,7 @@
 
 namespace millforce::host {
 
-/// What `millforce calibrate standard-cut` was asked for.
+/// What `millforce calibrate standard-cut` was called with.
 struct StandardCutOptions {
     std::vector<std::filesystem::path> data;  ///< recordings
     std::filesystem::path cuts;               ///< table of cuts; see recorded_cuts.hpp
@@ -30,16 +30,16 @@ struct StandardCutGains {
     std::array<std::optional<estimation::DriveGainFit>, 3> axes;  ///< of those that fed
 };
 
-/// `law`: of the standard tool and workpiece. The spindle is fitted for each recording on its own, since each begins
-/// with another warmth, and the gains are averaged by their standard errors; K_t2 is that of the last recording. A
+/// `law`: of the standard tool and workpiece. The spindle is fitted for each recording separately, because each begins
+/// at another temperature, and the gains are averaged by their standard errors; K_t2 is that of the last recording. A
 /// lack stays in the fits.
 StandardCutGains standard_cut_gains(const std::vector<RecordedStretch>& stretches, const MachineParameters& machine,
                                     const estimation::CuttingLaw<double>& law, estimation::CutSide side);
 
 /// Kim & Chung's second step: K_t1, K_t2 of the spindle and K_x4, K_x5 of the axes that fed, from standard cuts whose
-/// forces the database tells. Prints them, and writes K_t1, K_t2, K_x4, K_x5 and gain_relative_sd (the fit's standard
-/// error and the database's doubt together) to `output`. Returns 0. Throws InputError for bad data, and where the cuts
-/// cannot determine a parameter: it names the parameter and the missing cut.
+/// forces are known from the database. Prints them, and writes K_t1, K_t2, K_x4, K_x5 and gain_relative_sd (the fit's
+/// standard error and the database's doubt together) to `output`. Returns 0. Throws InputError for bad data, and where
+/// the cuts cannot determine a parameter: it names the parameter and the missing cut.
 int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

@@ -70,7 +70,7 @@ std::vector<TipAngle> angles_of(const ForceShapeCalibrationOptions& options,
     return angles;
 }
 
-/// The weighted mean on the circle, and how far the angles stand from it in their own deviations.
+/// The weighted mean on the circle, and how far the angles are from it in units of their deviations.
 struct MeanAngle {
     double angle_rad = 0.0;
     double sd_rad = 0.0;

@@ -86,7 +86,8 @@ std::vector<IdleSecond> read_idle_seconds(const std::filesystem::path& path) {
     return seconds.found();
 }
 
-/// The seconds at the speed that the spindle mostly has. Several speeds are refused: each has its own idle torque.
+/// The part of the record at the spindle's most frequent speed. Several speeds are refused: each has its own idle
+/// torque.
 std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vector<IdleSecond> seconds) {
     if (seconds.empty()) {
         throw InputError(

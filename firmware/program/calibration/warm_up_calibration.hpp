@@ -7,7 +7,7 @@
 
 namespace millforce::host {
 
-/// What `millforce calibrate warm-up` was asked for.
+/// What `millforce calibrate warm-up` was called with.
 struct WarmUpCalibrationOptions {
     std::filesystem::path data;     ///< a recording of the spindle idling from cold
     std::filesystem::path machine;  ///< its K_t1 turns the current into a torque
@@ -20,7 +20,7 @@ struct WarmUpCalibrationOptions {
 ///
 /// Prints T_cold and τ with standard errors, and writes warm_up_torque_Nm, warm_up_time_s and warm_up_torque_sd_Nm (a
 /// third of the torque: how warm the spindle is when the controller starts is not known). Returns 0. Throws InputError
-/// for bad data, where the torque does not fall, and where the record is too short to tell τ: it says how long is
+/// for bad data, where the torque does not fall, and if the record is too short to determine τ: it says how long is
 /// enough.
 int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out);
 

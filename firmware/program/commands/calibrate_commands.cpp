@@ -47,7 +47,7 @@ void add_friction(Command& calibrate) {
         "they\n"
         "are. Exit code 1: the friction changed within the data.");
     add_data_and_output(command, *options);
-    command.option("--axis", options->axis, "Axis of data that holds a single one")
+    command.option("--axis", options->axis, "Axis, for data with a single axis")
         .one_of({"x", "y", "z"})
         .shows_default();
     command.option("--low-pass", options->low_pass_hz, "Zero-phase filter of position and force, Hz")
@@ -79,16 +79,18 @@ void add_standard_cut(Command& calibrate) {
     command.footer(
         "Data: recordings of cuts with a tool and workpiece whose coefficients are in the database, with running in "
         "air\n"
-        "between them. CUTS.csv tells which stretch is which cut: start_s, end_s, tool_diameter_mm, flutes,\n"
-        "axial_depth_mm and radial_width_mm (0: in air), and recording where there are several. The tables go into\n"
+        "between them. CUTS.csv says which stretch is which cut: start_s, end_s, tool_diameter_mm, flutes,\n"
+        "axial_depth_mm and radial_width_mm (0: in air), and recording if there are several. The tables go into\n"
         "machine.toml as they are.");
     add_data_and_output(command, *options);
     command.option("--cuts", options->cuts, "Which stretch is which cut").required().value_name("CUTS.csv");
-    command.option("--machine", options->machine, "With the friction of the air cuts").required().value_name("M.toml");
+    command.option("--machine", options->machine, "Machine file with the friction of the air cuts")
+        .required()
+        .value_name("M.toml");
     command.option("--database", options->database, "Coefficients of the standard tool and workpiece")
         .required()
         .value_name("LIBRARY.toml");
-    command.option("--entry", options->entry, "Name in the database; default: its only one").value_name("NAME");
+    command.option("--entry", options->entry, "Name in the database; default: its only entry").value_name("NAME");
     command.choice<CutSide>("--side", options->side, "Side of the cuts",
                             {{"down", CutSide::down}, {"up", CutSide::up}});
     command.on_run([options] { return calibrate_standard_cut(*options, std::cout); });
@@ -101,7 +103,7 @@ void add_warm_up(Command& calibrate) {
         "Data: a recording of the spindle idling at one speed from cold for ten minutes or more (time_s,\n"
         "spindle_angle_rad, spindle_current_A). The table goes into machine.toml as it is.");
     command.option("data", options->data, "Recording of the idling spindle").required().value_name("IDLE.csv");
-    command.option("--machine", options->machine, "With the spindle's torque per ampere")
+    command.option("--machine", options->machine, "Machine file with the spindle's torque per ampere")
         .required()
         .value_name("M.toml");
     command.option("-o,--output", options->output, "The fitted parameters").required().value_name("FILE.toml");
@@ -119,8 +121,10 @@ void add_cutting(Command& calibrate) {
         "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
     add_data_and_output(command, *options);
     add_side(command, options->side, "Side of the cuts; unknown: from the data");
-    command.option("--cuts", options->cuts, "Table of the cuts in recordings of drive currents").value_name("CUTS.csv");
-    command.option("--machine", options->machine, "Calibrated drives, for recordings").value_name("M.toml");
+    command.option("--cuts", options->cuts, "Table of the cuts, for recordings of drive currents")
+        .value_name("CUTS.csv");
+    command.option("--machine", options->machine, "Machine file with calibrated drives, for recordings")
+        .value_name("M.toml");
     command.choice<CuttingLawForm>("--law", options->asked_form, "Which law to fit",
                                    {{"linear_edge", CuttingLawForm::linear_edge},
                                     {"power", CuttingLawForm::power},
@@ -137,7 +141,7 @@ void add_roughness(Command& calibrate) {
         "At least 7 tests; each variable must change on its own, or be held. The table goes into tool.toml as it is.\n"
         "Exit code 1: fewer than 85 of 100 tests lie in the 95 % interval of the model fitted without them.");
     add_data_and_output(command, *options);
-    command.option("--measure", options->measure, "Ra or Rz; default: Ra where the data have it").one_of({"Ra", "Rz"});
+    command.option("--measure", options->measure, "Ra or Rz; default: Ra if the data have it").one_of({"Ra", "Rz"});
     command.option("--hold", options->held, "Column that the shop does not vary: its exponent is not fitted")
         .one_of(std::vector<std::string>(roughness_columns.begin(), roughness_columns.end()));
     command.on_run([options] { return calibrate_roughness(*options, std::cout); });
@@ -161,7 +165,7 @@ void add_force_drop(Command& calibrate) {
     command.footer(
         "Data: recordings of steady cuts of known width with a force sensor (fx_N, fy_N), or with feed drives where "
         "both\n"
-        "axes travel and tooth passing is slow. CUTS.csv tells which stretch is which cut: start_s, end_s,\n"
+        "axes travel and tooth passing is slow. CUTS.csv says which stretch is which cut: start_s, end_s,\n"
         "tool_diameter_mm, flutes, axial_depth_mm and radial_width_mm. Feeds must differ by a factor of 1.5, widths\n"
         "should span those of the work. The table goes into tool.toml as it is.\n"
         "Exit code 1: the immersion of a cut, by the law of the others, is off by more than 10 %.");
@@ -170,7 +174,7 @@ void add_force_drop(Command& calibrate) {
 
 void add_tip_angle(Command& calibrate) {
     Command command = calibrate.subcommand("tip-angle",
-                                           "Tool in its holder: where the teeth stand, for depths "
+                                           "Tool in its holder: the angle of its teeth, for depths "
                                            "from the force's shape");
     command.footer(
         "Data: recordings of steady cuts of known depth and width with a force sensor (fx_N, fy_N); one is enough.\n"
@@ -182,7 +186,7 @@ void add_tip_angle(Command& calibrate) {
 }  // namespace
 
 void add_calibrate(Command& program) {
-    Command calibrate = program.subcommand("calibrate", "Fits parameters to measured data, with standard errors");
+    Command calibrate = program.subcommand("calibrate", "Fit parameters to measured data, with standard errors");
     calibrate.requires_subcommand();
     add_friction(calibrate);
     add_spindle(calibrate);
@@ -196,10 +200,11 @@ void add_calibrate(Command& program) {
 
 void add_estimate(Command& program) {
     auto options = std::make_shared<EstimateOptions>();
-    Command command = program.subcommand("estimate", "Forces from conditions; depth or width from measured torque");
+    Command command =
+        program.subcommand("estimate", "Predict forces from conditions, and depth or width from measured torque");
     command.footer(
         "Conditions: tool_diameter_mm, flutes, spindle_rad_s, feed_mm_s, and axial_depth_mm, radial_width_mm and\n"
-        "spindle_torque_Nm as far as they are known. An empty cell is \"no estimate\".");
+        "spindle_torque_Nm if they are known. An empty cell is \"no estimate\".");
     command.option("conditions", options->conditions, "One straight cut a row").required().value_name("CONDITIONS.csv");
     command.option("--tool", options->tool, "Tool with its [cutting] table").required().value_name("T.toml");
     command.option("-o,--output", options->output, "The rows with estimates; default: standard output")

@@ -33,7 +33,7 @@ std::size_t place_of(const std::vector<std::string>& words, const std::string& t
 }
 
 void set_common_rules(CLI::App& app, const std::string& version) {
-    app.set_version_flag("--version", version, "Print the version and end");
+    app.set_version_flag("--version", version, "Print the version and exit");
     app.get_formatter()->column_width(36);
     for (CLI::App* command : app.get_subcommands(nullptr)) {
         set_common_rules(*command, version);
@@ -129,12 +129,12 @@ void add_bus_pace(Command& command, BusPace& pace) {
     const Option slow_motion =
         command
             .option("--slow-motion", pace.slow_motion,
-                    "The bus's time passes N times slower; the same for controller, plant and replay")
+                    "Time on the bus passes N times slower; give the same N to controller, plant and replay")
             .value_name("N")
             .within(1.0, largest_slowness);
     command
         .flag("--lock-step", pace.lock_step,
-              "The bus's time passes with SYNC, which waits for the drives; the same for all three")
+              "Time on the bus advances with SYNC, which waits for the drives; give it to controller, plant and replay")
         .excludes(slow_motion);
 }
 

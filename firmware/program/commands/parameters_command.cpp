@@ -31,13 +31,15 @@ void write_block(const ParametersOptions& options) {
 void add_parameters(Command& program) {
     auto options = std::make_shared<ParametersOptions>();
     Command command = program.subcommand(
-        "parameters", "Every key of machine.toml and tool.toml, as Markdown; the block that a target keeps in flash");
-    Option write = command.option("--write-block", options->block_to_write, "Make a target's block of two files")
-                       .value_name("FILE");
+        "parameters",
+        "Print every key of machine.toml and tool.toml as Markdown; make or print a target's flash block");
+    Option write =
+        command.option("--write-block", options->block_to_write, "Make a target's flash block from the two files")
+            .value_name("FILE");
     Option machine = command.option("--machine", options->machine, "For --write-block").value_name("M.toml");
     Option tool = command.option("--tool", options->tool, "For --write-block").value_name("T.toml");
-    Option read =
-        command.option("--read-block", options->block_to_read, "Print a target's block as TOML").value_name("FILE");
+    Option read = command.option("--read-block", options->block_to_read, "Print a target's flash block as TOML")
+                      .value_name("FILE");
     write.needs(machine).needs(tool).excludes(read);
     machine.needs(write);
     tool.needs(write);

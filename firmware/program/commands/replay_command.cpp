@@ -41,7 +41,7 @@ struct ReplayOptions {
 };
 
 /// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
-/// drops from the drives. What the parameters lack is told once, on standard error; its cells are empty then.
+/// drops from the drives. Missing parameters are reported once, on standard error; the cells are then empty.
 class WideBandCells {
   public:
     using Estimates = firmware::WideBandEstimate<float>;
@@ -123,7 +123,7 @@ class WideBandCells {
     bool is_there_;
 };
 
-/// The program's status of each row: the recording's own, with F from the command line where it was given.
+/// The program's status of each row: from the recording, with F from the command line if it was given.
 hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOptions& options) {
     hal::ProgramStatus program = recording.program();
     if (options.programmed_feed_mm_min) {
@@ -189,7 +189,7 @@ int replay(const ReplayOptions& options) {
     if (!is_candump_log(options.log)) {
         if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
             throw InputError(fmt::format(
-                "{}: is no candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
+                "{}: not a candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
         }
         return replay_table(options);
     }
@@ -205,18 +205,19 @@ int replay(const ReplayOptions& options) {
 
 void add_replay(Command& program) {
     auto options = std::make_shared<ReplayOptions>();
-    Command command = program.subcommand("replay", "Estimation and control (open loop) on a recording");
+    Command command = program.subcommand("replay", "Run estimation and control (open loop) on a recording");
     command.footer(
         "Columns of the recording: time_s, spindle_angle_rad, spindle_current_A, and AXIS_current_A and\n"
-        "AXIS_velocity_mm_s for x, y, z as they are there. A recording of 'simulate --record' holds besides the index\n"
-        "pulses and the program's feed, and its replay repeats the simulation's estimates digit for digit.\n"
+        "AXIS_velocity_mm_s for those of x, y, z that exist. A recording of 'simulate --record' also holds the index\n"
+        "pulses and the program's feed, and its replay reproduces the simulation's estimates digit for digit.\n"
         "An empty cell of the estimates is \"no estimate\". A tool with a [roughness] table adds its prediction with\n"
         "the 95 % interval, and whether the cut is in the range of the model's tests.\n"
         "With a force sensor (fx_N, fy_N on the workpiece, in the machine's axes; currents may be missing) it adds "
         "the\n"
         "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
         "[force_sensor], [force_drop] and [depth_shape].\n"
-        "A candump log ('candump -l', 'candump -L', 'millforce run --record') is read by the machine's [bus] tables.\n"
+        "A candump log ('candump -l', 'candump -L', 'millforce run --record') is decoded with the machine's [bus] "
+        "tables.\n"
         "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for "
         "digit.");
     command.option("log", options->log, "Recording: CSV, or a candump log").required().value_name("LOG");
@@ -225,16 +226,16 @@ void add_replay(Command& program) {
     command.option("-o,--output", options->output, "Estimates; default: standard output").value_name("OUT.csv");
     command
         .option("--programmed-feed", options->programmed_feed_mm_min,
-                "F of the program in mm/min, for the override; default: the recording's, else not known")
+                "Programmed feed F in mm/min, for the override; default: from the recording, else unknown")
         .within(0.0, 1e6);
     command.option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
         .within(0.0, 1e6)
         .shows_default();
-    command.option("--interface", options->interface, "Of a candump log with several: the one to replay")
+    command.option("--interface", options->interface, "Interface to replay, if a candump log has several")
         .value_name("IFACE");
     command
         .option("--verify", options->run_log,
-                "Compare with the log of 'millforce run --log'; exit code 1 where one bit of one tick differs")
+                "Compare with the log of 'millforce run --log'; exit code 1 if one bit of one tick differs")
         .value_name("RUN.jsonl");
     add_bus_pace(command, options->pace);
     command.on_run([options] { return replay(*options); });

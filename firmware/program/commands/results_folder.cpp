@@ -15,7 +15,7 @@ std::filesystem::path results_folder(const std::string& name, const std::string&
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
-        throw InputError(fmt::format("{}: cannot be made a folder: {}", name, error.message()));
+        throw InputError(fmt::format("{}: cannot create the folder: {}", name, error.message()));
     }
     const AtomicFile can_be_written(folder / first_file);
     return folder;

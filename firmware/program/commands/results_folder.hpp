@@ -6,8 +6,8 @@
 
 namespace millforce::host {
 
-/// The folder for the results, made where it is missing. That it cannot be made, or `first_file` not be written in it,
-/// is told now (InputError), and not after a long run.
+/// The folder for the results, created if it is missing. If it cannot be created, or `first_file` cannot be written in
+/// it, this fails now (InputError) and not after a long run.
 std::filesystem::path results_folder(const std::string& name, const std::string& first_file);
 
 }  // namespace millforce::host

@@ -32,7 +32,7 @@ MachineBus bus_of(const std::string& machine_file) {
     const auto bus = read_machine_bus(machine_file);
     if (!bus) {
         throw InputError(
-            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle], [bus.x], … with "
+            fmt::format("{}: no drive on the bus; expected the tables [bus] and [bus.spindle], [bus.x], … with "
                         "node_id and tpdo1, "
                         "see 'millforce parameters'",
                         machine_file));
@@ -96,7 +96,7 @@ int run_on_bus(const RunOptions& options) {
     journal->finish();
     print_summary(options, *daemon, *journal);
     if (journal->lost() > 0 || journal->write_failed()) {
-        fmt::print(stderr, "millforce: the files are not complete: {} entries did not fit{}\n", journal->lost(),
+        fmt::print(stderr, "millforce: the files are incomplete: {} entries were lost{}\n", journal->lost(),
                    journal->write_failed() ? ", and a write failed" : "");
         return 1;
     }
@@ -107,17 +107,17 @@ int run_on_bus(const RunOptions& options) {
 
 void add_run(Command& program) {
     auto options = std::make_shared<RunOptions>();
-    Command command = program.subcommand("run", "The live controller on a CAN interface");
+    Command command = program.subcommand("run", "Run the live controller on a CAN interface");
     command.footer(
         "Runs until SIGINT or SIGTERM; then the override says hold and the heartbeat 'stopped'. An interface that is "
         "not\n"
-        "there, or goes down, is waited for. Conditions that come and go are told on standard error; on a terminal a\n"
+        "there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");
     command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
-    command.option("--log", options->log, "Estimates and states as JSON lines").value_name("FILE.jsonl");
+    command.option("--log", options->log, "Write estimates and states as JSON lines").value_name("FILE.jsonl");
     command
         .option("--record", options->record,
                 "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")

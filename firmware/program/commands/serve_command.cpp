@@ -47,8 +47,8 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
         local_link::OverrideBytes answer{};
         const local_link::MessageError error = controller.on_message(bytes, answer);
         if (error != local_link::MessageError::none) {
-            fmt::print(stderr, "millforce: a message of {} bytes is not sound ({}): the connection is ended\n",
-                       bytes.size(), name(error));
+            fmt::print(stderr, "millforce: invalid message of {} bytes ({}): connection closed\n", bytes.size(),
+                       name(error));
             server.drop_peer();
             return;
         }
@@ -82,16 +82,16 @@ int serve(const ServeOptions& options) {
 void add_serve(Command& program) {
     auto options = std::make_shared<ServeOptions>();
     Command command =
-        program.subcommand("serve", "The live controller behind a Unix socket, for a CNC on the same computer");
+        program.subcommand("serve", "Run the live controller behind a Unix socket, for a CNC on the same computer");
     command.footer(
         "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
-        "One connection at a time; each begins anew. Runs until SIGINT or SIGTERM.");
-    command.option("socket", options->socket, "Path of the socket to make").required().value_name("SOCKET");
+        "One connection at a time; each is a new run. Runs until SIGINT or SIGTERM.");
+    command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
     command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
     command
         .option("--override-max", options->override_max,
-                "Largest override that the CNC's input takes; 1: LinuxCNC's adaptive feed")
+                "Largest override that the CNC accepts; 1: LinuxCNC's adaptive feed")
         .within(0.0, 10.0)
         .shows_default();
     command.on_run([options] { return serve(*options); });

@@ -51,7 +51,7 @@ std::string unknown(const char* what, const std::string& name, const std::vector
                        nearest.empty() ? "expected one of " + joined(known) : "did you mean " + nearest + "?");
 }
 
-/// Walks down the commands; tells the first command or option on the way that there is not.
+/// Walks down the commands and returns the first command or option that does not exist.
 std::string unknown_name(const CLI::App& program, int argc, const char* const* argv, std::string& command_path) {
     const CLI::App* app = &program;
     for (int k = 1; k < argc; ++k) {

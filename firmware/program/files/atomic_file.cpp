@@ -48,7 +48,7 @@ void forget(std::size_t slot) {
     throw InputError(fmt::format("{}: {}: {}", target.string(), what, std::strerror(error)));
 }
 
-/// A rename would replace a symbolic link instead of the file that it stands for.
+/// A rename would replace a symbolic link instead of the file that it points to.
 std::filesystem::path behind_links(const std::filesystem::path& target) {
     std::error_code error;
     const std::filesystem::path real = std::filesystem::canonical(target, error);

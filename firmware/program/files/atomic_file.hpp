@@ -11,7 +11,7 @@ namespace millforce::host {
 
 /// A file that appears whole or not at all.
 ///
-/// Text goes to a temporary file beside the target; commit() flushes it to the disk and renames it over the target in
+/// Text goes to a temporary file next to the target; commit() flushes it to the disk and renames it over the target in
 /// one step. Without commit() – an exception, a refusal – the destructor removes the temporary file, and a target from
 /// an earlier run stays as it was. Errors (no folder, no permission, disk full) are InputErrors that name the file.
 ///

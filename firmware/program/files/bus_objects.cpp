@@ -19,7 +19,7 @@ namespace {
 using cia402::MappedObject;
 using cia402::SettingsError;
 
-/// Hexadecimal with 0x, else decimal; nothing where it is no number up to `largest`.
+/// Hexadecimal with 0x, else decimal; nothing if it is not a number up to `largest`.
 std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t largest) {
     const bool is_hexadecimal = text.starts_with("0x") || text.starts_with("0X");
     text.remove_prefix(is_hexadecimal ? 2 : 0);

@@ -21,13 +21,13 @@ struct CsvColumn {
 
 /// Reads a CSV file of numbers, one row at a time.
 ///
-/// The first line names the columns; they may stand in any order, and columns that nobody asks for may hold anything.
-/// Cells are separated by commas, may be quoted ("" is a quote), and spaces around them do not count. An empty cell is
+/// The first line names the columns; they may be in any order, and columns that are not used may hold anything. Cells
+/// are separated by commas, may be quoted ("" is a quote), and spaces around them do not count. An empty cell is
 /// "none": NaN. A byte order mark and CRLF line ends are taken. Empty lines are skipped.
 ///
 /// Everything else is an InputError "FILE:LINE: …": a file that cannot be opened, no header, a column missing (with the
-/// nearest name that is there), named twice, a row with another number of cells than the header, text, nan, inf or a
-/// number beyond double in a column that is read, an open quote, a line of more than 1 MiB, a NUL byte.
+/// nearest existing name), named twice, a row with another number of cells than the header, text, nan, inf or a number
+/// beyond double in a column that is read, an open quote, a line of more than 1 MiB, a NUL byte.
 ///
 /// One line is held in memory, whatever the size of the file.
 class CsvReader {
@@ -62,7 +62,7 @@ class CsvReader {
     /// The cell's text, unquoted and trimmed.
     std::string_view text(CsvColumn column) const { return cells_[column.index]; }
 
-    /// The current row as it stands in the file, without its line end and surplus commas.
+    /// The current row as in the file, without its line end and surplus commas.
     const std::string& row_text() const { return line_; }
 
     std::size_t line_number() const { return line_number_; }

@@ -219,7 +219,7 @@ double CsvReader::number(CsvColumn column) const {
     double value = 0.0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error == std::errc::result_out_of_range && end == cell.data() + cell.size()) {
-        value = std::strtod(std::string(cell).c_str(), nullptr);  // tells underflow from overflow
+        value = std::strtod(std::string(cell).c_str(), nullptr);  // distinguishes underflow from overflow
     } else if (error != std::errc{} || end != cell.data() + cell.size() || signed_twice) {
         fail(column, fmt::format("'{}' is not a number; expected a number with a decimal point, or an empty cell",
                                  shown(whole)));

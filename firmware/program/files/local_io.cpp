@@ -31,25 +31,25 @@ constexpr double largest_raw = 2147483647.0;
 const std::array<LocalTextRow, 7> local_texts{{
     {"iio", "device", "\"/sys/bus/iio/devices/iio:device0\"", "Folder of the analogue-to-digital converter for motor currents.", MILLFORCE_KEY(device)},
     {"iio", "buffer", "\"/dev/iio:device0\"", "Its buffer, for mode = \"buffered\".", MILLFORCE_KEY(buffer)},
-    {"iio.drive", "current_channel", "\"voltage0\"", "Channel of the motor's current; not given: the current comes by the bus.", MILLFORCE_LOCAL(current_channel)},
-    {"iio.drive", "count_file", "\"/sys/bus/counter/devices/counter0/count0/count\"", "Count of the encoder of spindle or axis; not given: the motion comes by the bus.", MILLFORCE_LOCAL(count_file)},
+    {"iio.drive", "current_channel", "\"voltage0\"", "Channel of the motor's current; not given: the current comes over the bus.", MILLFORCE_LOCAL(current_channel)},
+    {"iio.drive", "count_file", "\"/sys/bus/counter/devices/counter0/count0/count\"", "Count of the encoder of spindle or axis; not given: the motion comes over the bus.", MILLFORCE_LOCAL(count_file)},
     {"override_voltage", "device", "\"/sys/bus/iio/devices/iio:device1\"", "Folder of the digital-to-analogue converter that gives the override as a voltage.", MILLFORCE_KEY(voltage_device)},
     {"override_voltage", "channel", "\"voltage0\"", "Its channel.", MILLFORCE_KEY(voltage_channel)},
-    {"feed_hold_line", "chip", "\"/dev/gpiochip0\"", "Chip of the lines for feed release and proof of life.", MILLFORCE_KEY(chip)},
+    {"feed_hold_line", "chip", "\"/dev/gpiochip0\"", "Chip of the lines for feed release and life pulse.", MILLFORCE_KEY(chip)},
 }};
 
 const std::array<LocalNumberRow, 22> local_numbers{{
     {"iio", "mode", "", 0.0, 0.0, 1.0, "Every value from the buffer, sampled by the device's trigger; or one value per SYNC from in_…_raw.", MILLFORCE_KEY(mode), "buffered|polled"},
-    {"iio", "configures", "", 1.0, 0.0, 1.0, "Switch the buffer's elements and the buffer on; else the system did.", MILLFORCE_KEY(configures), "false|true"},
+    {"iio", "configures", "", 1.0, 0.0, 1.0, "Switch on the buffer's elements and the buffer; else the system has done so.", MILLFORCE_KEY(configures), "false|true"},
     {"iio", "buffer_scans", "1", 1024.0, 2.0, 1048576.0, "Length of the buffer.", MILLFORCE_KEY(buffer_scans)},
-    {"iio", "sample_period_us", "µs", 0.0, 0.0, 1e6, "Period of the device's samples, to tell gaps; 0: gaps are not told.", MILLFORCE_KEY(sample_period_us)},
-    {"iio", "stale_ms", "ms", 20.0, 1.0, 10000.0, "Without a value for so long the converter counts as silent.", MILLFORCE_KEY(stale_ms)},
+    {"iio", "sample_period_us", "µs", 0.0, 0.0, 1e6, "Period of the device's samples, to detect gaps; 0: gaps are not detected.", MILLFORCE_KEY(sample_period_us)},
+    {"iio", "stale_ms", "ms", 20.0, 1.0, 10000.0, "If no value comes for this long, the converter counts as silent.", MILLFORCE_KEY(stale_ms)},
 
     {"iio.drive", "A_per_V", "A/V", required, -1e5, 1e5, "Motor current, rms, per volt at the converter; negative: the sensor counts against the motor.", MILLFORCE_LOCAL(A_per_V)},
     {"iio.drive", "zero_V", "V", 0.0, -100.0, 100.0, "Voltage at 0 A.", MILLFORCE_LOCAL(zero_V)},
-    {"iio.drive", "largest_A", "A", 100.0, 1e-3, 1e4, "A current beyond it is not used.", MILLFORCE_LOCAL(largest_A)},
+    {"iio.drive", "largest_A", "A", 100.0, 1e-3, 1e4, "A larger current is not used.", MILLFORCE_LOCAL(largest_A)},
     {"iio.drive", "mm_per_count", "mm", 0.0, -100.0, 100.0, "Axes: travel per count; negative: the count falls in + direction.", MILLFORCE_LOCAL(mm_per_count)},
-    {"iio.drive", "count_modulus", "1", 0.0, 0.0, 4294967295.0, "Counts after which the counter begins again at 0, its `ceiling` plus 1; 0: 2³².", MILLFORCE_LOCAL(count_modulus)},
+    {"iio.drive", "count_modulus", "1", 0.0, 0.0, 4294967295.0, "Counts after which the counter starts again at 0, its `ceiling` plus 1; 0: 2³².", MILLFORCE_LOCAL(count_modulus)},
     {"iio.drive", "largest_count_step", "1", 1048576.0, 1.0, 1073741824.0, "A step of more counts per SYNC is not used.", MILLFORCE_LOCAL(largest_count_step)},
     {"iio.drive", "count_reversed", "", 0.0, 0.0, 1.0, "Spindle: the count falls in the cutting direction (M3).", MILLFORCE_LOCAL(count_reversed), "false|true"},
 

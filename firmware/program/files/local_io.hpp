@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-/// Inputs and outputs of this computer itself, beside the bus: machine.toml's tables [iio], [iio.spindle], [iio.x] …,
+/// Inputs and outputs of this computer, apart from the bus: machine.toml's tables [iio], [iio.spindle], [iio.x] …,
 /// [override_voltage] and [feed_hold_line]. They name files of Linux, so they are no part of a chip's parameters; their
 /// keys are described here, once, for the reader and for `millforce parameters`.
 
@@ -57,12 +57,12 @@ struct LocalIoKeys {
     [[nodiscard]] bool has_lines() const { return !chip.empty(); }
 };
 
-/// A number, or a word where there are choices.
+/// A number, or a word if there are choices.
 struct LocalNumberRow {
     const char* table;  ///< "iio.drive" stands for each of "iio.spindle", "iio.x" …
     const char* key;
     const char* unit;
-    double default_value;  ///< NaN: required where the table is there
+    double default_value;  ///< NaN: required if the table exists
     double minimum;
     double maximum;
     const char* sentence;

@@ -142,7 +142,7 @@ MachineFileParts read_file(ParameterFile file, const std::string& path, firmware
     return parts;
 }
 
-/// A limit of R_a without a prediction of it would hold the feed where contact found it, and tell nobody why.
+/// A limit of R_a without a prediction of it would hold the feed at its value on contact, without a visible reason.
 void refuse_a_limit_that_cannot_be_kept(const std::string& path, const firmware::ToolParameters<float>& tool) {
     const estimation::RoughnessPredictor<float> predictor(tool.roughness);
     const bool is_Ra = tool.roughness.measure == estimation::RoughnessMeasure::Ra;

@@ -10,10 +10,10 @@ namespace millforce::host {
 
 struct MachineBus;
 
-/// Reads machine.toml and tool.toml by the parameter tables: every key has its type and range there; an unknown key
-/// is an error that names the nearest known one, a missing required key is named. Standard errors (KEY_se) and what a
-/// calibration writes for information are checked and ignored, so that its tables stand in the files as they are.
-/// Throws InputError.
+/// Reads machine.toml and tool.toml by the parameter tables: every key has its type and range there; an unknown key is
+/// an error that names the nearest known one, a missing required key is named. Standard errors (KEY_se) and what a
+/// calibration writes for information are checked and ignored, so that its tables can be copied into the files
+/// unchanged. Throws InputError.
 firmware::Parameters<float> read_parameters(const std::string& machine_path, const std::string& tool_path);
 
 /// Reads machine.toml alone, by the same rules.

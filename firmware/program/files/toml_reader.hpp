@@ -17,7 +17,7 @@ class TomlFile {
   public:
     /// Parses the file. Throws InputError where it cannot be read or is not TOML.
     static TomlFile open(const std::string& path);
-    /// The same from text; `name` stands in the messages.
+    /// The same from text; `name` appears in the messages.
     static TomlFile from_text(const std::string& text, const std::string& name);
 
     class Table {
@@ -25,8 +25,8 @@ class TomlFile {
         [[nodiscard]] bool exists() const { return table_ != nullptr; }
         [[nodiscard]] bool has(const std::string& key) const;
 
-        /// Number within [minimum, maximum]; `fallback` where the key is missing, an error where there is none. The
-        /// unit stands in the messages alone.
+        /// Number within [minimum, maximum]; `fallback` if the key is missing, an error if there is none. The unit
+        /// stands in the messages alone.
         double number(const std::string& key, double minimum, double maximum, std::optional<double> fallback = {},
                       std::string_view unit = {});
         /// As number, and whole: 4 or 4.0.

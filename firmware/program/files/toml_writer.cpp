@@ -34,7 +34,7 @@ std::string toml_string(std::string_view text) {
 void TomlWriter::comment(std::string_view text) {
     out_ << "# ";
     for (const char letter : text) {
-        // A control character cannot stand in a comment; file names may hold any.
+        // A comment cannot contain a control character; a file name can.
         out_ << (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F ? '?' : letter);
     }
     out_ << '\n';

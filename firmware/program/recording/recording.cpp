@@ -98,7 +98,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_
     require_drives();
 }
 
-/// A force sensor stands in for the currents, but not for the velocities.
+/// A force sensor replaces the currents, but not the velocities.
 void RecordingReader::require_drives() const {
     if (!has_force_sensor()) {
         csv_.require("spindle_current_A", "the tangential force comes from it");

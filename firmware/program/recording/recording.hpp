@@ -21,9 +21,9 @@ struct RecordedStep {
 /// Writes a recording step by step: time_s, spindle_angle_rad, spindle_current_A, x_current_A … z_velocity_mm_s,
 /// override, and three columns that make a replay exact: spindle_index_angle_rad (where the encoder's last index pulse
 /// came; empty before the first), programmed_feed_mm_s and rapid (0 or 1). The angles are the encoder's whole counts.
-/// With a force sensor, fx_N and fy_N stand at the end.
-/// What is not present is an empty cell. Appears as a whole with commit(). Steps must be less than 2³¹ µs and 2³¹
-/// counts apart.
+/// With a force sensor, fx_N and fy_N are the last columns.
+/// A missing value is an empty cell. Appears as a whole with commit(). Steps must be less than 2³¹ µs and 2³¹ counts
+/// apart.
 class RecordingWriter {
   public:
     RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev, bool has_force_sensor);
@@ -52,8 +52,8 @@ class RecordingWriter {
 /// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
 ///
 /// A recording with a force sensor (fx_N and fy_N, on the workpiece in the machine's axes) needs no currents, and of
-/// the axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that begins again
-/// after each turn goes on. An axis whose velocity is not recorded stands.
+/// the axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that starts again
+/// at each turn is continued. An axis without a recorded velocity counts as at rest.
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);

@@ -206,7 +206,7 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
             clock.begin();
         }
         controller_->on_frame(line.frame, clock.of_unix(line.time_us), is_start(line.frame));
-        // What it would send was sent then.
+        // What it would send was sent during the run.
         hal::CanFrame sent;
         while (controller_->take_frame(sent)) {
         }

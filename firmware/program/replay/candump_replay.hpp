@@ -15,7 +15,7 @@ namespace millforce::host {
 
 /// Runs the controller of `millforce run` on a candump log.
 ///
-/// Where the log holds the start of a controller (the boot-up in its heartbeat), the replay begins there, and anew at
+/// Where the log holds the start of a controller (the boot-up in its heartbeat), the replay begins there, and again at
 /// each further one: it then asks the drives as that run did, and takes the answers from the log. Else it begins with
 /// the first line as a listener; rated values that machine.toml does not give are taken from SDO answers in the log.
 class CandumpReplay {
@@ -28,8 +28,8 @@ class CandumpReplay {
         BusTime time{};  ///< of the run
     };
 
-    /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that is not
-    /// there or not told though there are several, rated values that nobody tells.
+    /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that does not
+    /// exist or is not given although there are several, rated values that are in neither file nor log.
     explicit CandumpReplay(const Settings& settings);
 
     /// `on_tick` is called after each tick, `progress` with the share read.

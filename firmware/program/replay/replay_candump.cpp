@@ -26,7 +26,7 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
     const auto bus = read_machine_bus(options.machine);
     if (!bus) {
         throw InputError(
-            fmt::format("{}: no drive is on the bus; expected the tables [bus] and [bus.spindle] … to read "
+            fmt::format("{}: no drive on the bus; expected the tables [bus] and [bus.spindle] … to read "
                         "the candump log {}",
                         options.machine, options.log));
     }

@@ -13,7 +13,7 @@ namespace millforce::host {
 /// digit, and by its digest every tick between them.
 class RunCheck {
   public:
-    /// Throws InputError where there is no such file, or no estimate in it.
+    /// Throws InputError if there is no such file, or no estimate in it.
     RunCheck(const std::string& file, const estimation::TotalForce<float>& total);
 
     void add(const EstimateEntry& entry);

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-/// A frame of classical CAN (ISO 11898-1) as it crosses the border between a bus driver and what speaks on the bus.
-/// A driver hands over data and remote frames only; error frames become states of the driver.
+/// A frame of classical CAN (ISO 11898-1) as it crosses the border between a bus driver and what speaks on the bus. A
+/// driver hands over only data and remote frames; error frames become states of the driver.
 
 namespace millforce::hal {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the machine tells the controller, once per sample. Plain data: a driver fills it, the tick reads it.
+/// What the machine reports to the controller, once per sample. Plain data: a driver fills it, the tick reads it.
 /// Nothing here depends on a bus, a chip or an operating system.
 
 namespace millforce::hal {
@@ -19,7 +19,7 @@ enum class Present : std::uint8_t {
     x_axis = 1U << 2U,
     y_axis = 1U << 3U,
     z_axis = 1U << 4U,
-    force_sensor = 1U << 5U,  ///< force_N, and the velocities of x and y whether their currents are there or not
+    force_sensor = 1U << 5U,  ///< force_N, and the velocities of x and y with or without their currents
 };
 
 constexpr std::uint8_t mask(Present quantity) {
@@ -93,11 +93,11 @@ constexpr void add(DriveSample& sample, const DriveSample& other) {
     }
 }
 
-/// What the CNC and the operator tell, whenever it changes.
+/// What the CNC and the operator report, whenever it changes.
 struct ProgramStatus {
-    float programmed_feed_mm_s = 0.0F;  ///< F of the block in work; 0: not known
-    float operator_override = 1.0F;     ///< the operator's own override; always wins downwards
-    bool rapid = false;                 ///< a G0 block is in work
+    float programmed_feed_mm_s = 0.0F;  ///< F of the current block; 0: not known
+    float operator_override = 1.0F;     ///< the operator's override; it always wins downwards
+    bool rapid = false;                 ///< a G0 block is active
     bool feed_hold = false;             ///< the operator or the CNC holds the feed
 };
 

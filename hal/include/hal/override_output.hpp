@@ -7,17 +7,17 @@
 
 namespace millforce::hal {
 
-/// Of an output, for the supervisor.
+/// Health of an output, for the supervisor.
 struct OutputHealth {
-    bool is_ready = false;       ///< the way out is open and its last write was taken
-    bool ticks = false;          ///< false: none yet, or none within the output's time-out; the safe value is out
-    int last_error = 0;          ///< errno of the last call that failed; 0: none did
-    std::uint32_t failures = 0;  ///< writes that were not taken; saturates
+    bool is_ready = false;       ///< the output is open and accepted the last write
+    bool ticks = false;          ///< false: none yet, or none within the time-out; the output is then at its safe value
+    int last_error = 0;          ///< errno of the last call that failed; 0: none
+    std::uint32_t failures = 0;  ///< writes that were not accepted; saturates
 };
 
 /// A way for the override to reach the CNC: CAN frame, analogue voltage, hold line. update() with each tick's output,
-/// poll() at least every 5 ms whether ticks come or not. Neither blocks, allocates or throws. One thread. What a CNC
-/// sees of each when the controller dies: drivers/README.md.
+/// poll() at least every 5 ms whether ticks come or not. Neither blocks, allocates or throws. One thread.
+/// drivers/README.md says what a CNC sees of each output when the controller dies.
 class OverrideOutput {
   public:
     virtual void update(const FeedOverride& feed_override, std::uint64_t time_us) = 0;
@@ -26,7 +26,7 @@ class OverrideOutput {
 
   protected:
     OverrideOutput() = default;
-    ~OverrideOutput() = default;  // never deleted through this face: that would need a heap
+    ~OverrideOutput() = default;  // never deleted through this interface: that would need a heap
     OverrideOutput(const OverrideOutput&) = default;
     OverrideOutput& operator=(const OverrideOutput&) = default;
 };

@@ -5,7 +5,7 @@
 
 namespace millforce::hal {
 
-/// Why the processor started. The numbers are on the bus: see emergency/emergencies.hpp.
+/// Why the processor started. The numbers are sent on the bus: see emergency/emergencies.hpp.
 enum class ResetCause : std::uint8_t {
     unknown = 0,
     power_on = 1,

@@ -7,7 +7,7 @@
 
 namespace millforce::hal {
 
-/// Whether an output must stop the feed: hold, any fault, or a ratio that is no number above 0.
+/// Whether an output must stop the feed: hold, any fault, or a ratio that is not a finite number above 0.
 [[nodiscard]] constexpr bool demands_stop(const FeedOverride& feed_override) {
     return feed_override.hold || feed_override.fault != 0 || !(feed_override.ratio > 0.0F) ||
            !(feed_override.ratio - feed_override.ratio == 0.0F);
@@ -18,12 +18,12 @@ namespace millforce::hal {
     return feed_override.ratio >= 0.0F && feed_override.ratio <= largest_ratio;
 }
 
-/// Tells a controller that ticks from one that stands still: by its heartbeat, not by being called.
+/// Distinguishes a controller that ticks from one that has stopped: by its heartbeat, not by being called.
 class TickWatch {
   public:
     explicit TickWatch(std::uint32_t timeout_us) : timeout_us_(timeout_us) {}
 
-    /// True where this is a tick that was not seen before.
+    /// True if this tick was not seen before.
     bool update(std::uint32_t heartbeat, std::uint64_t time_us) {
         if (has_heartbeat_ && heartbeat == heartbeat_) {
             return false;

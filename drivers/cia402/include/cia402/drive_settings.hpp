@@ -65,7 +65,7 @@ struct DriveSettings {
     ObjectAddress count_object{object::position_actual, 0};
     ObjectAddress index_count_object{};   ///< the count at the last index pulse, e.g. 0x60BA (touch probe value)
     ObjectAddress index_number_object{};  ///< increases at each index pulse, e.g. 0x60D5 (touch probe edge counter)
-    std::uint32_t count_modulus = 0;      ///< counts after which the object begins again at 0; 0: the object's width
+    std::uint32_t count_modulus = 0;      ///< counts after which the object starts again at 0; 0: the object's width
     std::uint32_t largest_count_step = 1U << 20U;  ///< per SYNC period
     bool count_reversed = false;                   ///< the count decreases in the cutting direction (M3)
 

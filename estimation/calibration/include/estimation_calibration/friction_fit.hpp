@@ -8,8 +8,8 @@
 /// Two forms:
 ///  - Mechanical: F_motor = M a + F_v v + F_c sign(v) + offset (Janot, Gautier, Brunot 2019), and the same with F_v and
 ///    F_c of their own in each direction.
-///  - The quadratic current I_f(w) = K_x1 w² + K_x2 w + K_x3 at steady feed w in m/min (Kim & Chung Eq. 9), with K_x1
-///    and K_x2 of their own in each direction and a gravity offset.
+///  - The quadratic current I_f(w) = K_x1 w² + K_x2 w + K_x3 at steady feed w in m/min (Kim & Chung Eq. 9), with
+///    separate K_x1 and K_x2 for each direction, and a gravity offset.
 ///
 /// In steady motion without load, a constant that pulls one way (gravity, cable drag) and a difference of the dry
 /// friction between the directions are one and the same: half the sum of the two intercepts. The mechanical form by

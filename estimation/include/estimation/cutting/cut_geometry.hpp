@@ -7,8 +7,8 @@
 
 /// Engagement of a milling cutter as two angles, and the one-parameter families that a radial width selects.
 ///
-/// Angles φ are measured from the normal to the feed (+y), clockwise, x = feed direction. A tooth at φ cuts where
-/// φ_st ≤ φ ≤ φ_ex, and stands at the height y = R cos φ beside the cutter's axis. Tooth pitch φ_N = 2π/N.
+/// Angles φ are measured from the normal to the feed (+y), clockwise, x = feed direction. A tooth at φ cuts where φ_st
+/// ≤ φ ≤ φ_ex, and is at y = R cos φ from the cutter's axis. Tooth pitch φ_N = 2π/N.
 /// The radial immersion is R_r = a_e/R, 0…2.
 
 namespace millforce::estimation {
@@ -18,7 +18,7 @@ enum class CutSide : unsigned char {
     down,     ///< φ_ex = π: the tooth leaves at the machined wall (climb milling).
     up,       ///< φ_st = 0: the tooth enters at the machined wall (conventional milling).
     centred,  ///< the workpiece's centre line has a fixed offset from the cutter's axis (face milling).
-    unknown,  ///< not told: inferred from the forces where they allow it.
+    unknown,  ///< not given: inferred from the forces where they allow it.
 };
 
 /// Entry and exit angle of a tooth, 0 ≤ φ_st ≤ φ_ex ≤ π.

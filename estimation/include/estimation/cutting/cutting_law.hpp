@@ -45,7 +45,7 @@ struct CuttingLaw {
     Scalar r_1_exponent_sd{0};              ///< its growth per unit of ln(t_a/t_ref).
     Scalar reference_chip_thickness_mm{0};  ///< t_ref; 0: the doubt does not grow.
     Scalar minimum_chip_thickness_mm{0};    ///< thinnest mean chip of the calibration cuts.
-    Scalar maximum_chip_thickness_mm{0};    ///< thickest mean chip of the calibration cuts; 0: not told.
+    Scalar maximum_chip_thickness_mm{0};    ///< thickest mean chip of the calibration cuts; 0: not given.
 };
 
 /// The linear edge law as a CuttingLaw. `K_tc` > 0.

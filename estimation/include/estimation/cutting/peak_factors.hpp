@@ -46,7 +46,7 @@ struct PeakFactors {
 template <typename Scalar>
 inline constexpr Scalar straight_sweep_rad = literal<Scalar>(0.001L);
 
-/// In-plane force of one tooth whose tip stands at θ (the tip leads; the edge above it lags by the helix).
+/// In-plane force of one tooth whose tip is at θ (the tip leads; the edge above it lags by the helix).
 template <typename Scalar>
 AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm, Scalar axial_depth_mm,
                                          Scalar sweep_rad, EngagementAngles<Scalar> engagement, Scalar tip_angle_rad) {
@@ -127,10 +127,10 @@ PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactor
 
 /// τ over immersion and sweep, read by bilinear interpolation. ImmersionNodes × SweepNodes scalars of RAM.
 ///
-/// Stored is what varies little: τ grows as 1/R_r for narrow cuts, and as 1/a_p once the edge is longer than the
-/// engagement; both are taken out before the table and put back behind it. The second axis is the number of
-/// engagements that the edge sweeps, q = α_sw/(φ_ex − φ_st): linear in q up to 1, in 1/q above, so that the corner at
-/// q = 1, where the edge outgrows the engagement, stands on a node.
+/// The table stores what varies little: τ grows as 1/R_r for narrow cuts, and as 1/a_p once the edge is longer than the
+/// engagement; both factors are divided out before the table and multiplied back after it. The second axis is the
+/// number of engagements that the edge sweeps, q = α_sw/(φ_ex − φ_st): linear in q up to 1, in 1/q above, so that the
+/// corner at q = 1, where the edge outgrows the engagement, is a node.
 template <typename Scalar, int ImmersionNodes = 28, int SweepNodes = 13>
 class ToothPeakTable {
   public:

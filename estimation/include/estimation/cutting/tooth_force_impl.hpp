@@ -96,7 +96,7 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
     }
 }
 
-/// The tooth that stands out furthest takes (f_z + e) of chip where the mean takes f_z.
+/// The tooth with the largest radius takes (f_z + e) of chip where the mean takes f_z.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::runout_factor(Scalar feed_per_tooth_mm) const {
     using elementary::exp;

@@ -10,8 +10,8 @@
 /// times four degrees by which flutes overlap. Angles: α_en engagement, α_sw = a_p tan β/R sweep, α_T = 2π/N pitch.
 /// Up milling mirrors the shapes; types and overlap are the same.
 ///
-/// Misprints: the second form of Eq. 3 has ADOC_c where the actual ADOC stands (it is (π + α_sw)/2 for the depth that
-/// is classified). Eq. 6's first line needs α_en + α_sw < α_T, not α_sw < α_T, or it covers the second line's cuts too.
+/// Misprints: the second form of Eq. 3 has ADOC_c in place of the actual ADOC (it is (π + α_sw)/2 for the depth that is
+/// classified). Eq. 6's first line needs α_en + α_sw < α_T, not α_sw < α_T, or it covers the second line's cuts too.
 /// All functions: no state, a few operations.
 
 namespace millforce::estimation {
@@ -25,7 +25,7 @@ enum class FluteForceType : unsigned char {
 enum class FluteOverlap : unsigned char {
     none,    ///< NO: one flute at a time
     low,     ///< LO: a flute rises while the one before falls
-    medium,  ///< MO: it also begins to fall meanwhile
+    medium,  ///< MO: it also begins to fall during that
     high,    ///< HO: it rises while the one before rises
 };
 

@@ -9,10 +9,10 @@ namespace millforce::estimation {
 /// Depths of cut from a running force signal: plane forces against the spindle's angle are averaged over whole
 /// revolutions (FluteProfile), and each complete profile is fitted (FluteProfileFit).
 ///
-/// add() is for the sampling loop, evaluate() for whatever runs beside it: where add() says that a profile is complete,
-/// samples are dropped until evaluate() has taken it. The forces may be in any fixed frame (machine or feed), as long
-/// as x, y and the spindle's rotation (clockwise from above, φ grows from +y to +x) are the right way round: a turned
-/// frame turns the law's complex coefficients and nothing else. It must not turn within a profile.
+/// add() is for the sampling loop, evaluate() for a slower task: where add() says that a profile is complete, samples
+/// are dropped until evaluate() has taken it. The forces may be in any fixed frame (machine or feed), as long as x, y
+/// and the spindle's rotation (clockwise from above, φ grows from +y to +x) are the right way round: a turned frame
+/// turns the law's complex coefficients and nothing else. It must not turn within a profile.
 ///
 /// Memory: (3·Bins + 20) scalars and the settings; evaluate() needs some 20 kB of stack. No heap. Not thread-safe.
 template <typename Scalar, int Harmonics = 10, int Bins = 180>
@@ -25,7 +25,7 @@ class DepthMonitor {
         : settings_(settings), profile_({.teeth = settings.cutter.teeth, .revolutions = revolutions}) {}
 
     /// One sample, dt_s after the last one; the angle wrapped to any one turn. A sample that is not finite, or a turn
-    /// of more than half a pitch since the last one, starts the profile anew. True where evaluate() has work to do.
+    /// of more than half a pitch since the last one, restarts the profile. True where evaluate() has work to do.
     bool add(Scalar dt_s, Scalar spindle_angle_rad, Scalar fx_N, Scalar fy_N) {
         using std::floor;
         const Scalar turns = spindle_angle_rad / (Scalar(2) * pi<Scalar>);
@@ -51,8 +51,8 @@ class DepthMonitor {
         return estimate;
     }
 
-    /// Learns where the teeth stand against the encoder's zero from a profile of known depths, for all that follow
-    /// with this tool in this holder. False: no complete profile, or it does not tell.
+    /// Learns the angle of the teeth at the encoder's zero from a profile of known depths, for all later profiles with
+    /// this tool in this holder. False: no complete profile, or it does not determine the angle.
     bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = Scalar(0.005F)) {
         if (!profile_.complete()) {
             return false;

@@ -22,7 +22,7 @@
 ///
 /// Samples come at any rate, evenly or not. Each signal is taken as linear between two samples and integrated over the
 /// angle turned, and the integral is split exactly at the bins' borders. A gap or a step back of more than half a pitch
-/// starts the profile anew.
+/// restarts the profile.
 ///
 /// Memory: (Channels + 1)·Bins + some 10 scalars. Cost of add(): the bins that were passed, at least one; a few
 /// operations each. No heap. Not thread-safe.

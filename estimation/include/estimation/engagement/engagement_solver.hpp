@@ -15,7 +15,7 @@
 /// weighted least-squares problem over all forces that are there, because
 ///  - t_a, K_s and r_1 depend on the immersion that is sought,
 ///  - F_ax crosses zero in down milling near R_r = 1.4 and gives no depth there, F_at does,
-///  - F_ax/F_at is flat in up milling below R_r = 0.3, where only F_ay knows the immersion,
+///  - F_ax/F_at is flat in up milling below R_r = 0.3, where only F_ay determines the immersion,
 ///  - in a diagonal feed a force along a machine axis mixes feed and normal force.
 ///
 /// For each R_r the best depth is known in closed form, and with it J(R_r), the profile likelihood of the immersion

@@ -212,7 +212,7 @@ void EngagementSolver<Scalar, Nodes>::begin_refinement(Search& s) const {
     s.phase_ = Search::Phase::probe;
 }
 
-/// J beside the best node, in units of the nodes' step: J = J_0 + b u + a u² (+ k u (u² − 1)).
+/// J around the best node, in units of the nodes' step: J = J_0 + b u + a u² (+ k u (u² − 1)).
 template <typename Scalar, int Nodes>
 struct EngagementSolver<Scalar, Nodes>::Parabola {
     std::size_t node;

@@ -18,20 +18,20 @@ namespace millforce::estimation {
 ///
 ///   F_at = G a_t + e_t,   F_ax = G (a_x + r b_x) + e_x,   F_ay = G (a_y + r b_y) + e_y
 ///
-/// The eight others depend on the engagement θ (R_r = 1 − cos θ) only and stand in the nodes, evenly spaced in θ from
-/// first_rad (R_r 0.02) to the side's largest; between nodes a parabola through three of them (error below 0.1 % from
-/// R_r 0.05 on, 0.2 % below). Memory: 9 · Nodes scalars. Cost: at_node() 20 operations, at() some 60, both without a
-/// transcendental function; feed() two exponentials and a logarithm, once per solution.
+/// The eight others depend only on the engagement θ (R_r = 1 − cos θ) and are stored in the nodes, evenly spaced in θ
+/// from first_rad (R_r 0.02) to the side's largest; between nodes a parabola through three of them (error below 0.1 %
+/// from R_r 0.05 on, 0.2 % below). Memory: 9 · Nodes scalars. Cost: at_node() 20 operations, at() some 60, both without
+/// a transcendental function; feed() two exponentials and a logarithm, once per solution.
 template <typename Scalar, int Nodes>
 class EngagementTable {
   public:
     static constexpr Scalar first_rad = literal<Scalar>(0.2L);
 
-    /// What the feed makes of the law.
+    /// The law at a feed.
     struct Feed {
         Scalar G_N_per_mm{0};
         Scalar r{0};
-        Scalar ln_f_in_references{0};  ///< ln(f_z/t_ref); 0 where there is no t_ref
+        Scalar ln_f_in_references{0};  ///< ln(f_z/t_ref); 0 if there is no t_ref
     };
 
     struct Forces {
@@ -41,7 +41,7 @@ class EngagementTable {
         Scalar feed_per_ln_r_1_N{0};
         Scalar normal_per_ln_r_1_N{0};
         Scalar cutting_tangential_N{0};  ///< of tangential_N: what is not edge force
-        Scalar ln_t_in_references{0};    ///< ln(t_a/t_ref); 0 where there is no t_ref
+        Scalar ln_t_in_references{0};    ///< ln(t_a/t_ref); 0 if there is no t_ref
     };
 
     /// What the table holds of one engagement, whatever the feed.

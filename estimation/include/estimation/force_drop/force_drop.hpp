@@ -29,7 +29,7 @@
 ///  - Eq. 6 by the two-argument arctangent: tan⁻¹ fails past 90°.
 ///  - Eqs. 6, 11, 12 are closed by bracketing, not by iteration: a ≥ 1 needs no proof then (Eqs. 13, 14; 14 is lost).
 ///  - Edge forces are part of the law; the paper names them as the cause of its largest error, at immersion 0.2.
-///  - The drop's size beside the average force's is used as well as its direction.
+///  - The size of the drop relative to the average force is used as well as its direction.
 ///  - Down milling: the jump is a rise where the tooth enters, φ_st = π − θ; the averages run from φ_st to π.
 ///  - Table 1 prints mm/min for a feed per tooth: read mm. The nomenclature's r is F_R/F_T (Eq. 2), not its inverse.
 ///
@@ -83,8 +83,8 @@ class ForceDrop {
         return true;
     }
 
-    /// add() in two steps: collect() for the sampling loop, evaluate() for whatever runs beside it. Where collect()
-    /// says that the revolutions are whole, samples are dropped until evaluate() has taken them.
+    /// add() in two steps: collect() for the sampling loop, evaluate() for a slower task. When collect() says that the
+    /// revolutions are complete, samples are dropped until evaluate() has taken them.
     bool collect(const ForceDropSample<Scalar>& sample) {
         complete_ = complete_ || profile_.add(sample.spindle_angle_rev, sample.dt_s, sample.fx_N, sample.fy_N);
         return complete_;
@@ -151,7 +151,7 @@ class ForceDrop {
         return acts;
     }
 
-    /// A place of the other edge that was tried: what θ the drop tells then, and how badly the signal fits.
+    /// A tried position of the other edge: the θ that the drop then gives, and how badly the signal fits.
     struct Closure {
         bool valid = false;
         Scalar theta_rad{0};   ///< put in
@@ -178,10 +178,10 @@ class ForceDrop {
         return {true, theta_rad, estimate_.theta_rad - theta_rad, square(sd_rad), jump_.residual_N2};
     }
 
-    /// Two things tell θ here: what is put in must come out, and the edge must be taken off where it is, else the
-    /// signal fits badly. The first alone fails at coincidence, where what comes out follows what is put in; the second
-    /// knows the edge's place within `place_sd_rad` (runout moves it), and its shape within some 70 % of the least
-    /// residual.
+    /// Two conditions determine θ here: what is put in must come out, and the edge must be taken off where it is, else
+    /// the signal fits badly. The first alone fails at coincidence, where what comes out follows what is put in; the
+    /// second knows the edge's place within `place_sd_rad` (runout moves it), and its shape within some 70 % of the
+    /// least residual.
     [[nodiscard]] static Scalar misfit(const Closure& closure, Scalar least_residual_N2) {
         return square(closure.excess_rad) / (closure.variance + square(place_sd_rad)) +
                Scalar(1.5F) * (closure.residual_N2 / least_residual_N2 - Scalar(1));
@@ -230,7 +230,7 @@ class ForceDrop {
     }
 
     /// Another immersion, far off, that explains drop and signal nearly as well. In down milling the force that the
-    /// other tooth takes along at its exit points as the jump does, and the two are told apart less well.
+    /// other tooth takes along at its exit points as the jump does, and the two are harder to distinguish.
     [[nodiscard]] bool is_ambiguous(const Closures& tried, const Closure& best) const {
         constexpr Scalar far_rad = literal<Scalar>(0.12L);
         const Scalar nearly = measurement_.side == CutSide::up ? Scalar(0.5F) : Scalar(1.25F);

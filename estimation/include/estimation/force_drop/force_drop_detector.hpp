@@ -30,7 +30,7 @@
 /// least residual. A mean jump below `least_significance` of its standard deviation is none.
 ///
 /// Of other jumps inside the window (the next tooth enters where this one leaves, at 6 teeth and immersion 0.5) the
-/// caller may tell the size: they are taken off the signal first (OtherEdge).
+/// caller may give the size: they are subtracted from the signal first (OtherEdge).
 ///
 /// The window's force is not quite linear: over 12° the second derivative of the tooth force, 2 K a f_z, leaves 1 % of
 /// the largest tooth force in d, the same for the same immersion; calibration carries it.
@@ -64,7 +64,7 @@ struct ForceJump {
     enum class Reason : unsigned char {
         found,
         too_fast,         ///< the tooth passes too quickly for the low-pass
-        not_significant,  ///< no jump stands out of the noise
+        not_significant,  ///< no jump exceeds the noise
     } reason = Reason::not_significant;
     [[nodiscard]] bool valid() const { return reason == Reason::found; }
     Scalar angle_rev{0};  ///< spindle angle of the jump, 0…1/N

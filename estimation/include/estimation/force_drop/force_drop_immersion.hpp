@@ -61,7 +61,7 @@ struct ForceDropEstimate {
         no_law,        ///< not calibrated
         side_unknown,  ///< neither up nor down milling
         no_root,       ///< no immersion in the valid range explains the forces
-        disagreement,  ///< direction and magnitude tell different immersions
+        disagreement,  ///< direction and magnitude give different immersions
         ambiguous,     ///< the other edge of the cut lies at the jump, and several immersions explain both
         too_uncertain
     } reason = Reason::no_drop;
@@ -69,7 +69,7 @@ struct ForceDropEstimate {
 
     Scalar radial_immersion{0};  ///< a_e/R, 0…2
     Scalar radial_immersion_sd{0};
-    Scalar theta_rad{0};  ///< 0 where there is no root at all; also told where the estimate is refused
+    Scalar theta_rad{0};  ///< 0 if there is no root at all; also given when the estimate is refused
     CutSide side = CutSide::unknown;
     Scalar r{0};
     Scalar r_av{0};
@@ -107,7 +107,7 @@ class ForceDropImmersion {
         return estimate;
     }
 
-    /// What the averages alone say of the cut, if θ were this: K a at the jump by c_0 and c_1.
+    /// What the averages alone say about the cut, if this were θ: K a at the jump by c_0 and c_1.
     [[nodiscard]] Scalar pressure_by_averages_N_per_mm(const ForceDropMeasurement<Scalar>& m, Scalar theta_rad) const {
         using elementary::cos;
         using elementary::exp;

@@ -13,7 +13,7 @@
 
 /// What a force drop and the average forces say about the cut, at an immersion that is tried.
 ///
-/// Hwang et al. take F_t = K a f_z sin φ and F_r = r F_t (Eqs. 1, 2). Here edge forces stand beside the chip's:
+/// Hwang et al. take F_t = K a f_z sin φ and F_r = r F_t (Eqs. 1, 2). Here edge forces are added to the chip's:
 ///
 ///   F_t(φ) = K a (f_z sin φ + e_t),   F_r(φ) = K a (r f_z sin φ + e_r),   e_t = K_te/K_tc,  e_r = K_re/K_tc
 ///

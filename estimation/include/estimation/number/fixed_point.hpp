@@ -17,13 +17,11 @@
 ///   range ±2 147 483 647.99, resolution 2⁻³² = 2.3e-10, the same for every quantity: nothing is rescaled
 ///
 /// One format serves because of its width: the largest number of the tick is a squared force (30 kN: 9e8 N²), the
-/// smallest ones that matter are drift variances per sample (1e-8). The table of quantities stands in
-/// firmware/README.md.
+/// smallest ones that matter are drift variances per sample (1e-8). The table of quantities is in firmware/README.md.
 ///
 /// Every operation rounds to nearest. What does not fit becomes the nearest end of the range and is counted
 /// (`saturations()`); nothing wraps, there is no infinity and no NaN. x/0 is the end of the range, 0/0 is 0, both
-/// counted. From float: NaN and infinity become 0, counted; "no number" is no measurement, and who must know asks
-/// before.
+/// counted. From float: NaN and infinity become 0, counted; where that matters, test for it before the conversion.
 ///
 /// Functions, found by ADL: sqrt (0 for x < 0), sin, cos, tan, atan, atan2, acos, asin (argument clipped to ±1), exp,
 /// log, pow, floor, ceil, abs. Errors: sqrt 2⁻³² relative; sin, cos, atan2 2e-9; acos 3e-9, within 1e-4 of ±1 1e-6; exp

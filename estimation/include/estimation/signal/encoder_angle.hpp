@@ -5,7 +5,7 @@
 
 namespace millforce::estimation {
 
-/// What one encoder reading showed. Those behind `standstill` end what has been averaged.
+/// What one encoder reading showed. Those after `standstill` end the present average.
 enum class EncoderEvent : unsigned char {
     none,
     forward,        ///< turned in the cutting direction

@@ -22,7 +22,7 @@ template <typename Scalar>
 ///
 /// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones. The
 /// memory fades with disagreement: a force within two standard deviations of its noise leaves it whole, one at four
-/// deviations or a feed in another direction leaves nothing, and it starts anew: no lag behind a change, little noise
+/// deviations or a feed in another direction leaves nothing, and it starts again: no lag after a change, little noise
 /// without one. In between it fades by the square, so that no last digit decides. Only noise shrinks by averaging; what
 /// is common to all windows (gain, friction, drift) stays whole.
 template <typename Scalar>

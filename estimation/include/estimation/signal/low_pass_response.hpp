@@ -51,8 +51,8 @@ struct LowPassResponse {
     /// After this time a step is within 3 % of its end.
     [[nodiscard]] Scalar settling_s() const { return Scalar(4) / (damping * omega_rad_s()); }
 
-    /// Samples of white noise that passed the filter tell as much as this many independent ones, per sample: the
-    /// share of the band that is left. Noise bandwidth of the filter: πf/(4ζ).
+    /// Each sample of white noise that passed the filter counts as this many independent ones: the share of the band
+    /// that is left. Noise bandwidth of the filter: πf/(4ζ).
     [[nodiscard]] Scalar independent_share(Scalar sample_rate_hz) const {
         const Scalar share = pi<Scalar> * corner_hz / (Scalar(2) * damping * sample_rate_hz);
         return share < Scalar(1) ? share : Scalar(1);

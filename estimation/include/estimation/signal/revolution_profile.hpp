@@ -11,7 +11,7 @@
 ///
 /// Samples may come at the grid's own angles (an encoder that triggers them) or at any other rate: each grid point that
 /// the spindle passes between two samples gets the value of the straight line between them. A reversal, a standstill of
-/// the samples or a turn of more than `largest_step_rev` between two of them starts anew: nothing is made up.
+/// the samples or a turn of more than `largest_step_rev` between two of them restarts the profile: nothing is made up.
 ///
 /// Memory: 16 bytes per grid point in float. Cost per sample: 4 multiplications per grid point passed. Not thread-safe.
 

@@ -62,15 +62,15 @@ struct RoughnessModel {
     Scalar constant_um{0};                 ///< C; 0: there is no model
     RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
     RoughnessValues<Scalar> minimum{};     ///< range of the tests …
-    RoughnessValues<Scalar> maximum{};     ///< … 0: not told
+    RoughnessValues<Scalar> maximum{};     ///< … 0: not given
     RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
     Scalar tests{0};                       ///< n
     Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
     Scalar residual_ln_sd{0};              ///< s
     std::array<Scalar, pairs> leverage{};  ///< M, lower triangle by rows; see pair()
-    Scalar largest_leverage{0};            ///< of a test on the fit; 0: not told
+    Scalar largest_leverage{0};            ///< of a test on the fit; 0: not given
 
-    /// Where M(row, column) stands in `leverage`; row ≥ column.
+    /// Place of M(row, column) in `leverage`; row ≥ column.
     static constexpr std::size_t pair(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
 };
 
@@ -122,14 +122,14 @@ struct RoughnessPrediction {
     Scalar high_um{0};
     Scalar leverage{0};        ///< h₀
     unsigned outside{0};       ///< bit j: variable j lies outside the range of the tests; see also hidden_extrapolation
-    unsigned range_untold{0};  ///< bit j: nobody told the range of variable j
+    unsigned range_untold{0};  ///< bit j: the range of variable j is not given
 
     /// Each variable is in its range, but no test had them together: h₀ is beyond that of any test.
     static constexpr unsigned hidden_extrapolation = 1U << static_cast<unsigned>(roughness_variable_count);
 
-    /// Within the fitted range, as far as it was told.
+    /// Within the fitted range, as far as it is given.
     [[nodiscard]] bool in_range() const { return valid && outside == 0U; }
-    /// Fit to act on: with an interval, and within a range that was told in full.
+    /// Good enough to act on: with an interval, and within a completely given range.
     [[nodiscard]] bool is_sure() const { return in_range() && has_interval && range_untold == 0U; }
 };
 
@@ -161,7 +161,7 @@ class RoughnessPredictor {
     }
 
     /// How fast to feed at most so that the upper bound of R stays at `limit_um` or below, with all but the feed as in
-    /// `cut`. Within the fitted feeds: what others would do to the surface nobody has measured.
+    /// `cut`. Within the fitted feeds: the effect of others on the surface was not measured.
     struct FeedCeiling {
         bool valid = false;      ///< feed_mm_rev is a ceiling
         bool reachable = false;  ///< a fitted feed keeps the limit; else feed_mm_rev is the lowest of them
@@ -169,7 +169,7 @@ class RoughnessPredictor {
         Scalar feed_mm_rev{0};
     };
 
-    /// No ceiling without an interval, without a told range of feeds, or where R does not grow with the feed (a₂ ≤ 0:
+    /// No ceiling without an interval, without a given range of feeds, or where R does not grow with the feed (a₂ ≤ 0:
     /// a slower feed would not help). Cost: 18 times 15 products and a root, and
     /// two predictions.
     [[nodiscard]] FeedCeiling feed_ceiling(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,

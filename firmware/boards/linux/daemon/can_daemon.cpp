@@ -169,7 +169,7 @@ firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
     return found;
 }
 
-/// With what was there within the last second: a condition that flutters is told once.
+/// Includes the conditions of the last second: one that comes and goes quickly is reported once.
 firmware::Conditions CanDaemon::recent(const firmware::Conditions& now, std::uint64_t now_us) {
     firmware::Conditions found;
     for (std::size_t k = 0; k < firmware::condition_count; ++k) {

@@ -15,7 +15,7 @@ class CanPort {
     virtual void poll(std::uint64_t now_us) = 0;
     [[nodiscard]] virtual bool receive(hal::CanFrame& frame, std::uint64_t& time_us) = 0;
     virtual void send(const hal::CanFrame& frame) = 0;
-    /// Until a frame is there, or the time is over.
+    /// Until a frame arrives, or the time is over.
     virtual void wait(std::uint64_t timeout_us) = 0;
 };
 

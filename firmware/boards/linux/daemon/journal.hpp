@@ -44,8 +44,8 @@ struct StatusEntry {
     LocalOutputHealth output{};
 };
 
-/// What a run leaves behind, written by a thread of its own: the real-time thread hands over without waiting. What did
-/// not fit is counted, told in the files at its place, and told at the end.
+/// The files of a run, written by a separate thread: the real-time thread hands over without waiting. Entries that did
+/// not fit are counted, noted in the files where they are missing, and reported at the end.
 class Journal {
   public:
     /// Opens the files; throws InputError.

@@ -46,7 +46,7 @@ std::string estimate_members(const EstimateEntry& entry, const estimation::Total
     return text + fmt::format(R"(,"digest":"{:016x}")", entry.digest);
 }
 
-/// Whether a drive is why a condition is there.
+/// Whether a drive is the cause of a condition.
 bool causes(const cia402::NodeHealth& drive, Condition condition) {
     using cia402::NodeState;
     switch (condition) {

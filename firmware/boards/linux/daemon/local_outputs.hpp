@@ -19,8 +19,9 @@ struct LocalOutputHealth {
     int error = 0;  ///< errno
 };
 
-/// The override as a voltage and on lines of this computer, beside the CAN frame; each where machine.toml has it. What
-/// each shows at a hold, a fault and a dead tick: drivers/README.md. One thread; no heap after construction.
+/// The override as a voltage and on lines of this computer, in addition to the CAN frame; each if machine.toml has it.
+/// drivers/README.md says what each shows on hold, on a fault and with a dead tick. One thread; no heap after
+/// construction.
 class LocalOutputs {
   public:
     /// Throws InputError: a path or a name that is too long.

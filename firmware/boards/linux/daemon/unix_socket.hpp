@@ -13,8 +13,8 @@ namespace millforce::host {
 /// A Unix socket of type SOCK_SEQPACKET that serves one peer after the other. A message is a whole message or none.
 class UnixServer {
   public:
-    /// Listens at the path, readable and writable for the user and the group. A socket that nobody serves any more is
-    /// replaced. Throws InputError: the path is too long, in use, or no socket can be made there.
+    /// Listens at the path, readable and writable for the user and the group. A socket left by a dead process is
+    /// replaced. Throws InputError if the path is too long or in use, or the socket cannot be created.
     explicit UnixServer(std::string path);
     ~UnixServer();
     UnixServer(const UnixServer&) = delete;
@@ -27,7 +27,7 @@ class UnixServer {
 
     /// Waits for the peer's next message; empty: the peer is gone, or a signal came.
     std::span<const std::uint8_t> receive();
-    /// A peer that does not take the message is dropped: nobody is waited for.
+    /// A peer that does not take the message is dropped: this never waits.
     void send(std::span<const std::uint8_t> bytes);
 
     /// SIGINT or SIGTERM came since the first server was made.

@@ -38,7 +38,7 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
     drives_.start();
     can_.start(wiring_.bit_rate, filters_);
     complete_us_ = now_us;
-    next_tick_us_ = now_us + period_us_;  // the first scans are there by then
+    next_tick_us_ = now_us + period_us_;  // the first scans are complete by then
     if (report.parameters != firmware::BlockError::none) {
         output_.fault = static_cast<std::uint8_t>(control::Fault::bad_configuration);
         output_.state = static_cast<std::uint8_t>(control::CutState::fault);

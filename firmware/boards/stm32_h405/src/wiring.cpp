@@ -24,7 +24,7 @@ void connect_pins(stm32::GpioRegisters& a, stm32::GpioRegisters& b, stm32::GpioR
     for (unsigned pin = 0; pin < 4U; ++pin) {
         stm32::set_analogue(c, pin);
     }
-    // Pulled up: a broken wire of an encoder stands still.
+    // Pulled up: an encoder with a broken wire shows a constant count.
     stm32::set_alternate_function(a, 5, tim1_tim2, Pull::up);
     stm32::set_alternate_function(b, 3, tim1_tim2, Pull::up);
     stm32::set_alternate_function(b, 10, tim1_tim2, Pull::down);

@@ -26,19 +26,19 @@
 /// What the tick sees depends on the received frames, their times, and the order of frames and added samples alone: the
 /// same of these give the same estimates, bit for bit, however late they were fetched and however often poll() came. So
 /// that this holds by construction, the clock of poll() decides nothing that the tick sees: time passes with the frames
-/// of filters(), to which this controller's own override and heartbeat belong. What is due before a frame's time is
-/// done before the frame is looked at. A cycle begins when the own SYNC comes back from the bus, at its time, and the
-/// run begins, or begins anew, when the own boot-up comes back; it is repeated until then.
+/// of filters(), which include this controller's own override and heartbeat. What is due before a frame's time is done
+/// before the frame is processed. A cycle begins when the controller's SYNC comes back from the bus, at its time, and
+/// the run begins, or begins again, when its boot-up comes back; the boot-up is repeated until then.
 ///
-/// Where no frame comes at all, not even an own one, no override could reach the CNC by the bus either. After `stale_s`
-/// by the clock of poll() the override says hold, with a counter that stands still; when frames come again the tick
-/// finds the gap in their times, and its fault is latched.
+/// If no frame comes at all, not even one of this controller, no override could reach the CNC over the bus either.
+/// After `stale_s` by the clock of poll() the override says hold, with a constant counter; when frames come again the
+/// tick finds the gap in their times, and its fault is latched.
 ///
 /// Supervision. A sample is complete where every configured drive, and what is beside the bus, told everything. The
 /// tick begins with the first complete one and sees complete ones only; what lacks something is left out. After five
-/// SYNC periods without a complete one the tick runs on without: nothing speeds up then, and after the CNC's `stale_s`
-/// it faults and holds the feed. A drive in fault or quick stop, and a CNC that fell silent, hold the feed as long as
-/// they do. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
+/// SYNC periods without a complete one the tick continues without: the feed is not raised then, and after the CNC's
+/// `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the CNC
+/// is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
@@ -54,7 +54,7 @@ struct CanControllerSettings {
 
 class CanController;
 
-/// Is told of each tick as soon as it has run, from within on_frame() and poll().
+/// Called after each tick, from within on_frame() and poll().
 class TickListener {
   public:
     virtual void on_tick(const CanController& controller) = 0;
@@ -80,7 +80,7 @@ class CanController {
     /// the estimates do not depend on when it was done.
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
     void work() { tick_.work(); }
-    /// From the next tick on and as long as it is asked for the override says hold. The tick does not see it.
+    /// From the next tick on, and while this is requested, the override says hold. The tick does not see it.
     void hold_from_outside(bool is_held) { is_held_outside_ = is_held; }
     /// No more ticks nor SYNC: the override says hold at once, and the heartbeat `stopped` a little later.
     void stop(std::uint64_t now_us);
@@ -94,7 +94,7 @@ class CanController {
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
     [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
-    /// The output as the CNC is told it: with the holds that are none of the tick's.
+    /// The output as it is sent to the CNC: with the holds that do not come from the tick.
     [[nodiscard]] hal::FeedOverride told() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
     [[nodiscard]] TickRecord record() const { return tick_record(tick_, output_, tick_time_us_); }
@@ -125,7 +125,7 @@ class CanController {
     CanControllerSettings settings_;
     Parameters<float> parameters_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
-    bool is_running_;         ///< the own boot-up was on the bus
+    bool is_running_;         ///< this controller's boot-up was on the bus
     bool was_heard_ = false;  ///< a frame came since the last poll()
     bool has_begun_ = false;  ///< a complete sample came
     bool is_silent_ = false;

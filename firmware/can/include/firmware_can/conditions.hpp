@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What is wrong, or not yet right, by name. Nothing here latches: a condition is there as long as its cause.
+/// What is wrong, or not yet right, by name. Nothing here latches: a condition lasts as long as its cause.
 
 namespace millforce::firmware {
 
@@ -21,13 +21,13 @@ enum class Condition : std::uint8_t {
     drive_preparing,       ///< is asked or written to, or waited for
     drive_refused,         ///< refused an SDO transfer
     drive_lost,            ///< its heartbeat stays away
-    drive_not_enabled,     ///< its statusword tells a fault or a quick stop: the feed is held
+    drive_not_enabled,     ///< its statusword shows a fault or a quick stop: the feed is held
     drive_emergency,       ///< its last EMCY is an error
-    drive_units_disagree,  ///< velocity and position tell different speeds
+    drive_units_disagree,  ///< velocity and position give different speeds
     input_incomplete,      ///< the last sample lacks a quantity of a drive
     input_stale,           ///< no complete sample for so long that the tick faults
-    program_unknown,       ///< the CNC has not told its status: the override stays where it is
-    program_silent,        ///< the CNC told its status and stopped: the feed is held
+    program_unknown,       ///< the CNC has not sent its status: the override stays where it is
+    program_silent,        ///< the CNC sent its status and then stopped: the feed is held
     local_input_failed,    ///< a converter or counter of this computer is absent, unreadable or silent
     local_output_failed,   ///< the override does not reach this computer's converter or lines: it says hold everywhere
 };

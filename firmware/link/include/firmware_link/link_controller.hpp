@@ -12,8 +12,8 @@
 /// out. One instance per connection.
 ///
 /// Only the samples' own time counts: the same messages give the same answers, bit for bit, however late they
-/// come. So it does not know that samples stay away; who is at the other end watches the answers' heartbeat. A gap in
-/// the samples' time (the bridge dropped some) breaks the averages, and beyond the CNC's `stale_s` it is the
+/// come. So it does not notice missing samples; the other end watches the heartbeat of the answers. A gap in the
+/// samples' time (the bridge dropped some) breaks the averages, and beyond the CNC's `stale_s` it is the
 /// fault `stale_input`.
 ///
 /// A fault is latched until a sample with a reset comes, after one without, with all axes at rest.
@@ -27,7 +27,7 @@ class LinkController {
     /// `largest_override`: what the CNC's input takes; caps the machine's override_max.
     LinkController(const Parameters<float>& parameters, float largest_override);
 
-    /// `answer` is written where the bytes are sound.
+    /// `answer` is written if the bytes are valid.
     [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
                                                       local_link::OverrideBytes& answer);
 

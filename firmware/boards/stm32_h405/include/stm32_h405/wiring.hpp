@@ -11,7 +11,7 @@
 #include "stm32/current_scan.hpp"
 #include "stm32/registers.hpp"
 
-/// What is connected to the board's pins, and what it measures. Another sensor or scale is another value here.
+/// What is connected to the board's pins, and what it measures. For another sensor or scale, change the values here.
 ///
 /// | pin | what | peripheral |
 /// |---|---|---|

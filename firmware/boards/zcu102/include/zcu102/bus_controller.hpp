@@ -26,8 +26,8 @@ constexpr cia402::PdoMapping pdo_with(std::initializer_list<cia402::MappedObject
 }
 }  // namespace detail
 
-/// What the PDOs of the drives carry, which a parameter block does not hold: that of
-/// sim/scenarios/machines/vmc.toml. Another mapping is another value here.
+/// What the PDOs of the drives carry, which a parameter block does not hold: that of sim/scenarios/machines/vmc.toml.
+/// For another mapping, change it here.
 inline constexpr firmware::BusObjects bus_objects = [] {
     using detail::pdo_with;
     firmware::DriveObjects spindle{.count = {0x6064, 0}, .index_count = {0x60BA, 0}, .index_number = {0x60D5, 0}};
@@ -44,7 +44,7 @@ struct Peripherals {
     zynqmp::ErrorRegisters& errors;
 };
 
-/// Not short, since the CNC stops the feed by itself after 20 ms of silence; longer than the longest work beside the
+/// Not short, since the CNC stops the feed by itself after 20 ms of silence; longer than the longest work outside the
 /// tick, the fit of a flute profile (estimation/depth_shape/flute_profile_fit.hpp).
 inline constexpr std::uint32_t watchdog_us = 200'000;
 inline constexpr std::uint32_t watchdog_clock_MHz = 100;
@@ -55,8 +55,9 @@ inline constexpr std::uint32_t watchdog_clock_MHz = 100;
 /// One thread.
 ///
 /// The first healthy tick starts the watchdog, and healthy ticks feed it: the heartbeat went on and the ratio is within
-/// the limits. Frames drive the ticks. Where none passes for 5 ms, not even an own one, no tick is due, and polling
-/// feeds: a reset would not bring the bus back. A ratio beyond the limits holds the feed until the reset.
+/// the limits. Frames drive the ticks. If none passes for 5 ms, not even one of this controller, no tick is due, and
+/// polling feeds the watchdog: a reset would not bring the bus back. A ratio beyond the limits holds the feed until the
+/// reset.
 ///
 /// | what happens | on the bus, from emergency/emergencies.hpp |
 /// |---|---|
@@ -90,7 +91,7 @@ class BusController {
     firmware::CanController controller_;
     float largest_ratio_;
     std::uint64_t on_bus_us_ = 0;  ///< last time that the controller was not off the bus
-    std::uint64_t heard_us_ = 0;   ///< of the newest frame, own ones too
+    std::uint64_t heard_us_ = 0;   ///< time of the newest frame, including those sent
     bool has_sent_ = false;        ///< the boot-up comes before any emergency
     std::uint32_t healthy_ticks_ = 0;
     std::uint32_t bus_offs_ = 0;
