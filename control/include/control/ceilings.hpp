@@ -10,17 +10,16 @@
 /// The ceilings of the override. Each says how fast the feed may be for one reason, and the lowest wins; its Limit is
 /// the reason that is shown. f_z: feed per tooth, z: teeth, n: revolutions per second, F: the programmed feed.
 ///
-///   air        f_z,air z n/F · F/F_highest: the tool may meet the workpiece at any moment, and the next block's F acts
-///              at once, the override on it only after the latency. Also while the tool plunges (limit entry_feed, and
-///              at most 1): the law does not describe that.
+///   air        f_z,air z n/F · F/F_highest: the tool may meet the workpiece at any moment, and a new block's F acts at
+///              once, but the override reacts only after the latency. Also while the tool plunges (limit entry_feed,
+///              and at most 1): the law does not describe that.
 ///   entry      the larger of f_z,entry z n/F and, behind a gap in a cut, the override that the tool came with
 ///   exit       the override that contact was lost with
 ///   feed per tooth   f_z,max z n/F: what edge and chip space allow
 ///   force      the demand of the law (feed_law.hpp)
 ///   surge      the override at which a surge to surge_radial_immersion would reach surge_share of the limit, by the
-///   law
-///              with F · surge_ratio. While the cut grows, the surge is under way: then also the override at the last
-///              estimate before the growth, until it is over (cut_trend.hpp).
+///              law with F · surge_ratio. While the cut grows, the surge is under way: then also the override at the
+///              last estimate before the growth, until it is over (cut_trend.hpp).
 ///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way
@@ -30,8 +29,8 @@
 /// cut without a tooth force, without a prediction of R_a that is asked for, and in state hold. In a cut that fades it
 /// is one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
 ///
-/// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. What has to stand from one estimate
-/// to the next is a named member, override_before_growth_ for instance: the override at that moment.
+/// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. State kept until the next estimate
+/// has its own named member, override_before_growth_ for instance: the override at that moment.
 ///
 /// The result is within [override_min, override_max]. A ceiling that is NaN counts as 0. Cost: some 60 operations, six
 /// divisions; at a fresh estimate two of the law's override_for. Not thread-safe.

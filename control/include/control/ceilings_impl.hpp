@@ -124,7 +124,7 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest(const Parameters& parameters, const Con
     return lowest;
 }
 
-/// The present override comes last: it is the reason only where it is lower than all that the feed has reached.
+/// The present override comes last, so it is reported as the limit only if it is lower than every other ceiling.
 template <typename Scalar>
 Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
                                                  const Situation& situation) const {

@@ -17,8 +17,8 @@
 /// Watches, each latched as a fault:
 ///   stale_input      no drive sample for longer than stale_s, or of unknown age (NaN), in any state
 ///   spindle_stopped  in entry or in_cut, the axes moving, the spindle at rest for longer than stale_s
-///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions, by estimates alone: a
-///                    bound or a guess is none. Not in monitor_only.
+///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions, judged on estimates
+///                    only; bounds and guesses do not count. Not in monitor_only.
 ///
 /// Forces in N, ≥ 0; times in s, travel in mm, both as StepMotion has made them finite. A NaN in a force compares as
 /// false: neither contact nor lost contact nor overload. Cost: some 40 operations. Not thread-safe.
@@ -37,8 +37,7 @@ class CutStates {
 
     [[nodiscard]] CutState state() const { return state_; }
     [[nodiscard]] Fault fault() const { return fault_; }
-    /// The tool has been in_cut since it was last in air: what it meets next was cut before, at a feed that it
-    /// survived.
+    /// The tool has been in_cut since it was last in air, so it has already survived a cut at this feed.
     [[nodiscard]] bool has_cut() const { return has_cut_; }
 
   private:

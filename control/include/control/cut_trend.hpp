@@ -14,9 +14,9 @@
 ///   S̄ ← S̄ + (S − S̄) s/(s + L),   falling: S < S̄ (1 − 8 %) − 2 σ_S,   rising: S > S̄ (1 + 8 %) + 2 σ_S
 ///
 /// s: travel since the last estimate, L = 1 mm the length of the memory: a change of some 8 % per mm is the slowest
-/// that counts, and a ramp in depth is none. The cut is fading from a fall until it has travelled L without one. A fall
-/// by more than a fifth at once is a step, and the memory starts over at the new section. The cut is growing from a
-/// rise that follows on a calm travel of L/4 until the next such travel.
+/// that counts, and a ramp in depth is none. Fading lasts from a fall until L is travelled without another. A fall by
+/// more than a fifth at once is a step, and the memory starts over at the new section. Growing starts with a rise after
+/// at least L/4 without one, and ends after L/4 without a rise.
 ///
 /// Section in any unit, > 0: others, and NaN, are left out. Travel in mm, ≥ 0. Cost: some 20 operations and a division
 /// per estimate. Not thread-safe.

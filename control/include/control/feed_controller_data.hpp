@@ -22,7 +22,7 @@ struct FeedControllerParameters {
     Scalar caution_sd{Scalar(0.75F)};  ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{literal<Scalar>(0.1L)};
     Scalar override_max{Scalar(1.5F)};
-    Scalar recovery_per_rev{Scalar(0.25F)};                  ///< share of the way up that one revolution goes
+    Scalar recovery_per_rev{Scalar(0.25F)};                  ///< fraction of the remaining rise taken per revolution
     Scalar slew_up_per_s{2};                                 ///< largest rise of the override per second
     Scalar slew_down_per_s{40};                              ///< largest fall
     Scalar entry_feed_per_tooth_mm{literal<Scalar>(0.05L)};  ///< ceiling from contact until there is an estimate

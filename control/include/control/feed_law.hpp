@@ -44,8 +44,7 @@ class FeedLaw {
     /// Begins at `override_ratio`, within the override's range.
     explicit FeedLaw(Scalar override_ratio) : override_ratio_(override_ratio) {}
 
-    /// What the feed is to make of a force: at the measured feed it would be `force_N`, it shall be `share_of_limit`
-    /// of F_tooth,max.
+    /// The force that is `force_N` at the measured feed is to become `share_of_limit` × F_tooth,max.
     struct Target {
         Scalar share_of_limit{1};
         Scalar force_N{0};

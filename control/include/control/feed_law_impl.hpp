@@ -56,8 +56,8 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
     }
 }
 
-/// Ignorance alone asks for no less than the entry feed, the feed that is safe whatever the tool meets. Only the force
-/// that is there at least can.
+/// Uncertainty alone never pushes the demand below the entry feed, which is safe whatever the tool meets; only the
+/// smallest force that must be present can.
 template <typename Scalar>
 Scalar FeedLaw<Scalar>::not_below_entry_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
                                              Scalar demand) {

@@ -12,8 +12,8 @@
 ///   slowed  the axes slow down to less than 60 % of what override and program ask for: a CNC brakes before a corner,
 ///           and so announces it before it comes. They count as up to speed again from 80 %.
 ///
-/// Teeth that pass more slowly than a drive's velocity loop settles (15 ms) shake the axes, each of them: the
-/// velocities are averaged over twice what their period has beyond that.
+/// If the tooth period is longer than a drive's velocity loop takes to settle (15 ms), each tooth shakes the axes. The
+/// velocities are then low-passed; the time constant is twice the part of the tooth period above 15 ms.
 ///
 /// Speeds in mm/s, of any sign; below 0.5 mm/s there is no direction. A NaN or an infinite velocity is no turn and is
 /// not kept. Cost: some 40 operations, up to three divisions. Not thread-safe.

@@ -17,7 +17,7 @@ bool PathTurn<Scalar>::update(const Motion& motion) {
     return turned || slowed;
 }
 
-/// A value that is not finite passes through and does not stay.
+/// A non-finite input becomes the average once; the next finite one replaces it.
 template <typename Scalar>
 static void move_towards(Scalar now, Scalar share, Scalar& average) {
     const Scalar next = average + (now - average) * share;

@@ -59,9 +59,9 @@ class CutEstimator {
     /// The encoder failed or the samples stopped: forgets the cut, keeps what was learnt in air.
     void restart();
 
-    /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. It is done
-    /// with the window one revolution ago: the first contact must not be taken for drift before it is known as contact.
-    /// Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
+    /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. Uses the
+    /// window from one revolution earlier, so that first contact is not taken for drift. Call once per new estimate
+    /// while in air; leave_air() when that ends. Returns whether it was done.
     bool rezero();
     void leave_air();
     /// In the mean of the window no axis moved: nothing can be cut.

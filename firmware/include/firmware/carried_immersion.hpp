@@ -7,9 +7,9 @@ namespace millforce::firmware {
 
 /// The immersion from force drops, carried from the revolutions of the drops to the present cut.
 ///
-/// What the section (width × depth) has grown by since then may be width or depth: the width takes the share that it
-/// had of the growth between the last two drops, and the immersion is as doubtful as if all shares were evenly likely.
-/// After a growth by half the drops say nothing of the present cut.
+/// What the section (width × depth) has grown by since then may be width or depth: the growth is split as it was
+/// between earlier drop estimates, of which the last two count half, and the immersion is as uncertain as if every
+/// split were equally likely. After a growth by half the drops say nothing of the present cut.
 template <typename Scalar>
 class CarriedImmersion {
   public:

@@ -18,8 +18,7 @@
 ///   16      4      CRC-32 of the values
 ///   20      4      CRC-32 of the header up to here
 ///   24      4 n    the values as IEEE 754 float; a flag as 0 or 1, an enumeration as its index. PDO mappings, which
-///   are
-///                  texts, are not in it
+///                  are texts, are not in it
 ///
 /// A block that another version of the table has made is refused, not guessed at; so is one with a value out of its
 /// range. The bytes may come from anywhere.

@@ -42,7 +42,7 @@ void SurfaceMonitor<Scalar>::set_ceiling(const estimation::CutEstimate<Scalar>& 
     const auto ceiling = model_.feed_ceiling(cut, e.feed_N, e.z_N, Ra_limit_um_);
     for_control_.valid = ceiling.valid;
     for_control_.in_range = ceiling.in_range;
-    // Where even the lowest fitted feed is too fast, it is no reason to speed up towards it.
+    // If even the lowest fitted feed is too fast, do not raise a slower feed up to it.
     const bool is_below = !ceiling.reachable && cut[estimation::roughness_feed] < ceiling.feed_mm_rev;
     for_control_.feed_ceiling_mm_s = turns_per_s * (is_below ? cut[estimation::roughness_feed] : ceiling.feed_mm_rev);
 }

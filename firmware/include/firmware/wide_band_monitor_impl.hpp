@@ -109,8 +109,7 @@ void WideBandMonitor<Scalar>::evaluate_depths() {
     depth_travel_ = {};
 }
 
-/// An estimate is followed by the next one as soon as the spindle has turned on as far; one that is not has been
-/// overtaken: samples are missing, or the spindle stands.
+/// An estimate expires if no new one has followed after twice its number of revolutions: samples are missing.
 template <typename Scalar>
 void WideBandMonitor<Scalar>::drop_outdated() {
     constexpr Scalar late{2};

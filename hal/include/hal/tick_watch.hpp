@@ -13,7 +13,7 @@ namespace millforce::hal {
            !(feed_override.ratio - feed_override.ratio == 0.0F);
 }
 
-/// Whether a tick may feed a watchdog, once its heartbeat has gone on.
+/// Whether a tick may feed a watchdog, once its heartbeat has advanced.
 [[nodiscard]] constexpr bool is_within_limits(const FeedOverride& feed_override, float largest_ratio) {
     return feed_override.ratio >= 0.0F && feed_override.ratio <= largest_ratio;
 }

@@ -49,7 +49,7 @@ void EngagementPeaks<Scalar>::take_place(const EngagementEstimate<Scalar>& found
         side_ = found.side;
         last_depth_mm_ = found.depth_valid ? found.axial_depth_mm : last_depth_mm_;
     }
-    // However doubtful: it is the depth that goes with the immersion.
+    // Use this depth even if uncertain: it was solved together with the immersion.
     const bool has_depth = found.immersion_valid && found.axial_depth_mm > Scalar(0);
     const Scalar usual_mm = last_depth_mm_ > Scalar(0) ? last_depth_mm_ : largest_depth_mm_;
     depth_mm_ = has_depth ? found.axial_depth_mm : usual_mm;

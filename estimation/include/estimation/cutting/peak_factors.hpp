@@ -42,7 +42,7 @@ struct PeakFactors {
     [[nodiscard]] Scalar threshold_factor() const { return total / tooth; }
 };
 
-/// What an edge sweeps at least: with less, the force of a straight edge is that of its limit and not 0/0.
+/// Smallest sweep used; it gives a straight edge its limiting force instead of 0/0.
 template <typename Scalar>
 inline constexpr Scalar straight_sweep_rad = literal<Scalar>(0.001L);
 

@@ -91,7 +91,7 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
         // load one tooth most. Where even that is far from the limit, the force is known well enough.
         bound_by(factors.bound);
     } else if (!cut.solved && !e.x_N.valid && !e.y_N.valid) {
-        // Axes too slow to show a force would stay so for ever without a bound: the narrowest and shallowest cut.
+        // Without a bound, axes too slow to show a force would never speed up; assume the narrowest, shallowest cut.
         bound_by(factors.narrowest);
     }
 }
@@ -104,7 +104,7 @@ Scalar ToothForce<Scalar>::runout_factor(Scalar feed_per_tooth_mm) const {
     if (!(runout_mm_ > Scalar(0)) || !(feed_per_tooth_mm > Scalar(0))) {
         return Scalar(1);
     }
-    // More than all teeth's chips one tooth cannot take.
+    // One tooth cannot take more than the chips of all teeth together.
     const Scalar chip = clamp(Scalar(1) + runout_mm_ / feed_per_tooth_mm, Scalar(1), teeth_);
     return exp(force_exponent_ * log(chip));
 }

@@ -15,7 +15,7 @@
 /// stretches of the rotation that lie one tooth pitch φ_N apart, over whole revolutions. What remains is one profile
 /// over one pitch.
 ///
-/// Of F_x and F_y it is free of runout: a tooth that stands out takes from the next one what it cuts too much, and the
+/// Of F_x and F_y it is free of runout: what a protruding tooth cuts in excess, the next tooth does not cut, and the
 /// sum of the chips at one angle stays that of equal teeth. It holds exactly for the part of the force that is linear
 /// in the chip thickness, as long as any tooth cuts there. Of the resultant |F| (the paper's signal) it holds to first
 /// order only, for a magnitude is not linear: average the components where both are known.
@@ -172,10 +172,9 @@ struct ProfileSpectrum {
     int highest = Harmonics;  ///< above it the samples do not tell a harmonic from its aliases
 };
 
-/// Channels 0 and 1 are F_x and F_y. What the bins' width and the straight lines between samples take from a
-/// harmonic, sinc(πk/Bins) and sinc²(πk/samples per pitch), is given back; harmonics of fewer than 2.2 samples per
-/// period are marked as not told (an average without samples_per_pitch is taken to be fine enough). Cost:
-/// 4·Harmonics·Bins products.
+/// Channels 0 and 1 are F_x and F_y. Attenuation from bin width and interpolation, sinc(πk/Bins) and sinc²(πk/samples
+/// per pitch), is corrected. Harmonics with fewer than 2.2 samples per period lie above `highest` (an average without
+/// samples_per_pitch is taken to be fine enough). Cost: 4·Harmonics·Bins products.
 template <int Harmonics, typename Scalar, int Channels, int Bins>
 ProfileSpectrum<Scalar, Harmonics> profile_spectrum(const FluteAverage<Scalar, Channels, Bins>& average) {
     static_assert(Channels >= 2);

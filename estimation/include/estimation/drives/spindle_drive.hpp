@@ -98,7 +98,7 @@ class SpindleDrive {
     }
 
     /// Of the torque times `unit`. The unit goes in before the square: that of a small spindle's torque in N·m, 1e-10,
-    /// is at the end of fixed point's digits.
+    /// is at the limit of fixed-point resolution.
     [[nodiscard]] Scalar noise_variance(const Average& average, Scalar unit) const {
         const Scalar sd = torque_constant_Nm_per_A(average.speed_rad_s) * parameters_.current_sd_A * unit;
         return square(sd) / average.samples + square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;

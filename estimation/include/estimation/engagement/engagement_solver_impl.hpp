@@ -313,7 +313,7 @@ std::size_t EngagementSolver<Scalar, Nodes>::high_end(Search& s) const {
     return high + 1 < nodes ? last_inside(s, high, high + 1) : high;
 }
 
-/// Of a node and the next one outwards, where the scan has left that out.
+/// Returns the next node outwards if the scan skipped it and it lies inside the interval, else this node.
 template <typename Scalar, int Nodes>
 std::size_t EngagementSolver<Scalar, Nodes>::last_inside(Search& s, std::size_t node, std::size_t next) const {
     if (!s.is_inside(node) || s.J_[next] != detail::J_not_known<Scalar>) {

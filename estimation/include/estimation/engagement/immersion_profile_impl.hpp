@@ -48,8 +48,8 @@ typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::
             Scalar(1) / (force_N.variance + by_r_1)};
 }
 
-/// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the factor is known as well
-/// as both are.
+/// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the relative variance of
+/// this term is the sum of both.
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::of_declared_depth(
     Scalar ln_t_in_references) const {

@@ -6,8 +6,8 @@
 
 namespace millforce::estimation {
 
-/// 95 % of a normal distribution: deviations on each side of the mean, its whole width in deviations, and what a sum of
-/// squares in deviations exceeds its least by (χ² of one degree of freedom).
+/// 95 % of a normal distribution: deviations on each side of the mean, its whole width in deviations, and the rise of
+/// χ² above its minimum (one degree of freedom).
 template <typename Scalar>
 inline constexpr Scalar deviations_of_95_percent = literal<Scalar>(1.96L);
 template <typename Scalar>

@@ -20,10 +20,10 @@
 /// cut is needed; the feed per tooth is, for the edge force is a share that depends on it (force_drop_law.hpp).
 ///
 /// The chain: RevolutionProfile (angle-synchronous mean) → ForceDropDetector (the jump, free of the low-pass) →
-/// ForceDropImmersion (the two equations). Between two teeth, where
-/// none is in cut, the sensor's zero is read and taken off the averages (AirGap). Where the other edge of the cut falls
-/// into the window of the jump, its share is worked out for each immersion that is tried and taken off the signal, and
-/// the immersion is sought that comes out as it was put in and leaves the least of the signal unexplained.
+/// ForceDropImmersion (the two equations). Between two teeth, where none is in cut, the sensor's zero is read and taken
+/// off the averages (AirGap). Where the other edge of the cut falls into the window of the jump, its share is worked
+/// out for each immersion that is tried and taken off the signal; the solution is the immersion that reproduces itself
+/// and leaves the least of the signal unexplained.
 ///
 /// Where this differs from print:
 ///  - Eq. 6 by the two-argument arctangent: tan⁻¹ fails past 90°.

@@ -296,8 +296,9 @@ class ForceDropImmersion {
         return in;
     }
 
-    /// r_av as measured, drawn towards the calibration's mean as far as it is known worse than it varied there. The
-    /// variance is what remains of it beyond the measured forces' own, which propagate() counts.
+    /// r_av as measured, shrunk towards the calibration mean, the more so the larger its uncertainty is against the
+    /// calibration's spread. The variance is what remains of it beyond the measured forces' own, which propagate()
+    /// counts.
     [[nodiscard]] Measurement<Scalar> likely_r_av(const ForceDropRatios<Scalar>& ratios,
                                                   const ForceDropMeasurement<Scalar>& m) const {
         const Scalar spread = square(law_.r_av_sd);

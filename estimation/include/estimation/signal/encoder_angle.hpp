@@ -22,7 +22,7 @@ struct EncoderReading {
     Scalar turned_rev{0};  ///< since the last accepted reading, in revolutions, ≥ 0
     Scalar angle_rev{0};   ///< after it, 0…1 from the index (from the first reading where no index is wired)
 
-    /// No average reaches from before it to behind it.
+    /// No average may span this reading.
     [[nodiscard]] bool is_break() const { return event > EncoderEvent::standstill; }
 };
 

@@ -23,8 +23,8 @@ template <typename Scalar>
 /// Forces of earlier revolutions are carried to the present feed, F ∝ f^m, and averaged with the present ones. The
 /// memory fades with disagreement: a force within two standard deviations of its noise leaves it whole, one at four
 /// deviations or a feed in another direction leaves nothing, and it starts again: no lag after a change, little noise
-/// without one. In between it fades by the square, so that no last digit decides. Only noise shrinks by averaging; what
-/// is common to all windows (gain, friction, drift) stays whole.
+/// without one. In between it fades quadratically, so rounding cannot tip the result. Only noise shrinks by averaging;
+/// what is common to all windows (gain, friction, drift) stays whole.
 template <typename Scalar>
 class ForceMemory {
   public:

@@ -145,7 +145,8 @@ class FluteSpectrumFit {
 
   private:
     static constexpr int linear = 2 * static_cast<int>(Model::laws);
-    /// Residuals far below the assumed errors are luck as well: two minima must differ by more than this allows.
+    /// Very small residuals can be chance, so the residual variance has a floor: two minima must differ by more than
+    /// this allows.
     static constexpr Scalar smallest_residual_variance = literal<Scalar>(0.03L);
     static constexpr Scalar condition_limit = Scalar(1e6F);
     using LinearFit = LeastSquares<Scalar, linear>;
