@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "cutting/angle_units.hpp"
 
 namespace millforce::sim {
 
 namespace {
-
-constexpr double turn_rad = 2.0 * std::numbers::pi;
 
 std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
     if (scenario.has_program()) {
@@ -27,8 +26,8 @@ MillingPlant::MillingPlant(const Scenario& scenario)
       machine_(scenario_.machine),
       cutting_(scenario_.cutter, scenario_.coefficients, scenario_.cutting_options),
       workpiece_(workpiece_of(scenario)),
-      since_tooth_before_(turn_rad / static_cast<double>(scenario.cutter.teeth)),
-      since_last_revolution_(turn_rad),
+      since_tooth_before_(turn / static_cast<double>(scenario.cutter.teeth)),
+      since_last_revolution_(turn),
       judge_(scenario_) {}
 
 void MillingPlant::start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s) {
@@ -70,7 +69,7 @@ void MillingPlant::cut(double dt_s, double feed_per_tooth_mm) {
         return;
     }
     const double turned_rad = speed * dt_s;
-    const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * std::numbers::pi / 180.0))));
+    const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * degree))));
     for (int k = 0; k < points; ++k) {
         const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
         const CuttingLoad part =

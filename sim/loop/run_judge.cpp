@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "cutting/angle_units.hpp"
 
 namespace millforce::sim {
 
 namespace {
 
 constexpr double band = 1.96;
-constexpr double turn_rad = 2.0 * std::numbers::pi;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void RunJudge::observe(double dt_s, const Motion& motion, const CuttingLoad& loa
     if (truth.cutting) {
         section_mm2_ = std::max(section_mm2_, truth.radial_immersion * radius_mm_ * truth.axial_depth_mm);
     }
-    if (revolution_rad_ >= turn_rad) {
+    if (revolution_rad_ >= turn) {
         close_revolution(truth.cutting);
     }
 }
@@ -101,7 +101,7 @@ void RunJudge::follow(double time_s, const hal::FeedOverride& output, const Over
     if (output.fault != 0) {
         result_.figures.fault = control::name(static_cast<control::Fault>(output.fault));
     }
-    if (interval_s_ >= trace_interval_s && interval_angle_rad_ >= turn_rad) {
+    if (interval_s_ >= trace_interval_s && interval_angle_rad_ >= turn) {
         close_interval(time_s, output, controller);
     }
 }

@@ -19,7 +19,7 @@ constexpr double most_steps = 1e6;  // of a sloping way: more than any machine's
 constexpr std::uint8_t whole = 255;
 
 std::uint8_t in_steps(double share) {
-    return static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0) + 0.5);
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
 /// Share of the cell about `centre` (of unit width) between two borders.

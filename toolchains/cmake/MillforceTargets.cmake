@@ -92,6 +92,10 @@ function(millforce_host_library prefix folder)
         set(hot HOT)
     endif()
     millforce_host_optimisation(${target} ${hot})
+    if(NOT MILLFORCE_TIDY)
+        # Most of a source's compile time goes into its headers: eight sources of a folder share them.
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    endif()
 endfunction()
 
 # millforce_host_optimisation(<target> [HOT])
