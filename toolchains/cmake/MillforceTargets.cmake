@@ -45,6 +45,14 @@ function(millforce_target_warnings target)
         $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>)
 endfunction()
 
+# Most of a source's compile time goes into its headers: up to eight sources of a folder share them. The preset `tidy`
+# joins whole folders.
+function(millforce_joined_sources target)
+    if(NOT CMAKE_UNITY_BUILD)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    endif()
+endfunction()
+
 # millforce_core(<folder> SOURCES ... LINKS ...)
 function(millforce_core target)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
@@ -57,6 +65,8 @@ function(millforce_core target)
     add_dependencies(${target} core_rules)
     if(CMAKE_CROSSCOMPILING)
         set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)  # only what an image or a test links
+    else()
+        millforce_joined_sources(${target})
     endif()
 endfunction()
 
@@ -92,10 +102,7 @@ function(millforce_host_library prefix folder)
         set(hot HOT)
     endif()
     millforce_host_optimisation(${target} ${hot})
-    if(NOT MILLFORCE_TIDY)
-        # Most of a source's compile time goes into its headers: eight sources of a folder share them.
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    endif()
+    millforce_joined_sources(${target})
 endfunction()
 
 # millforce_host_optimisation(<target> [HOT])
