@@ -91,6 +91,17 @@ TEST(SpindleDrive, does_not_take_an_inertia_that_is_off_for_idle_torque_while_it
     CHECK(std::abs(drive.drift_Nm()) < 0.02);
 }
 
+TEST(SpindleDrive, does_not_learn_a_dead_current_as_idle_torque) {
+    SpindleDrive<double> drive(paper_spindle());  // idle torque known to 0.2 N·m of 7.6 N·m
+    drive.rezero(at_current(0.0));
+    CHECK(drive.is_implausible());
+    DOUBLES_EQUAL(0.0, drive.drift_Nm(), 1e-12);
+    CHECK_FALSE(drive.tangential_force_N(at_current(15.0), 4.0).valid);
+    drive.rezero(at_current(9.8));
+    CHECK_FALSE(drive.is_implausible());
+    CHECK(drive.tangential_force_N(at_current(15.0), 4.0).valid);
+}
+
 TEST(SpindleDrive, has_no_estimate_without_current_or_rotation) {
     const SpindleDrive<double> drive(paper_spindle());
     auto absent = at_current(12.0);
@@ -140,6 +151,20 @@ TEST(FeedDrive, learns_twenty_percent_more_friction_in_air_and_nearly_so_much_fo
     // The other direction was not travelled: it follows as far as the two belong together.
     DOUBLES_EQUAL(1.19, axis.friction_scale(false), 0.003);
     DOUBLES_EQUAL(0.0, axis.force_N(moving(10.0, 1.2 * friction - 5.39)).value, 3.0);
+}
+
+TEST(FeedDrive, does_not_learn_a_reversed_current_or_the_friction_of_another_machine) {
+    const auto p = paper_axis();
+    const double friction_A = p.positive.at(0.6) + p.K_x3_A;
+    for (const double scale : {-1.0, 0.0, 3.0, 10.0}) {
+        FeedDrive<double> drive(p);  // friction known to 20 %
+        drive.rezero(moving(10.0, p.gravity_A + scale * friction_A));
+        CHECK(drive.is_implausible());
+        DOUBLES_EQUAL(1.0, drive.friction_scale(true), 1e-12);
+        CHECK_FALSE(drive.force_N(moving(10.0, 20.0)).valid);
+        drive.rezero(moving(10.0, p.gravity_A + 1.2 * friction_A));
+        CHECK(drive.force_N(moving(10.0, 20.0)).valid);
+    }
 }
 
 TEST(FeedDrive, takes_the_moved_mass_out) {

@@ -76,7 +76,7 @@ TEST(EngagementSolver, finds_immersion_and_depth_of_down_milling_from_spindle_an
         for (const double depth : {1.0, 12.0}) {
             for (const double feed : {0.02, 0.1}) {
                 const Cut cut{.immersion = immersion, .depth_mm = depth, .feed_per_tooth_mm = feed};
-                const auto e = solver().solve(measured(cut, 0.02), feed, CutSide::down);
+                const auto e = solver(0.002).solve(measured(cut, 0.02), feed, CutSide::down);
                 CHECK(e.immersion_valid);
                 DOUBLES_EQUAL(immersion, e.radial_immersion, 0.003);
                 DOUBLES_EQUAL(1.0, e.axial_depth_mm / depth, 0.005);
@@ -118,6 +118,48 @@ TEST(EngagementSolver, infers_the_side_from_the_sign_of_the_feed_force) {
             const auto e = solver().solve(measured(cut, 5.0), 0.05, CutSide::unknown);
             CHECK(e.side == side);
             DOUBLES_EQUAL(immersion, e.radial_immersion, 0.02);
+        }
+    }
+}
+
+TEST(EngagementSolver, takes_the_other_side_where_the_forces_refute_the_told_one) {
+    for (const double immersion : {0.4, 0.8, 1.2}) {
+        for (const CutSide side : {CutSide::down, CutSide::up}) {
+            const CutSide told = side == CutSide::up ? CutSide::down : CutSide::up;
+            for (const bool y_moves : {false, true}) {
+                const Cut cut{.side = side, .immersion = immersion, .y_moves = y_moves};
+                const auto e = solver(0.02).solve(measured(cut, 5.0), 0.05, told);
+                CHECK(e.side == side);
+                CHECK(e.immersion_valid);
+                DOUBLES_EQUAL(immersion, e.radial_immersion, 0.02);
+            }
+        }
+    }
+}
+
+TEST(EngagementSolver, has_no_estimate_where_neither_side_explains_the_forces) {
+    for (const CutSide told : {CutSide::down, CutSide::up, CutSide::unknown}) {
+        auto forces = measured({.immersion = 0.5, .y_moves = true}, 5.0);
+        forces.y_N.value = -forces.y_N.value;  // a reversed current
+        const auto e = solver(0.02).solve(forces, 0.05, told);
+        CHECK(e.solved);
+        CHECK_FALSE(e.immersion_valid);
+        CHECK_FALSE(e.depth_valid);
+        DOUBLES_EQUAL(0.0, e.radial_immersion_low, 1e-9);
+        DOUBLES_EQUAL(2.0, e.radial_immersion_high, 1e-9);
+    }
+}
+
+TEST(EngagementSolver, gives_no_depth_beyond_the_flutes) {
+    EngagementSolverSettings<double> settings;
+    settings.flute_length_mm = 5.0;
+    const EngagementSolver<double> short_flutes(carbide_in_SM45C<double>(), settings);
+    for (const double immersion : {0.1, 0.5, 1.0, 1.8}) {
+        for (const double depth_mm : {4.9, 20.0}) {
+            const Cut cut{.immersion = immersion, .depth_mm = depth_mm};
+            const auto e = short_flutes.solve(measured(cut, 5.0), 0.05, CutSide::down);
+            CHECK(e.axial_depth_mm <= 5.0);
+            CHECK(depth_mm < 5.0 || !e.depth_valid);
         }
     }
 }

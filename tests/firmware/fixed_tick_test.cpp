@@ -15,7 +15,6 @@
 #include "estimation/number/fixed_point.hpp"
 #include "firmware/parameters_in_impl.hpp"
 #include "firmware/tick_impl.hpp"
-#include "firmware/wide_band_monitor_impl.hpp"
 #include "instructions/synthetic_cut.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -189,8 +188,7 @@ struct Agreement {
 };
 
 template <typename Scalar>
-void compare(const firmware::ForceControlTick<float>& a, const firmware::ForceControlTick<Scalar>& b,
-             Agreement& agreement) {
+void compare(const firmware::SmallTick<float>& a, const firmware::SmallTick<Scalar>& b, Agreement& agreement) {
     const auto& in_float = a.estimate().engagement;
     const auto& in_fixed = b.estimate().engagement;
     if (in_float.immersion_valid != in_fixed.immersion_valid || in_float.depth_valid != in_fixed.depth_valid) {
@@ -223,8 +221,8 @@ constexpr int samples_per_cut = 120;
 template <typename Scalar>
 void mill(Draw& draw, int points, Agreement& agreement) {
     const Shop shop = drawn_shop(draw);
-    firmware::ForceControlTick<float> in_float(shop.parameters);
-    firmware::ForceControlTick<Scalar> in_fixed(firmware::parameters_in<Scalar>(shop.parameters));
+    firmware::SmallTick<float> in_float(shop.parameters);
+    firmware::SmallTick<Scalar> in_fixed(firmware::parameters_in<Scalar>(shop.parameters));
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = shop.programmed_feed_mm_s;
     Clock clock;

@@ -97,6 +97,7 @@ class CutEstimator {
     void estimate_along_feed();
     void begin_engagement();
     void publish();
+    void rezero_drives();
 
     EncoderAngle<Scalar> encoder_{};
     Averager average_{};

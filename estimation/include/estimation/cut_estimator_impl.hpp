@@ -30,7 +30,8 @@ CutEstimator<Scalar>::CutEstimator(const CutEstimatorSettings<Scalar>& settings,
               {.teeth = settings.teeth,
                .centre_offset_in_radii = settings.centre_offset_in_radii,
                .law_relative_sd = settings.law_relative_sd,
-               .declared_depth_mm = settings.declared_depth_mm},
+               .declared_depth_mm = settings.declared_depth_mm,
+               .flute_length_mm = settings.largest_depth_mm},
               settings.side) {}
 
 // One sample
@@ -242,13 +243,19 @@ bool CutEstimator<Scalar>::rezero() {
     air_periods_ = 0;
     const bool has_window = air_window_.revolutions > 0;
     if (has_window) {
-        spindle_.rezero(spindle_average(air_window_));
-        for (std::size_t k = 0; k < axes_.size(); ++k) {
-            axes_[k].rezero(axis_average(air_window_, k));
-        }
+        rezero_drives();
     }
     air_window_ = window_;
-    return has_window;
+    return has_window && !spindle_.is_implausible();
+}
+
+/// A spindle that shows no idle torque does not say that this is air: the axes may carry a cut.
+template <typename Scalar>
+void CutEstimator<Scalar>::rezero_drives() {
+    spindle_.rezero(spindle_average(air_window_));
+    for (std::size_t k = 0; k < axes_.size() && !spindle_.is_implausible(); ++k) {
+        axes_[k].rezero(axis_average(air_window_, k));
+    }
 }
 
 template <typename Scalar>

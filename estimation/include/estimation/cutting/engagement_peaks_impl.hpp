@@ -13,10 +13,11 @@ EngagementPeaks<Scalar>::EngagementPeaks(const CuttingLaw<Scalar>& law, const Se
       surge_(place_of(settings.surge_immersion)),
       turn_(place_of(settings.turn_immersion)),
       slot_(place_of(Scalar(2))),
-      now_(place_of(settings.assumed_immersion)) {
-    const auto build = [&](ToothPeakTable<Scalar>& table, CutSide unknown_is) {
+      now_(place_of(settings.assumed_immersion)),
+      side_(settings.peak.side) {
+    const auto build = [&](ToothPeakTable<Scalar>& table, CutSide side) {
         PeakFactorSettings<Scalar> peak = settings.peak;
-        peak.side = peak.side == CutSide::unknown ? unknown_is : peak.side;
+        peak.side = peak.side == CutSide::centred ? CutSide::centred : side;
         table.build(law, peak);
     };
     build(down_, CutSide::down);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/drives/warm_up_tracker.hpp"
 #include "estimation/number/literal.hpp"
-#include "estimation/number/measurement.hpp"
 
 #include <array>
 #include <cstddef>
@@ -45,6 +45,12 @@ class FrictionScale {
             own_[1] += growth;
             shared_ += correlation * growth;
         }
+    }
+
+    /// Whether a scale seen in air lies within what the calibration leaves open.
+    [[nodiscard]] bool is_within_doubt(const Measurement<Scalar>& seen) const {
+        return seen.valid &&
+               square(seen.value - Scalar(1)) <= square(largest_deviations_learnt<Scalar>) * (limit_ + seen.variance);
     }
 
     void correct(std::size_t direction, Measurement<Scalar> seen) {
@@ -117,7 +123,7 @@ class FeedDrive {
     };
 
     [[nodiscard]] Measurement<Scalar> force_N(const Average& average) const {
-        if (!is_moving(average)) {
+        if (!is_moving(average) || is_implausible_) {
             return {};
         }
         const Scalar friction_A = signed_friction_A(average);
@@ -138,7 +144,9 @@ class FeedDrive {
     /// Time passes: the friction may have moved.
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 
-    /// The tool is known to be in air: the current is friction, weight and inertia alone.
+    /// The tool is known to be in air: the current is friction, weight and inertia alone. A current that the stated
+    /// doubt of the friction cannot explain teaches nothing: the signal is implausible, and there is no force until one
+    /// in air is plausible again.
     void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
         if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
@@ -146,9 +154,14 @@ class FeedDrive {
         }
         const Scalar other_A =
             parameters_.gravity_A + (inertial_force_N(average) - force_by_speed_N(average)) / parameters_.K_x4_N_per_A;
-        friction_scale_.correct(direction(average), {true, (average.current_A - other_A) / friction_A,
-                                                     current_variance_A2(average) / square(friction_A)});
+        const Measurement<Scalar> seen{true, (average.current_A - other_A) / friction_A,
+                                       current_variance_A2(average) / square(friction_A)};
+        is_implausible_ = !friction_scale_.is_within_doubt(seen);
+        if (!is_implausible_) {
+            friction_scale_.correct(direction(average), seen);
+        }
     }
+    [[nodiscard]] bool is_implausible() const { return is_implausible_; }
 
     [[nodiscard]] Scalar friction_scale(bool positive_direction) const {
         return friction_scale_.value(positive_direction ? 1U : 0U);
@@ -202,6 +215,7 @@ class FeedDrive {
 
     FeedDriveParameters<Scalar> parameters_;
     FrictionScale<Scalar> friction_scale_;  // [0]: − direction, [1]: + direction
+    bool is_implausible_ = false;
 };
 
 }  // namespace millforce::estimation

@@ -52,7 +52,7 @@ class SpindleDrive {
     }
     /// The same for a tool whose newtons per N·m, 1000/R, are known already.
     [[nodiscard]] Measurement<Scalar> force_N(const Average& average, Scalar per_Nm) const {
-        if (!is_usable(average)) {
+        if (!is_usable(average) || is_implausible_) {
             return {};
         }
         const Scalar torque_Nm = torque_without_drift_Nm(average) - drift_Nm_.value();
@@ -65,15 +65,21 @@ class SpindleDrive {
     void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
 
     /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of
-    /// its inertia's torque a share is in doubt.
+    /// its inertia's torque a share is in doubt. A torque that the idle torque's stated doubt cannot explain teaches
+    /// nothing: the signal is implausible, and there is no force until one in air is plausible again.
     void rezero(const Average& average) {
         if (!is_usable(average)) {
             return;
         }
         const Scalar noise = noise_variance(average, Scalar(1));
         const Scalar doubt = square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
-        drift_Nm_.correct({true, torque_without_drift_Nm(average), noise + doubt, noise});
+        const Measurement<Scalar> seen{true, torque_without_drift_Nm(average), noise + doubt, noise};
+        is_implausible_ = !drift_Nm_.is_within_doubt(seen);
+        if (!is_implausible_) {
+            drift_Nm_.correct(seen);
+        }
     }
+    [[nodiscard]] bool is_implausible() const { return is_implausible_; }
 
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
 
@@ -106,6 +112,7 @@ class SpindleDrive {
 
     SpindleDriveParameters<Scalar> parameters_;
     WarmUpTracker<Scalar> drift_Nm_;
+    bool is_implausible_ = false;
 };
 
 }  // namespace millforce::estimation

@@ -5,6 +5,11 @@
 
 namespace millforce::estimation {
 
+/// What re-zeroing in air may learn, in stated deviations of the calibration. What lies beyond is no drift: a channel
+/// that is dead, reversed or another one's, or the calibration of another machine.
+template <typename Scalar>
+inline constexpr Scalar largest_deviations_learnt{4};
+
 /// A drifting quantity that also relaxes while the machine warms up: a Kalman filter of two states,
 ///
 ///   x = b + w,   b a random walk,   dw/dt = −w/τ,
@@ -50,6 +55,12 @@ class WarmUpTracker {
         w_ *= kept;
         P_bw_ *= kept;
         P_ww_ *= square(kept);
+    }
+
+    /// Whether a measurement in air lies within what the calibration leaves open.
+    [[nodiscard]] bool is_within_doubt(const Measurement<Scalar>& seen) const {
+        const Scalar doubt = square(settings_.offset_sd) + P_ww_ + seen.variance;
+        return seen.valid && square(seen.value - w_) <= square(largest_deviations_learnt<Scalar>) * doubt;
     }
 
     void correct(Measurement<Scalar> seen) {

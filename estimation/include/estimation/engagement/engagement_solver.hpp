@@ -41,6 +41,7 @@ struct EngagementSolverSettings {
     Scalar widest_interval{literal<Scalar>(1.2L)};  ///< a 95 % interval wider than this is no estimate
     Scalar declared_depth_mm{0};                    ///< axial depth that the program declares; 0: not declared
     Scalar declared_depth_relative_sd{literal<Scalar>(0.05L)};
+    Scalar flute_length_mm{0};     ///< no depth is larger; 0: not known
     Scalar least_significance{4};  ///< F_at must exceed this many of its standard deviations
 };
 
@@ -51,13 +52,14 @@ class EngagementSolver {
     class Search;
 
     EngagementSolver() = default;
-    /// `side`: that of the tool where it is known; the tables of CutSide::centred are its own.
+    /// `side`: that of the tool where it is told; CutSide::centred has tables of its own.
     EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings,
                      CutSide side = CutSide::unknown);
 
-    /// Begins a solution for the given side. With CutSide::unknown both down and up are tried and the one that fits
-    /// better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the same
-    /// immersion.
+    /// Begins a solution. A side that is told is tried first, and the other one only where the forces refute it
+    /// (J > 16): then the other one is taken if it fits. With CutSide::unknown both down and up are tried and the one
+    /// that fits better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the
+    /// same immersion. Forces that refute both sides give no estimate, and the whole range as the interval.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                CutSide side) const;
 
@@ -126,7 +128,7 @@ class EngagementSolver<Scalar, Nodes>::Search {
 
     Profile profile_{};
     EngagementEstimate<Scalar> estimate_{};
-    EngagementEstimate<Scalar> down_{};  // where both sides are tried
+    EngagementEstimate<Scalar> first_{};  // of the side that was tried first, where both are
     CutSide asked_ = CutSide::unknown;
     CutSide side_ = CutSide::down;
     Phase phase_ = Phase::done;

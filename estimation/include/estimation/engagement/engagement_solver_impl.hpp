@@ -59,8 +59,9 @@ void EngagementSolver<Scalar, Nodes>::begin(Search& search, const AverageForceMe
     search.asked_ = side;
     begin_side(search, side == CutSide::unknown ? CutSide::down : side);
     if (is_solvable(forces, feed_per_tooth_mm)) {
-        search.profile_ = Profile(tables_[0], forces, feed_per_tooth_mm, settings_.law_relative_sd,
-                                  {settings_.declared_depth_mm, settings_.declared_depth_relative_sd});
+        search.profile_ =
+            Profile(tables_[0], forces, feed_per_tooth_mm, settings_.law_relative_sd,
+                    {settings_.declared_depth_mm, settings_.declared_depth_relative_sd}, settings_.flute_length_mm);
     } else {
         search.phase_ = Search::Phase::done;
     }
@@ -96,15 +97,21 @@ void EngagementSolver<Scalar, Nodes>::begin_side(Search& s, CutSide side) const 
 
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
-    if (s.asked_ != CutSide::unknown) {
-        s.phase_ = Search::Phase::done;
-    } else if (s.side_ == CutSide::down) {
-        s.down_ = s.estimate_;
-        begin_side(s, CutSide::up);
-    } else {
-        s.estimate_ = better_of_sides(s.down_, s.estimate_);
-        s.phase_ = Search::Phase::done;
+    const CutSide first = s.asked_ == CutSide::unknown ? CutSide::down : s.asked_;
+    const bool is_first = s.side_ == first;
+    const bool other_may_fit =
+        s.asked_ == CutSide::unknown || (s.asked_ != CutSide::centred && is_refuted(s.estimate_));
+    if (is_first && other_may_fit) {
+        s.first_ = s.estimate_;
+        begin_side(s, first == CutSide::down ? CutSide::up : CutSide::down);
+        return;
     }
+    if (!is_first) {
+        s.estimate_ = s.asked_ == CutSide::unknown ? better_of_sides(s.first_, s.estimate_)
+                                                   : told_or_other_side(s.first_, s.estimate_);
+    }
+    withdraw_if_refuted(s.estimate_);
+    s.phase_ = Search::Phase::done;
 }
 
 template <typename Scalar, int Nodes>
@@ -378,7 +385,8 @@ void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     e.depth_at_high_mm = s.profile_.at(table(s.side_), e.engagement_high_rad).depth_mm;
     const Scalar spread_mm = (e.depth_at_high_mm - e.depth_at_low_mm) / width_of_95_percent<Scalar>;
     const Scalar by_K_s = square(best.depth_mm) * s.profile_.doubt_of_K_s().variance_at(best.ln_t_in_references);
-    e.axial_depth_mm = best.depth_mm;
+    const Scalar flute_mm = settings_.flute_length_mm;
+    e.axial_depth_mm = flute_mm > Scalar(0) && best.depth_mm > flute_mm ? flute_mm : best.depth_mm;
     e.axial_depth_sd_mm = sqrt(square(spread_mm) + Scalar(1) / best.information + by_K_s);
     e.depth_valid = e.immersion_valid && e.axial_depth_sd_mm < e.axial_depth_mm;
 }

@@ -18,11 +18,12 @@ struct DeclaredDepth {
 /// The profile likelihood of the immersion for one set of measured forces: at each immersion the depth that fits best,
 /// and how badly it fits. Every force is proportional to the depth, m_i = a_p g_i(R_r), so
 ///
-///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²
+///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²,   0 ≤ a_p ≤ a_p,max
 ///
 /// σ² of a force along an axis also holds the misfit of the closed law and the doubt in r_1; an immersion from another
-/// method adds (R_r − R_other)²/σ², a declared depth (a_p − a_declared)²/σ². Cost of a value: some hundred instructions
-/// at a node of the table, twice as many between nodes. Bodies: immersion_profile_impl.hpp.
+/// method adds (R_r − R_other)²/σ², a declared depth (a_p − a_declared)²/σ². a_p,max is the length of the flutes,
+/// larger by two deviations of K_s: an immersion that asks for more explains nothing. Cost of a value: some hundred
+/// instructions at a node of the table, twice as many between nodes. Bodies: immersion_profile_impl.hpp.
 template <typename Scalar, int Nodes>
 class ImmersionProfile {
   public:
@@ -36,9 +37,9 @@ class ImmersionProfile {
     };
 
     ImmersionProfile() = default;
-    /// `law`: any table of the law in question.
+    /// `law`: any table of the law in question. `flute_length_mm`: 0 if it is not known.
     ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
-                     Scalar law_relative_sd, const DeclaredDepth<Scalar>& declared);
+                     Scalar law_relative_sd, const DeclaredDepth<Scalar>& declared, Scalar flute_length_mm);
 
     [[nodiscard]] Value at(const Table& table, Scalar theta_rad) const;
     [[nodiscard]] Value at_node(const Table& table, std::size_t node) const;
@@ -65,6 +66,7 @@ class ImmersionProfile {
     typename Table::Doubt K_s_{};
     typename Table::Doubt r_1_{};
     Scalar tangential_weight_{0};
+    Scalar largest_depth_mm_{0};  // 0: not bounded
 };
 
 }  // namespace millforce::estimation

@@ -15,6 +15,38 @@ inline constexpr Scalar width_of_95_percent = literal<Scalar>(3.92L);
 template <typename Scalar>
 inline constexpr Scalar threshold_of_95_percent = literal<Scalar>(3.84L);
 
+/// J of a model that does not describe the measured forces. J is a sum of at most two squares in deviations: where the
+/// model holds, one window in 3 000 exceeds it.
+template <typename Scalar>
+inline constexpr Scalar misfit_of_a_wrong_model{16};
+
+template <typename Scalar>
+[[nodiscard]] bool is_refuted(const EngagementEstimate<Scalar>& found) {
+    return found.misfit > misfit_of_a_wrong_model<Scalar>;
+}
+
+/// What a side was told to be holds until the forces refute it and fit the other side.
+template <typename Scalar>
+[[nodiscard]] EngagementEstimate<Scalar> told_or_other_side(const EngagementEstimate<Scalar>& told,
+                                                            const EngagementEstimate<Scalar>& other) {
+    return other.solved && !is_refuted(other) ? other : told;
+}
+
+/// No law of a straight cut gives these forces: any immersion is possible, and none is an estimate.
+template <typename Scalar>
+void withdraw_if_refuted(EngagementEstimate<Scalar>& found) {
+    if (!is_refuted(found)) {
+        return;
+    }
+    found.immersion_valid = false;
+    found.depth_valid = false;
+    found.engagement_low_rad = Scalar(0);
+    found.radial_immersion_low = Scalar(0);
+    found.engagement_high_rad = pi<Scalar>;
+    found.radial_immersion_high = Scalar(2);
+    found.radial_immersion_sd = Scalar(2) / width_of_95_percent<Scalar>;
+}
+
 /// The side of a tool whose side is not known: the one that fits better by more than 95 %. Where neither does, the
 /// estimate is valid only if both sides give the same immersion.
 template <typename Scalar>
