@@ -112,7 +112,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"tool", "helix_deg", "°", "Helix angle of the flutes; 0 for inserts."},
     {"tool", "flute_length_mm", "mm", "Longest axial depth that the tool can cut.", must_be_given},
     {"tool", "runout_um", "µm", "Largest difference between the radii of two teeth."},
-    {"tool", "side", "", "Which edge of the cut is fixed while its width varies; unknown: inferred from the forces.", may_be_left_out, "down|up|centred|unknown"},
+    {"tool", "side", "", "Which edge of the cut is fixed while its width varies: a hint that the forces may refute; unknown: inferred from them.", may_be_left_out, "down|up|centred|unknown"},
     {"tool", "centre_offset_mm", "mm", "Offset of the workpiece's centre line from the cutter's axis, for side = \"centred\"."},
     {"tool", "tooth_force_limit_N", "N", "F_tooth,max: the largest in-plane force that one tooth may carry.", must_be_given},
     {"tool", "break_share", "1", "Multiple of its limit at which a tooth breaks (simulation)."},

@@ -38,7 +38,7 @@ struct EngagementEstimate {
     Scalar depth_at_high_mm{0};  ///< … with radial_immersion_high
 
     CutSide side = CutSide::unknown;
-    Scalar misfit{0};  ///< J at the estimate: far above 4 means that the law does not describe these forces
+    Scalar misfit{0};  ///< J at the estimate; above 16 the law does not describe these forces: no estimate
 };
 
 }  // namespace millforce::estimation
