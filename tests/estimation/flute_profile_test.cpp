@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/depth_shape/flute_profile.hpp"
+#include "estimation/depth_shape/flute_profile_impl.hpp"
 
 #include <CppUTest/TestHarness.h>
 

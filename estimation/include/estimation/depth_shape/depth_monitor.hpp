@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/depth_shape/flute_profile_fit.hpp"
-#include "estimation/number/literal.hpp"
+#include "estimation/depth_shape/flute_profile.hpp"
+#include "estimation/depth_shape/flute_profile_estimate.hpp"
+#include "estimation/number/fixed_point.hpp"
 
 namespace millforce::estimation {
 
@@ -15,73 +16,41 @@ namespace millforce::estimation {
 /// turns the law's complex coefficients and nothing else. It must not turn within a profile.
 ///
 /// Memory: (3·Bins + 20) scalars and the settings; evaluate() needs some 20 kB of stack. No heap. Not thread-safe.
+/// Bodies: depth_monitor_impl.hpp.
 template <typename Scalar, int Harmonics = 10, int Bins = 180>
 class DepthMonitor {
   public:
     using Estimate = FluteProfileEstimate<Scalar>;
 
     DepthMonitor() = default;
-    explicit DepthMonitor(const FluteProfileFitSettings<Scalar>& settings, int revolutions = 20)
-        : settings_(settings), profile_({.teeth = settings.cutter.teeth, .revolutions = revolutions}) {}
+    explicit DepthMonitor(const FluteProfileFitSettings<Scalar>& settings, int revolutions = 20);
 
     /// One sample, dt_s after the last one; the angle wrapped to any one turn. A sample that is not finite, or a turn
     /// of more than half a pitch since the last one, restarts the profile. True where evaluate() has work to do.
-    bool add(Scalar dt_s, Scalar spindle_angle_rad, Scalar fx_N, Scalar fy_N) {
-        using std::floor;
-        const Scalar turns = spindle_angle_rad / (Scalar(2) * pi<Scalar>);
-        const Scalar angle_rev = turns - floor(turns);
-        Scalar turned_rev = angle_rev - angle_rev_;
-        turned_rev -= floor(turned_rev + Scalar(0.5F));
-        angle_rev_ = angle_rev;
-        typename FluteProfile<Scalar, 2, Bins>::Signals forces;
-        forces << fx_N, fy_N;
-        profile_.add(dt_s, started_ ? turned_rev : Scalar(0), angle_rev, forces);
-        started_ = true;
-        return profile_.complete();
-    }
+    bool add(Scalar dt_s, Scalar spindle_angle_rad, Scalar fx_N, Scalar fy_N);
 
     [[nodiscard]] bool complete() const { return profile_.complete(); }
 
     /// Fits the complete profile and starts the next one. Without a complete profile: no estimate.
-    Estimate evaluate() {
-        if (!profile_.complete()) {
-            return {};
-        }
-        const Estimate estimate = FluteProfileFit<Scalar, Harmonics>(settings_).estimate(take_spectrum());
-        return estimate;
-    }
+    Estimate evaluate();
 
     /// Learns the angle of the teeth at the encoder's zero from a profile of known depths, for all later profiles with
     /// this tool in this holder. False: no complete profile, or it does not determine the angle.
-    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = Scalar(0.005F)) {
-        if (!profile_.complete()) {
-            return false;
-        }
-        const auto angle =
-            FluteProfileFit<Scalar, Harmonics>(settings_).calibrate_tip_angle(take_spectrum(), known, relative_sd);
-        if (angle.valid) {
-            settings_.tip_angle_rad = angle;
-        }
-        return angle.valid;
-    }
+    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = Scalar(0.005F));
 
     [[nodiscard]] const Measurement<Scalar>& tip_angle_rad() const { return settings_.tip_angle_rad; }
-    void restart() {
-        profile_.restart();
-        started_ = false;
-    }
+    void restart();
 
   private:
-    ProfileSpectrum<Scalar, Harmonics> take_spectrum() {
-        const auto spectrum = profile_spectrum<Harmonics>(profile_.average());
-        profile_.restart();
-        return spectrum;
-    }
+    ProfileSpectrum<Scalar, Harmonics> take_spectrum();
 
     FluteProfileFitSettings<Scalar> settings_{};
     FluteProfile<Scalar, 2, Bins> profile_{};
     Scalar angle_rev_{0};
     bool started_ = false;
 };
+
+extern template class DepthMonitor<float>;
+extern template class DepthMonitor<Fixed>;
 
 }  // namespace millforce::estimation
