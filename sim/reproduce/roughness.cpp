@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/reproduction.hpp"
 
+#include "estimation/surface/roughness_impl.hpp"
 #include "estimation_calibration/roughness_fit.hpp"
 
 #include <fmt/format.h>

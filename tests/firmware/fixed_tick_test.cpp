@@ -13,6 +13,7 @@
 #include "control/path_turn_impl.hpp"
 #include "estimation/cut_estimator_impl.hpp"
 #include "estimation/number/fixed_point.hpp"
+#include "estimation/surface/roughness_impl.hpp"
 #include "firmware/parameters_in_impl.hpp"
 #include "firmware/tick_impl.hpp"
 #include "instructions/synthetic_cut.hpp"

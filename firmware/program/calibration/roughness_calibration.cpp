@@ -2,6 +2,7 @@
 #include "calibration/roughness_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "estimation/surface/roughness_impl.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"

@@ -2,6 +2,7 @@
 #include "estimation_calibration/roughness_fit.hpp"
 
 #include "estimation/calibration/roughness_cuts.hpp"
+#include "estimation/surface/roughness_impl.hpp"
 
 #include <Eigen/LU>  // before CppUTest, which makes `new` a macro
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/surface/roughness.hpp"
+#include "estimation/surface/roughness_impl.hpp"
 
 #include "estimation/calibration/roughness_cuts.hpp"
 
