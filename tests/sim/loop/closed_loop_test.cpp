@@ -105,7 +105,7 @@ TEST(ClosedLoop, knows_the_engagement_better_and_is_faster_with_force_drops) {
         time_alone_s += controlled(without).time_s;
     }
     CHECK(estimate_share > 0.9);
-    CHECK(time_told_s < time_alone_s);
+    CHECK(time_told_s < 0.9 * time_alone_s);
 }
 
 TEST(ClosedLoop, holds_the_limit_in_a_zig_zag_although_the_tool_file_says_down) {

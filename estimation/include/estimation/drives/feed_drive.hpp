@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/drives/warm_up_tracker.hpp"
+#include "estimation/drives/learnt_in_air.hpp"
 #include "estimation/number/literal.hpp"
 
 #include <array>
@@ -49,8 +49,7 @@ class FrictionScale {
 
     /// Whether a scale seen in air lies within what the calibration leaves open.
     [[nodiscard]] bool is_within_doubt(const Measurement<Scalar>& seen) const {
-        return seen.valid &&
-               square(seen.value - Scalar(1)) <= square(largest_deviations_learnt<Scalar>) * (limit_ + seen.variance);
+        return seen.valid && may_be_learnt_in_air(seen.value - Scalar(1), limit_ + seen.variance);
     }
 
     void correct(std::size_t direction, Measurement<Scalar> seen) {

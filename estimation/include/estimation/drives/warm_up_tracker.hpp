@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/number/measurement.hpp"
+#include "estimation/drives/learnt_in_air.hpp"
 
 namespace millforce::estimation {
-
-/// What re-zeroing in air may learn, in stated deviations of the calibration. What lies beyond is no drift: a channel
-/// that is dead, reversed or another one's, or the calibration of another machine.
-template <typename Scalar>
-inline constexpr Scalar largest_deviations_learnt{4};
 
 /// A drifting quantity that also relaxes while the machine warms up: a Kalman filter of two states,
 ///
@@ -59,8 +54,7 @@ class WarmUpTracker {
 
     /// Whether a measurement in air lies within what the calibration leaves open.
     [[nodiscard]] bool is_within_doubt(const Measurement<Scalar>& seen) const {
-        const Scalar doubt = square(settings_.offset_sd) + P_ww_ + seen.variance;
-        return seen.valid && square(seen.value - w_) <= square(largest_deviations_learnt<Scalar>) * doubt;
+        return seen.valid && may_be_learnt_in_air(seen.value - w_, square(settings_.offset_sd) + P_ww_ + seen.variance);
     }
 
     void correct(Measurement<Scalar> seen) {

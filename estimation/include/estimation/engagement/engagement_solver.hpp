@@ -80,6 +80,7 @@ class EngagementSolver {
     struct Parabola;
 
     [[nodiscard]] Scalar largest_angle_rad(CutSide side) const;
+    [[nodiscard]] static CutSide first_side(CutSide asked) { return asked == CutSide::unknown ? CutSide::down : asked; }
     [[nodiscard]] bool is_solvable(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const;
     void begin_side(Search& search, CutSide side) const;
     void end_side(Search& search) const;
@@ -100,6 +101,7 @@ class EngagementSolver {
     void find_depth(Search& search) const;
 
     EngagementSolverSettings<Scalar> settings_{};
+    Scalar largest_depth_mm_{0};  // the flutes' length, larger by two deviations of K_s
     std::array<Table, 2> tables_{};
 };
 

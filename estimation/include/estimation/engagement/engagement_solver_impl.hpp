@@ -28,6 +28,9 @@ EngagementSolver<Scalar, Nodes>::EngagementSolver(const CuttingLaw<Scalar>& law,
     for (std::size_t k = 0; k < tables_.size(); ++k) {
         tables_[k].build(law, settings.teeth, sides[k], offset, largest_angle_rad(sides[k]));
     }
+    using std::sqrt;
+    const Scalar K_s_sd = sqrt(tables_[0].doubt_of_K_s().variance_at(Scalar(0)));
+    largest_depth_mm_ = settings.flute_length_mm * (Scalar(1) + Scalar(2) * K_s_sd);
 }
 
 template <typename Scalar, int Nodes>
@@ -57,11 +60,11 @@ template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::begin(Search& search, const AverageForceMeasurement<Scalar>& forces,
                                             Scalar feed_per_tooth_mm, CutSide side) const {
     search.asked_ = side;
-    begin_side(search, side == CutSide::unknown ? CutSide::down : side);
+    begin_side(search, first_side(side));
     if (is_solvable(forces, feed_per_tooth_mm)) {
         search.profile_ =
             Profile(tables_[0], forces, feed_per_tooth_mm, settings_.law_relative_sd,
-                    {settings_.declared_depth_mm, settings_.declared_depth_relative_sd}, settings_.flute_length_mm);
+                    {settings_.declared_depth_mm, settings_.declared_depth_relative_sd}, largest_depth_mm_);
     } else {
         search.phase_ = Search::Phase::done;
     }
@@ -97,7 +100,7 @@ void EngagementSolver<Scalar, Nodes>::begin_side(Search& s, CutSide side) const 
 
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
-    const CutSide first = s.asked_ == CutSide::unknown ? CutSide::down : s.asked_;
+    const CutSide first = first_side(s.asked_);
     const bool is_first = s.side_ == first;
     const bool other_may_fit =
         s.asked_ == CutSide::unknown || (s.asked_ != CutSide::centred && is_refuted(s.estimate_));

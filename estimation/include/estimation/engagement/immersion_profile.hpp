@@ -37,9 +37,9 @@ class ImmersionProfile {
     };
 
     ImmersionProfile() = default;
-    /// `law`: any table of the law in question. `flute_length_mm`: 0 if it is not known.
+    /// `law`: any table of the law in question. `largest_depth_mm`: a_p,max; 0: not bounded.
     ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
-                     Scalar law_relative_sd, const DeclaredDepth<Scalar>& declared, Scalar flute_length_mm);
+                     Scalar law_relative_sd, const DeclaredDepth<Scalar>& declared, Scalar largest_depth_mm);
 
     [[nodiscard]] Value at(const Table& table, Scalar theta_rad) const;
     [[nodiscard]] Value at_node(const Table& table, std::size_t node) const;

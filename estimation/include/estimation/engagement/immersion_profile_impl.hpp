@@ -3,23 +3,19 @@
 
 #include "estimation/engagement/immersion_profile.hpp"
 
-#include <cmath>
-
 namespace millforce::estimation {
 
 template <typename Scalar, int Nodes>
 ImmersionProfile<Scalar, Nodes>::ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces,
                                                   Scalar feed_per_tooth_mm, Scalar law_relative_sd,
-                                                  const DeclaredDepth<Scalar>& declared, Scalar flute_length_mm)
+                                                  const DeclaredDepth<Scalar>& declared, Scalar largest_depth_mm)
     : forces_(forces),
       declared_(declared),
       feed_(law.feed(feed_per_tooth_mm)),
       K_s_(law.doubt_of_K_s()),
       r_1_(law.doubt_of_r_1()),
-      tangential_weight_(Scalar(1) / forces.tangential_N.variance) {
-    using std::sqrt;
-    const Scalar K_s_sd = sqrt(K_s_.variance_at(Scalar(0)));
-    largest_depth_mm_ = flute_length_mm * (Scalar(1) + Scalar(2) * K_s_sd);
+      tangential_weight_(Scalar(1) / forces.tangential_N.variance),
+      largest_depth_mm_(largest_depth_mm) {
     const Scalar law_variance = square(law_relative_sd * forces.tangential_N.value);
     forces_.x_N.variance += law_variance;
     forces_.y_N.variance += law_variance;
