@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instantiates the estimators that have no file of their own, so that the core's compiler flags and warnings see them.
-#include "estimation/cutting/peak_factors.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/feed_force_observer.hpp"
 #include "estimation/drives/spindle_drive.hpp"
@@ -14,6 +13,5 @@ template class EncoderAngle<float>;
 template class SpindleDrive<float>;
 template class FeedDrive<float>;
 template class FeedForceObserver<float>;
-template class ToothPeakTable<float>;
 
 }  // namespace millforce::estimation

@@ -90,7 +90,8 @@ local_link::OverrideMessage LinkController::answer_to(std::uint32_t sequence) co
     m.limit = static_cast<std::uint8_t>(tick_.control().limit);
     m.tangential_N = value_of(estimate.tangential_N);
     m.feed_N = value_of(estimate.feed_N);
-    m.tooth_force_N = estimate.tooth_force_is_bound ? no_estimate : value_of(estimate.tooth_force_N);
+    const bool arc_is_known = engagement.immersion_valid && !estimate.tooth_force_is_bound;
+    m.tooth_force_N = arc_is_known ? value_of(estimate.tooth_force_N) : no_estimate;
     m.radial_immersion = engagement.immersion_valid ? engagement.radial_immersion : no_estimate;
     m.radial_immersion_sd = engagement.immersion_valid ? engagement.radial_immersion_sd : no_estimate;
     m.axial_depth_mm = engagement.depth_valid ? engagement.axial_depth_mm : no_estimate;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/cutting/cutting_law.hpp"
+#include "estimation/number/fixed_point.hpp"
 #include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 #include "estimation/number/stored.hpp"
@@ -125,7 +126,8 @@ PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactor
     return result;
 }
 
-/// τ over immersion and sweep, read by bilinear interpolation. ImmersionNodes × SweepNodes scalars of RAM.
+/// τ over immersion and sweep, read by bilinear interpolation. ImmersionNodes × SweepNodes scalars of RAM. Bodies:
+/// peak_table_impl.hpp.
 ///
 /// The table stores what varies little: τ grows as 1/R_r for narrow cuts, and as 1/a_p once the edge is longer than the
 /// engagement; both factors are divided out before the table and multiplied back after it. The second axis is the
@@ -136,23 +138,7 @@ class ToothPeakTable {
   public:
     ToothPeakTable() = default;
 
-    void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings) {
-        using elementary::tan;
-        sweep_rad_per_mm_ = tan(settings.helix_rad) / settings.cutter_radius_mm;
-        side_ = settings.side;
-        centre_offset_in_radii_ = settings.centre_offset_in_radii;
-        for (int i = 0; i < ImmersionNodes; ++i) {
-            const Scalar immersion = immersion_of(Scalar(i));
-            const Scalar engagement_rad = engagement_at(immersion);
-            for (int k = 0; k < SweepNodes; ++k) {
-                const Scalar sweeps = sweeps_of(Scalar(k));
-                const Scalar depth =
-                    sweep_rad_per_mm_ > Scalar(0) ? sweeps * engagement_rad / sweep_rad_per_mm_ : Scalar(1);
-                const Scalar scaled = peak_factors(law, settings, immersion, depth).tooth * scale_at(immersion, sweeps);
-                nodes_[index(i)][index(k)] = static_cast<Stored<Scalar>>(scaled);
-            }
-        }
-    }
+    void build(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings);
 
     /// Immersion is clipped to 0.02…2. Any depth ≥ 0.
     [[nodiscard]] Scalar at(Scalar radial_immersion, Scalar axial_depth_mm) const {
@@ -163,20 +149,7 @@ class ToothPeakTable {
 
     /// The same where θ is known as well, R_r = 1 − cos θ. Some 40 operations but for CutSide::centred, which takes two
     /// arc cosines.
-    [[nodiscard]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion, Scalar axial_depth_mm) const {
-        const Scalar immersion = clamp(radial_immersion, least_immersion, Scalar(2));
-        const Scalar theta = clamp(theta_rad, first_rad, pi<Scalar>);
-        const Scalar engagement_rad = side_ == CutSide::centred ? engagement_at(immersion) : theta;
-        const Scalar sweeps = axial_depth_mm * sweep_rad_per_mm_ / engagement_rad;
-        const Place across = place((theta - first_rad) * steps_per_rad, ImmersionNodes);
-        const Place along = place(node_of(sweeps), SweepNodes);
-        const auto between = [&](std::size_t k) {
-            const Scalar low(nodes_[across.node][k]);
-            return low + (Scalar(nodes_[across.node + 1][k]) - low) * across.share;
-        };
-        const Scalar first = between(along.node);
-        return (first + (between(along.node + 1) - first) * along.share) / scale_at(immersion, sweeps);
-    }
+    [[nodiscard]] Scalar at_angle(Scalar theta_rad, Scalar radial_immersion, Scalar axial_depth_mm) const;
 
   private:
     struct Place {
@@ -236,5 +209,8 @@ class ToothPeakTable {
     Scalar centre_offset_in_radii_{0};
     CutSide side_ = CutSide::down;
 };
+
+extern template class ToothPeakTable<float>;
+extern template class ToothPeakTable<Fixed>;
 
 }  // namespace millforce::estimation

@@ -59,7 +59,8 @@ class EngagementSolver {
     /// Begins a solution. A side that is told is tried first, and the other one only where the forces refute it
     /// (J > 16): then the other one is taken if it fits. With CutSide::unknown both down and up are tried and the one
     /// that fits better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the
-    /// same immersion. Forces that refute both sides give no estimate, and the whole range as the interval.
+    /// same immersion. Forces that refute both sides give no estimate, and as the interval all immersions at which the
+    /// flutes are long enough for F_at.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
                CutSide side) const;
 
@@ -84,6 +85,7 @@ class EngagementSolver {
     [[nodiscard]] bool is_solvable(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const;
     void begin_side(Search& search, CutSide side) const;
     void end_side(Search& search) const;
+    void withdraw(Search& search) const;
     void step(Search& search) const;
 
     void scan(Search& search) const;

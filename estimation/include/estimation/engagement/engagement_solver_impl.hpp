@@ -113,8 +113,35 @@ void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
         s.estimate_ = s.asked_ == CutSide::unknown ? better_of_sides(s.first_, s.estimate_)
                                                    : told_or_other_side(s.first_, s.estimate_);
     }
-    withdraw_if_refuted(s.estimate_);
+    if (is_refuted(s.estimate_)) {
+        withdraw(s);
+    }
     s.phase_ = Search::Phase::done;
+}
+
+/// No law of a straight cut gives these forces: any immersion is possible at which the flutes are long enough for
+/// F_at, and none is an estimate.
+template <typename Scalar, int Nodes>
+void EngagementSolver<Scalar, Nodes>::withdraw(Search& s) const {
+    using elementary::cos;
+    const Table& forces = table(s.estimate_.side);
+    const auto needs_longer_flutes = [&](std::size_t node) {
+        return largest_depth_mm_ > Scalar(0) && s.profile_.depth_by_tangential_mm(forces, node) > largest_depth_mm_;
+    };
+    std::size_t narrowest = 0;
+    while (narrowest + 1 < nodes && needs_longer_flutes(narrowest)) {
+        ++narrowest;
+    }
+    EngagementEstimate<Scalar>& e = s.estimate_;
+    e.immersion_valid = false;
+    e.depth_valid = false;
+    e.engagement_low_rad = forces.angle_rad(Scalar(static_cast<int>(narrowest)));
+    e.radial_immersion_low = Scalar(1) - cos(e.engagement_low_rad);
+    e.engagement_high_rad = pi<Scalar>;
+    e.radial_immersion_high = Scalar(2);
+    e.radial_immersion_sd = (e.radial_immersion_high - e.radial_immersion_low) / width_of_95_percent<Scalar>;
+    e.depth_at_low_mm = s.profile_.depth_by_tangential_mm(forces, narrowest);
+    e.depth_at_high_mm = e.depth_at_low_mm;
 }
 
 template <typename Scalar, int Nodes>

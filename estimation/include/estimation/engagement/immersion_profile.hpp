@@ -44,6 +44,11 @@ class ImmersionProfile {
     [[nodiscard]] Value at(const Table& table, Scalar theta_rad) const;
     [[nodiscard]] Value at_node(const Table& table, std::size_t node) const;
 
+    /// The depth that F_at alone asks for at a node.
+    [[nodiscard]] Scalar depth_by_tangential_mm(const Table& table, std::size_t node) const {
+        return forces_.tangential_N.value / table.at_node(node, feed_).tangential_N;
+    }
+
     [[nodiscard]] const typename Table::Feed& feed() const { return feed_; }
     [[nodiscard]] const typename Table::Doubt& doubt_of_K_s() const { return K_s_; }
 

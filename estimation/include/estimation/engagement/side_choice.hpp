@@ -32,21 +32,6 @@ template <typename Scalar>
     return other.solved && !is_refuted(other) ? other : told;
 }
 
-/// No law of a straight cut gives these forces: any immersion is possible, and none is an estimate.
-template <typename Scalar>
-void withdraw_if_refuted(EngagementEstimate<Scalar>& found) {
-    if (!is_refuted(found)) {
-        return;
-    }
-    found.immersion_valid = false;
-    found.depth_valid = false;
-    found.engagement_low_rad = Scalar(0);
-    found.radial_immersion_low = Scalar(0);
-    found.engagement_high_rad = pi<Scalar>;
-    found.radial_immersion_high = Scalar(2);
-    found.radial_immersion_sd = Scalar(2) / width_of_95_percent<Scalar>;
-}
-
 /// The side of a tool whose side is not known: the one that fits better by more than 95 %. Where neither does, the
 /// estimate is valid only if both sides give the same immersion.
 template <typename Scalar>
