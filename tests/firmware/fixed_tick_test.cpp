@@ -12,6 +12,7 @@
 #include "control/feed_law_impl.hpp"
 #include "control/path_turn_impl.hpp"
 #include "estimation/cut_estimator_impl.hpp"
+#include "estimation/cutting/peak_table_impl.hpp"
 #include "estimation/number/fixed_point.hpp"
 #include "estimation/surface/roughness_impl.hpp"
 #include "firmware/parameters_in_impl.hpp"

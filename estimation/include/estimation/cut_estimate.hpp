@@ -43,7 +43,8 @@ struct DriveSignals {
     static constexpr int spindle_current = 0;  ///< in A
     static constexpr int first_current = 1;    ///< of the axes, in A
     static constexpr int first_velocity = 4;   ///< of the axes, in mm/s
-    static constexpr int channels = 7;
+    static constexpr int velocities = 3;
+    static constexpr int channels = first_velocity + velocities;
     static constexpr std::uint32_t spindle_present = 1U;
     static constexpr std::uint32_t first_axis_present = 2U;  ///< of x; y and z follow
 

@@ -7,6 +7,7 @@
 #include "estimation/cutting/total_force.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
+#include "estimation/engagement/depth_memory.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
 #include "estimation/signal/encoder_angle.hpp"
 #include "estimation/signal/force_memory.hpp"
@@ -59,6 +60,10 @@ class CutEstimator {
     /// The encoder failed or the samples stopped: forgets the cut, keeps what was learnt in air.
     void restart();
 
+    /// The cut of estimate() neither begins nor ends: its depth serves where the forces do not tell it. Call once per
+    /// new estimate.
+    void remember_depth();
+
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. Uses the
     /// window from one revolution earlier, so that first contact is not taken for drift. Call once per new estimate
     /// while in air; leave_air() when that ends. Returns whether it was done.
@@ -81,7 +86,7 @@ class CutEstimator {
     }
 
   private:
-    using Averager = SynchronousAverage<Scalar, DriveSignals<Scalar>::channels>;
+    using Averager = SynchronousAverage<Scalar, DriveSignals<Scalar>::channels, DriveSignals<Scalar>::velocities>;
     using Window = typename Averager::Window;
 
     /// What the next slice does.
@@ -92,10 +97,10 @@ class CutEstimator {
     [[nodiscard]] static typename FeedDrive<Scalar>::Average axis_average(const Window& window, std::size_t axis);
 
     [[nodiscard]] bool begin_estimate();
-    void predict_drifts();
+    void predict_drifts(Scalar passed_s);
     void estimate_forces();
     void estimate_along_feed();
-    void begin_engagement();
+    void begin_engagement(Scalar passed_s);
     void publish();
     void rezero_drives();
 
@@ -116,6 +121,7 @@ class CutEstimator {
     SpindleDrive<Scalar> spindle_{};
     std::array<FeedDrive<Scalar>, 3> axes_{};
     ForceMemory<Scalar> memory_{};
+    DepthMemory<Scalar> depth_{};
     int periods_since_memory_ = 0;
     Scalar direction_x_{1};
     Scalar direction_y_{0};

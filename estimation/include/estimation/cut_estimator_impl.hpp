@@ -70,6 +70,7 @@ void CutEstimator<Scalar>::restart() {
     periods_ended_ = 0;
     stage_ = Stage::idle;
     search_.cancel();
+    depth_.forget();
     estimate_ = {};
 }
 
@@ -104,7 +105,9 @@ void CutEstimator<Scalar>::publish() {
 /// Returns true where the estimate is complete with that: there is no window yet.
 template <typename Scalar>
 bool CutEstimator<Scalar>::begin_estimate() {
-    predict_drifts();
+    const Scalar passed_s = since_prediction_s_;
+    since_prediction_s_ = Scalar(0);
+    predict_drifts(passed_s);
     window_ = average_.window();
     in_work_ = {};
     in_work_.tooth_periods = periods_ended_;
@@ -115,18 +118,17 @@ bool CutEstimator<Scalar>::begin_estimate() {
     }
     estimate_forces();
     estimate_along_feed();
-    begin_engagement();
+    begin_engagement(passed_s);
     stage_ = Stage::engagement;
     return false;
 }
 
 template <typename Scalar>
-void CutEstimator<Scalar>::predict_drifts() {
-    spindle_.predict(since_prediction_s_);
+void CutEstimator<Scalar>::predict_drifts(Scalar passed_s) {
+    spindle_.predict(passed_s);
     for (FeedDrive<Scalar>& axis : axes_) {
-        axis.predict(since_prediction_s_);
+        axis.predict(passed_s);
     }
-    since_prediction_s_ = Scalar(0);
 }
 
 template <typename Scalar>
@@ -165,7 +167,7 @@ typename FeedDrive<Scalar>::Average CutEstimator<Scalar>::axis_average(const Win
     typename FeedDrive<Scalar>::Average average;
     average.current_A = window.mean[current];
     average.velocity_mm_s = window.mean[velocity];
-    average.acceleration_mm_s2 = window.slope_per_s[velocity];
+    average.acceleration_mm_s2 = window.rate_per_s[static_cast<Eigen::Index>(axis)];
     average.duration_s = window.duration_s;
     average.samples = window.samples;
     average.present = (window.present & (DriveSignals<Scalar>::first_axis_present << axis)) != 0U;
@@ -214,7 +216,7 @@ void CutEstimator<Scalar>::estimate_along_feed() {
 }
 
 template <typename Scalar>
-void CutEstimator<Scalar>::begin_engagement() {
+void CutEstimator<Scalar>::begin_engagement(Scalar passed_s) {
     AverageForceMeasurement<Scalar> forces;
     forces.tangential_N = in_work_.tangential_N;
     forces.x_N = in_work_.x_N;
@@ -226,7 +228,15 @@ void CutEstimator<Scalar>::begin_engagement() {
     periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
     memory_.blend(forces, in_work_.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution);
     forces.radial_immersion = other_;
-    solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side);
+    depth_.follow(in_work_.feed_mm_s * passed_s, in_work_.axial_speed_mm_s * passed_s);
+    solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side, depth_.depth());
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::remember_depth() {
+    if (!estimate_.engagement.depth_is_remembered) {
+        depth_.learn(estimate_.engagement);
+    }
 }
 
 // Learning in air

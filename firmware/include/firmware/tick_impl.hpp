@@ -143,6 +143,9 @@ void ForceControlTick<Scalar, WideBand>::work() {
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::take_estimate() {
     rezero_in_air();
+    if (is_in_cut()) {
+        estimator_.remember_depth();
+    }
     drops_.follow_section(estimator_.estimate().section_mm2);
     surface_.update(estimator_.estimate());
     set_cut();

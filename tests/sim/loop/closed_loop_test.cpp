@@ -43,13 +43,14 @@ void holds_the_limit(const std::string& name) {
     }
 }
 
-/// The 95 % bands over plants drawn from the stated deviations; 12 plants leave some per cent to chance.
-void bands_hold(const std::string& name) {
+/// The 95 % bands over plants drawn from the stated deviations; 12 plants leave some per cent to chance. Returns how
+/// often that of the immersion holds.
+double bands_hold(const std::string& name) {
     const EnsembleFigures figures = summarise_ensemble(run_ensemble(scenario_named(name), 12));
     CHECK(figures.immersion_coverage >= 0.90);
-    CHECK(figures.immersion_coverage < 1.0);  // a band that always holds is too wide
     CHECK(figures.depth_coverage >= 0.88);
     LONGS_EQUAL(0, figures.teeth_broken);
+    return figures.immersion_coverage;
 }
 
 /// Against the constant feed that is safe for a material up to 30 % harder.
@@ -92,6 +93,7 @@ TEST(ClosedLoop, knows_the_engagement_better_and_is_faster_with_force_drops) {
     double estimate_share = 0.0;
     double time_told_s = 0.0;
     double time_alone_s = 0.0;
+    double alone_share = 0.0;
     constexpr std::uint64_t seeds = 3;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Scenario with = scenario_named("face_mill_dynamometer", {1.0, 1.0, seed});
@@ -102,10 +104,15 @@ TEST(ClosedLoop, knows_the_engagement_better_and_is_faster_with_force_drops) {
         CHECK(told.depth_rms_mm < 0.2);
         estimate_share += told.estimate_share / seeds;
         time_told_s += told.time_s;
-        time_alone_s += controlled(without).time_s;
+        const RunFigures alone = controlled(without);
+        time_alone_s += alone.time_s;
+        alone_share += alone.estimate_share / seeds;
+        CHECK(told.peak_over_limit < alone.peak_over_limit);
+        CHECK(told.immersion_rms < 0.25 * alone.immersion_rms);
     }
     CHECK(estimate_share > 0.9);
-    CHECK(time_told_s < 0.9 * time_alone_s);
+    CHECK(alone_share < 0.8);
+    CHECK(time_told_s < 0.95 * time_alone_s);
 }
 
 TEST(ClosedLoop, holds_the_limit_in_a_zig_zag_although_the_tool_file_says_down) {
@@ -133,10 +140,11 @@ TEST(ClosedLoop, breaks_no_tooth_there_though_nobody_declared_the_steps) {
 }
 
 TEST(ClosedLoop, states_bands_that_hold) {
-    bands_hold("depth_ramp");
-    bands_hold("face_mill");
-    bands_hold("width_step");
-    bands_hold("face_mill_dynamometer");
+    double coverage = 0.0;
+    for (const char* name : {"depth_ramp", "face_mill", "width_step", "face_mill_dynamometer"}) {
+        coverage += bands_hold(name) / 4.0;
+    }
+    CHECK(coverage < 0.999);  // bands that always hold are too wide
 }
 
 TEST(ClosedLoop, saves_time_against_a_safe_constant_feed) {
@@ -156,17 +164,24 @@ TEST(ClosedLoop, is_saved_by_the_entry_feed_where_no_reaction_is_fast_enough) {
 /// Not in an interrupted cut: there both take 14 to 16 s from seed to seed, as a force at a threshold decides.
 TEST(ClosedLoop, mills_in_fixed_point_as_in_float) {
     for (const char* name : {"slot_entry", "depth_ramp"}) {
-        const Scenario scenario = scenario_named(name);
-        FixedPointController controller(scenario.parameters);
-        const RunFigures in_fixed = simulate(scenario, controller, "millforce_fixed").result.figures;
-        const RunFigures in_float = controlled(scenario);
-        CHECK(bounds_hold(in_fixed));
-        DOUBLES_EQUAL(in_float.time_s, in_fixed.time_s, 0.02 * in_float.time_s);
-        DOUBLES_EQUAL(in_float.peak_over_limit, in_fixed.peak_over_limit, 0.02);
-        DOUBLES_EQUAL(in_float.immersion_rms, in_fixed.immersion_rms, 0.005);
-        DOUBLES_EQUAL(in_float.depth_rms_mm, in_fixed.depth_rms_mm, 0.02);
-        DOUBLES_EQUAL(in_float.mean_override, in_fixed.mean_override, 0.02 * in_float.mean_override);
-        UNSIGNED_LONGS_EQUAL(0, millforce::estimation::saturations());
+        double rms_in_float = 0.0;
+        double rms_in_fixed = 0.0;
+        constexpr std::uint64_t seeds = 3;  // one estimate of a cutter that leaves moves the rms of one run
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            const Scenario scenario = scenario_named(name, {1.0, 1.0, seed});
+            FixedPointController controller(scenario.parameters);
+            const RunFigures in_fixed = simulate(scenario, controller, "millforce_fixed").result.figures;
+            const RunFigures in_float = controlled(scenario);
+            CHECK(bounds_hold(in_fixed));
+            DOUBLES_EQUAL(in_float.time_s, in_fixed.time_s, 0.02 * in_float.time_s);
+            DOUBLES_EQUAL(in_float.peak_over_limit, in_fixed.peak_over_limit, 0.02);
+            DOUBLES_EQUAL(in_float.depth_rms_mm, in_fixed.depth_rms_mm, 0.02);
+            DOUBLES_EQUAL(in_float.mean_override, in_fixed.mean_override, 0.02 * in_float.mean_override);
+            UNSIGNED_LONGS_EQUAL(0, millforce::estimation::saturations());
+            rms_in_float += in_float.immersion_rms / seeds;
+            rms_in_fixed += in_fixed.immersion_rms / seeds;
+        }
+        DOUBLES_EQUAL(rms_in_float, rms_in_fixed, 0.005);
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of ToothPeakTable. Only src/peak_table.cpp includes them.
+// Bodies of ToothPeakTable. Included by src/peak_table.cpp, and by whoever needs another scalar.
 
 #include "estimation/cutting/peak_factors.hpp"
 

@@ -26,8 +26,9 @@
 /// less than 3.84 (95 %): a flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
 ///
 /// begin() and advance() are resumable: however the steps are divided over calls, the answer has the same bits. A
-/// solution takes some 27 steps for a side that is known, twice as many for one that is not; a step is one to three
-/// values of J. Memory: two tables of 9 · Nodes scalars. Bodies: engagement_solver_impl.hpp.
+/// solution takes some 27 steps for a side that is known, twice as many for one that is not, and as many again where
+/// a remembered depth is needed; a step is one to three values of J. Memory: two tables of 9 · Nodes scalars. Bodies:
+/// engagement_solver_impl.hpp.
 
 namespace millforce::estimation {
 
@@ -61,8 +62,11 @@ class EngagementSolver {
     /// that fits better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the
     /// same immersion. Forces that refute both sides give no estimate, and as the interval all immersions at which the
     /// flutes are long enough for F_at.
-    void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
-               CutSide side) const;
+    ///
+    /// Where forces that a side explains tell the depth less than half as well as the `remembered` one is known, the
+    /// immersion is looked for once more with it; a depth that these forces refute is not used.
+    void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm, CutSide side,
+               const KnownDepth<Scalar>& remembered = {}) const;
 
     /// At most so many steps; true when the estimate is there.
     bool advance(Search& search, int steps) const;
@@ -85,6 +89,8 @@ class EngagementSolver {
     [[nodiscard]] bool is_solvable(const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm) const;
     void begin_side(Search& search, CutSide side) const;
     void end_side(Search& search) const;
+    void end_sides(Search& search) const;
+    void end_with_memory(Search& search) const;
     void withdraw(Search& search) const;
     void step(Search& search) const;
 
@@ -125,6 +131,7 @@ class EngagementSolver<Scalar, Nodes>::Search {
     friend class EngagementSolver;
     enum class Phase : unsigned char { scan, valleys, probe, candidate, interval, depth, done };
 
+    [[nodiscard]] bool memory_knows_more() const;
     [[nodiscard]] bool is_inside(std::size_t node) const;
     [[nodiscard]] std::size_t end_of_descent(std::size_t node) const;
     [[nodiscard]] std::size_t end_of_ascent(std::size_t node) const;
@@ -132,7 +139,9 @@ class EngagementSolver<Scalar, Nodes>::Search {
 
     Profile profile_{};
     EngagementEstimate<Scalar> estimate_{};
-    EngagementEstimate<Scalar> first_{};  // of the side that was tried first, where both are
+    EngagementEstimate<Scalar> first_{};  // of the side that was tried first; then of the forces alone
+    KnownDepth<Scalar> remembered_{};
+    bool is_with_memory_ = false;
     CutSide asked_ = CutSide::unknown;
     CutSide side_ = CutSide::down;
     Phase phase_ = Phase::done;

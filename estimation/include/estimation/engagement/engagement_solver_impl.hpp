@@ -58,8 +58,11 @@ bool EngagementSolver<Scalar, Nodes>::is_solvable(const AverageForceMeasurement<
 
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::begin(Search& search, const AverageForceMeasurement<Scalar>& forces,
-                                            Scalar feed_per_tooth_mm, CutSide side) const {
+                                            Scalar feed_per_tooth_mm, CutSide side,
+                                            const KnownDepth<Scalar>& remembered) const {
     search.asked_ = side;
+    search.remembered_ = remembered;
+    search.is_with_memory_ = false;
     begin_side(search, first_side(side));
     if (is_solvable(forces, feed_per_tooth_mm)) {
         search.profile_ =
@@ -100,6 +103,10 @@ void EngagementSolver<Scalar, Nodes>::begin_side(Search& s, CutSide side) const 
 
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
+    if (s.is_with_memory_) {
+        end_with_memory(s);
+        return;
+    }
     const CutSide first = first_side(s.asked_);
     const bool is_first = s.side_ == first;
     const bool other_may_fit =
@@ -113,8 +120,41 @@ void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
         s.estimate_ = s.asked_ == CutSide::unknown ? better_of_sides(s.first_, s.estimate_)
                                                    : told_or_other_side(s.first_, s.estimate_);
     }
-    if (is_refuted(s.estimate_)) {
+    end_sides(s);
+}
+
+/// The forces alone have said what they can.
+template <typename Scalar, int Nodes>
+void EngagementSolver<Scalar, Nodes>::end_sides(Search& s) const {
+    const EngagementEstimate<Scalar>& e = s.estimate_;
+    if (is_refuted(e)) {
         withdraw(s);
+    } else if (e.side != CutSide::unknown && s.memory_knows_more()) {
+        s.first_ = e;
+        s.is_with_memory_ = true;
+        s.profile_.set_known_depth(s.remembered_);
+        begin_side(s, s.first_.side);
+        return;
+    }
+    s.phase_ = Search::Phase::done;
+}
+
+/// The remembered depth has less than half the doubt of the one that the forces alone tell.
+template <typename Scalar, int Nodes>
+bool EngagementSolver<Scalar, Nodes>::Search::memory_knows_more() const {
+    const Scalar remembered_sd_mm = remembered_.relative_sd * remembered_.depth_mm;
+    const bool forces_tell_it =
+        estimate_.immersion_valid && halved(estimate_.axial_depth_force_sd_mm) < remembered_sd_mm;
+    return remembered_.depth_mm > Scalar(0) && !forces_tell_it;
+}
+
+template <typename Scalar, int Nodes>
+void EngagementSolver<Scalar, Nodes>::end_with_memory(Search& s) const {
+    const bool fits = s.estimate_.misfit - s.first_.misfit < misfit_of_another_depth<Scalar>;
+    if (s.estimate_.immersion_valid && fits) {
+        s.estimate_.depth_is_remembered = true;
+    } else {
+        s.estimate_ = s.first_;
     }
     s.phase_ = Search::Phase::done;
 }
@@ -417,7 +457,9 @@ void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     const Scalar by_K_s = square(best.depth_mm) * s.profile_.doubt_of_K_s().variance_at(best.ln_t_in_references);
     const Scalar flute_mm = settings_.flute_length_mm;
     e.axial_depth_mm = flute_mm > Scalar(0) && best.depth_mm > flute_mm ? flute_mm : best.depth_mm;
-    e.axial_depth_sd_mm = sqrt(square(spread_mm) + Scalar(1) / best.information + by_K_s);
+    const Scalar by_forces = square(spread_mm) + Scalar(1) / best.information;
+    e.axial_depth_force_sd_mm = sqrt(by_forces);
+    e.axial_depth_sd_mm = sqrt(by_forces + by_K_s);
     e.depth_valid = e.immersion_valid && e.axial_depth_sd_mm < e.axial_depth_mm;
 }
 

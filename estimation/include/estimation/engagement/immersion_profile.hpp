@@ -8,11 +8,12 @@
 
 namespace millforce::estimation {
 
-/// A depth of cut that is known before any force is measured, as one more measurement.
+/// A depth of cut that is known from elsewhere, as one more measurement.
 template <typename Scalar>
-struct DeclaredDepth {
+struct KnownDepth {
     Scalar depth_mm{0};  ///< 0: none
     Scalar relative_sd{0};
+    bool K_s_is_in_doubt = true;  ///< a depth in true millimetres; false: one found from forces with the same K_s
 };
 
 /// The profile likelihood of the immersion for one set of measured forces: at each immersion the depth that fits best,
@@ -21,7 +22,7 @@ struct DeclaredDepth {
 ///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²,   0 ≤ a_p ≤ a_p,max
 ///
 /// σ² of a force along an axis also holds the misfit of the closed law and the doubt in r_1; an immersion from another
-/// method adds (R_r − R_other)²/σ², a declared depth (a_p − a_declared)²/σ². a_p,max is the length of the flutes,
+/// method adds (R_r − R_other)²/σ², a known depth (a_p − a_known)²/σ². a_p,max is the length of the flutes,
 /// larger by two deviations of K_s: an immersion that asks for more explains nothing. Cost of a value: some hundred
 /// instructions at a node of the table, twice as many between nodes. Bodies: immersion_profile_impl.hpp.
 template <typename Scalar, int Nodes>
@@ -39,7 +40,9 @@ class ImmersionProfile {
     ImmersionProfile() = default;
     /// `law`: any table of the law in question. `largest_depth_mm`: a_p,max; 0: not bounded.
     ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm,
-                     Scalar law_relative_sd, const DeclaredDepth<Scalar>& declared, Scalar largest_depth_mm);
+                     Scalar law_relative_sd, const KnownDepth<Scalar>& known, Scalar largest_depth_mm);
+
+    void set_known_depth(const KnownDepth<Scalar>& known) { known_ = known; }
 
     [[nodiscard]] Value at(const Table& table, Scalar theta_rad) const;
     [[nodiscard]] Value at_node(const Table& table, std::size_t node) const;
@@ -63,10 +66,10 @@ class ImmersionProfile {
     [[nodiscard]] Value value_of(const typename Table::Forces& model, Scalar theta_rad) const;
     [[nodiscard]] Term along_axis(const Measurement<Scalar>& force_N, const typename Table::Forces& model,
                                   Scalar direction_x, Scalar direction_y) const;
-    [[nodiscard]] Term of_declared_depth(Scalar ln_t_in_references) const;
+    [[nodiscard]] Term of_known_depth(Scalar ln_t_in_references) const;
 
     AverageForceMeasurement<Scalar> forces_{};  // variances along the axes with the law's misfit
-    DeclaredDepth<Scalar> declared_{};
+    KnownDepth<Scalar> known_{};
     typename Table::Feed feed_{};
     typename Table::Doubt K_s_{};
     typename Table::Doubt r_1_{};

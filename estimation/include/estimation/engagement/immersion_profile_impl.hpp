@@ -8,9 +8,9 @@ namespace millforce::estimation {
 template <typename Scalar, int Nodes>
 ImmersionProfile<Scalar, Nodes>::ImmersionProfile(const Table& law, const AverageForceMeasurement<Scalar>& forces,
                                                   Scalar feed_per_tooth_mm, Scalar law_relative_sd,
-                                                  const DeclaredDepth<Scalar>& declared, Scalar largest_depth_mm)
+                                                  const KnownDepth<Scalar>& known, Scalar largest_depth_mm)
     : forces_(forces),
-      declared_(declared),
+      known_(known),
       feed_(law.feed(feed_per_tooth_mm)),
       K_s_(law.doubt_of_K_s()),
       r_1_(law.doubt_of_r_1()),
@@ -52,13 +52,14 @@ typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::
 /// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the relative variance of
 /// this term is the sum of both.
 template <typename Scalar, int Nodes>
-typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::of_declared_depth(
+typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::of_known_depth(
     Scalar ln_t_in_references) const {
-    if (!(declared_.depth_mm > Scalar(0))) {
+    if (!(known_.depth_mm > Scalar(0))) {
         return {};
     }
-    const Scalar relative_variance = square(declared_.relative_sd) + K_s_.variance_at(ln_t_in_references);
-    return {declared_.depth_mm, Scalar(1), Scalar(1) / (square(declared_.depth_mm) * relative_variance)};
+    const Scalar by_K_s = known_.K_s_is_in_doubt ? K_s_.variance_at(ln_t_in_references) : Scalar(0);
+    const Scalar relative_variance = square(known_.relative_sd) + by_K_s;
+    return {known_.depth_mm, Scalar(1), Scalar(1) / (square(known_.depth_mm) * relative_variance)};
 }
 
 template <typename Scalar, int Nodes>
@@ -70,7 +71,7 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
     const Term terms[] = {{forces_.tangential_N.value, model.tangential_N, tangential_weight_},
                           along_axis(forces_.x_N, model, t_x, t_y),
                           along_axis(forces_.y_N, model, t_y, -t_x),
-                          of_declared_depth(model.ln_t_in_references)};
+                          of_known_depth(model.ln_t_in_references)};
     Scalar wgg{0};
     Scalar wmg{0};
     for (const Term& term : terms) {

@@ -20,6 +20,10 @@ inline constexpr Scalar threshold_of_95_percent = literal<Scalar>(3.84L);
 template <typename Scalar>
 inline constexpr Scalar misfit_of_a_wrong_model{16};
 
+/// By so much J rises at most where a remembered depth is added that still holds: three deviations.
+template <typename Scalar>
+inline constexpr Scalar misfit_of_another_depth{9};
+
 template <typename Scalar>
 [[nodiscard]] bool is_refuted(const EngagementEstimate<Scalar>& found) {
     return found.misfit > misfit_of_a_wrong_model<Scalar>;

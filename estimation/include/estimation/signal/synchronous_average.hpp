@@ -20,10 +20,11 @@
 
 namespace millforce::estimation {
 
-template <typename Scalar, int Channels, int MaxPeriods = 48>
+template <typename Scalar, int Channels, int Rates, int MaxPeriods = 40>
 class SynchronousAverage {
   public:
     using Signals = Eigen::Matrix<Scalar, Channels, 1>;
+    using RateSignals = Eigen::Matrix<Scalar, Rates, 1>;
 
     struct Settings {
         int teeth = 4;           ///< tooth periods per revolution, 1…12
@@ -44,9 +45,10 @@ class SynchronousAverage {
     struct Window : Means {
         Scalar spindle_speed_rad_s{0};
         Scalar spindle_acceleration_rad_s2{0};
-        Signals slope_per_s = Signals::Zero();  ///< newer half against older half
-        int revolutions = 0;                    ///< 0: not enough has been seen since the last restart
-        int tooth_periods = 0;                  ///< of these revolutions
+        /// Mean rate of change of the last `Rates` signals: from their values at the window's ends.
+        RateSignals rate_per_s = RateSignals::Zero();
+        int revolutions = 0;    ///< 0: not enough has been seen since the last restart
+        int tooth_periods = 0;  ///< of these revolutions
     };
 
     explicit SynchronousAverage(const Settings& settings = {});
@@ -78,11 +80,12 @@ class SynchronousAverage {
     int split_at_boundaries(const Interval& interval, Scalar angle_rev);
     void accumulate(const Interval& interval, Scalar from_share, Scalar to_share);
     void begin_period();
-    int close_period();
+    int close_period(const RateSignals& at_boundary);
     [[nodiscard]] Scalar distance_to_boundary(Scalar angle_rev, Scalar expected_rev) const;
     [[nodiscard]] Scalar offset_in_pitch(Scalar angle_rev) const;
     [[nodiscard]] int periods_of_window() const;
-    [[nodiscard]] const Means& at(int back) const;
+    [[nodiscard]] std::size_t place(int back) const;
+    [[nodiscard]] const Means& at(int back) const { return periods_[place(back)]; }
 
     Settings settings_;
     Scalar pitch_rev_;
@@ -92,6 +95,7 @@ class SynchronousAverage {
     Scalar duration_s_{0};
     Scalar samples_{0};
     std::uint32_t present_ = ~0U;
+    RateSignals at_start_ = RateSignals::Zero();
     bool period_is_whole_ = false;  // seen from its first boundary on
 
     bool has_previous_ = false;
@@ -101,7 +105,8 @@ class SynchronousAverage {
     std::uint32_t previous_present_ = 0;
 
     std::array<Means, static_cast<std::size_t>(MaxPeriods)> periods_{};  // a ring
-    int available_ = 0;                                                  // periods in it
+    std::array<RateSignals, static_cast<std::size_t>(MaxPeriods)> at_starts_{};
+    int available_ = 0;  // periods in them
     std::size_t newest_ = 0;
 };
 

@@ -7,21 +7,21 @@
 
 namespace millforce::estimation {
 
-template <typename Scalar, int Channels, int MaxPeriods>
-SynchronousAverage<Scalar, Channels, MaxPeriods>::SynchronousAverage(const Settings& settings)
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::SynchronousAverage(const Settings& settings)
     : settings_(settings), pitch_rev_(Scalar(1) / Scalar(settings.teeth)) {}
 
-template <typename Scalar, int Channels, int MaxPeriods>
-void SynchronousAverage<Scalar, Channels, MaxPeriods>::restart() {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+void SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::restart() {
     available_ = 0;
     has_previous_ = false;
     period_is_whole_ = false;
     begin_period();
 }
 
-template <typename Scalar, int Channels, int MaxPeriods>
-int SynchronousAverage<Scalar, Channels, MaxPeriods>::add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev,
-                                                          const Signals& signals, std::uint32_t present) {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+int SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev,
+                                                                 const Signals& signals, std::uint32_t present) {
     int completed = 0;
     if (has_previous_ && gap_is_too_long(dt_s, turned_rev)) {
         restart();
@@ -38,8 +38,8 @@ int SynchronousAverage<Scalar, Channels, MaxPeriods>::add(Scalar dt_s, Scalar tu
     return completed;
 }
 
-template <typename Scalar, int Channels, int MaxPeriods>
-bool SynchronousAverage<Scalar, Channels, MaxPeriods>::gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+bool SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::gap_is_too_long(Scalar dt_s, Scalar turned_rev) const {
     if (!(dt_s > Scalar(0)) || dt_s > settings_.max_gap_s) {
         return true;
     }
@@ -49,8 +49,9 @@ bool SynchronousAverage<Scalar, Channels, MaxPeriods>::gap_is_too_long(Scalar dt
 }
 
 /// Returns how many tooth periods were completed.
-template <typename Scalar, int Channels, int MaxPeriods>
-int SynchronousAverage<Scalar, Channels, MaxPeriods>::split_at_boundaries(const Interval& interval, Scalar angle_rev) {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+int SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::split_at_boundaries(const Interval& interval,
+                                                                                 Scalar angle_rev) {
     int completed = 0;
     bool has_crossed = false;
     Scalar from_share{0};
@@ -59,7 +60,8 @@ int SynchronousAverage<Scalar, Channels, MaxPeriods>::split_at_boundaries(const 
         const Scalar step_rev = to_boundary_rev_ > Scalar(0) ? to_boundary_rev_ : Scalar(0);
         const Scalar to_share = from_share + step_rev / interval.turned_rev;
         accumulate(interval, from_share, to_share);
-        completed += close_period();
+        const Signals at_boundary = previous_signals_ + (interval.signals - previous_signals_) * to_share;
+        completed += close_period(at_boundary.template tail<Rates>());
         has_crossed = true;
         from_share = to_share;
         left_rev -= step_rev;
@@ -75,9 +77,9 @@ int SynchronousAverage<Scalar, Channels, MaxPeriods>::split_at_boundaries(const 
 
 /// Adds the part of an interval between two shares of it. The integral of a line over a part is the length of the part
 /// times the line's value in its middle.
-template <typename Scalar, int Channels, int MaxPeriods>
-void SynchronousAverage<Scalar, Channels, MaxPeriods>::accumulate(const Interval& interval, Scalar from_share,
-                                                                  Scalar to_share) {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+void SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::accumulate(const Interval& interval, Scalar from_share,
+                                                                         Scalar to_share) {
     const Scalar share = to_share - from_share;
     const Scalar part_rev = share * interval.turned_rev;
     const Scalar end_weight_rev = part_rev * halved(from_share + to_share);
@@ -88,8 +90,8 @@ void SynchronousAverage<Scalar, Channels, MaxPeriods>::accumulate(const Interval
     present_ &= interval.present;
 }
 
-template <typename Scalar, int Channels, int MaxPeriods>
-void SynchronousAverage<Scalar, Channels, MaxPeriods>::begin_period() {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+void SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::begin_period() {
     sum_.setZero();
     turned_rev_ = Scalar(0);
     duration_s_ = Scalar(0);
@@ -98,8 +100,8 @@ void SynchronousAverage<Scalar, Channels, MaxPeriods>::begin_period() {
 }
 
 /// Returns 1 where the period was seen as a whole.
-template <typename Scalar, int Channels, int MaxPeriods>
-int SynchronousAverage<Scalar, Channels, MaxPeriods>::close_period() {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+int SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::close_period(const RateSignals& at_boundary) {
     const bool is_whole = period_is_whole_ && turned_rev_ > Scalar(0) && duration_s_ > Scalar(0);
     if (is_whole) {
         newest_ = newest_ + 1 < periods_.size() ? newest_ + 1 : 0;
@@ -109,7 +111,9 @@ int SynchronousAverage<Scalar, Channels, MaxPeriods>::close_period() {
         period.present = present_;
         period.duration_s = duration_s_;
         period.samples = samples_;
+        at_starts_[newest_] = at_start_;
     }
+    at_start_ = at_boundary;
     period_is_whole_ = true;
     begin_period();
     return is_whole ? 1 : 0;
@@ -117,9 +121,9 @@ int SynchronousAverage<Scalar, Channels, MaxPeriods>::close_period() {
 
 /// From the angle to the next tooth boundary. Rounding may put the angle on the wrong side of a boundary; the distance
 /// expected from counting on decides which one is meant. May be negative: the boundary has just passed.
-template <typename Scalar, int Channels, int MaxPeriods>
-Scalar SynchronousAverage<Scalar, Channels, MaxPeriods>::distance_to_boundary(Scalar angle_rev,
-                                                                              Scalar expected_rev) const {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+Scalar SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::distance_to_boundary(Scalar angle_rev,
+                                                                                     Scalar expected_rev) const {
     const Scalar distance = pitch_rev_ - offset_in_pitch(angle_rev);
     const Scalar half_pitch_rev = halved(pitch_rev_);
     if (distance - expected_rev > half_pitch_rev) {
@@ -128,29 +132,28 @@ Scalar SynchronousAverage<Scalar, Channels, MaxPeriods>::distance_to_boundary(Sc
     return expected_rev - distance > half_pitch_rev ? distance + pitch_rev_ : distance;
 }
 
-template <typename Scalar, int Channels, int MaxPeriods>
-Scalar SynchronousAverage<Scalar, Channels, MaxPeriods>::offset_in_pitch(Scalar angle_rev) const {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+Scalar SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::offset_in_pitch(Scalar angle_rev) const {
     const auto whole = static_cast<int>(angle_rev * Scalar(settings_.teeth));
     const Scalar offset = angle_rev - Scalar(whole) * pitch_rev_;
     return offset < Scalar(0) ? Scalar(0) : offset;
 }
 
-template <typename Scalar, int Channels, int MaxPeriods>
-Scalar SynchronousAverage<Scalar, Channels, MaxPeriods>::tooth_speed_rad_s() const {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+Scalar SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::tooth_speed_rad_s() const {
     return turn_rad<Scalar> * pitch_rev_ / tooth().duration_s;
 }
 
-/// The period that ended `back` periods before the last one.
-template <typename Scalar, int Channels, int MaxPeriods>
-const typename SynchronousAverage<Scalar, Channels, MaxPeriods>::Means&
-SynchronousAverage<Scalar, Channels, MaxPeriods>::at(int back) const {
+/// Of the period that ended `back` periods before the last one.
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+std::size_t SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::place(int back) const {
     const auto periods_back = static_cast<std::size_t>(back);
-    return periods_[newest_ >= periods_back ? newest_ - periods_back : newest_ - periods_back + periods_.size()];
+    return newest_ >= periods_back ? newest_ - periods_back : newest_ - periods_back + periods_.size();
 }
 
 /// The least whole revolutions that hold min_samples; 0: there are not enough.
-template <typename Scalar, int Channels, int MaxPeriods>
-int SynchronousAverage<Scalar, Channels, MaxPeriods>::periods_of_window() const {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+int SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::periods_of_window() const {
     // What a sum of shares may fall short of a whole number of samples by, by rounding and by the encoder's counts.
     constexpr Scalar sum_error_samples = literal<Scalar>(0.05L);
     Scalar samples{0};
@@ -165,9 +168,9 @@ int SynchronousAverage<Scalar, Channels, MaxPeriods>::periods_of_window() const 
     return 0;
 }
 
-template <typename Scalar, int Channels, int MaxPeriods>
-typename SynchronousAverage<Scalar, Channels, MaxPeriods>::Window
-SynchronousAverage<Scalar, Channels, MaxPeriods>::window() const {
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+typename SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::Window
+SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::window() const {
     Window window;
     const int count = periods_of_window();
     if (count == 0) {
@@ -180,8 +183,6 @@ SynchronousAverage<Scalar, Channels, MaxPeriods>::window() const {
     const int half = (count + 1) / 2;
     Scalar newer_duration_s{0};
     Scalar older_duration_s{0};
-    Signals newer = Signals::Zero();
-    Signals older = Signals::Zero();
     for (int k = 0; k < count; ++k) {
         const Means& period = at(k);
         window.mean += period.mean;
@@ -189,11 +190,9 @@ SynchronousAverage<Scalar, Channels, MaxPeriods>::window() const {
         window.samples += period.samples;
         window.duration_s += period.duration_s;
         if (k < half) {
-            newer += period.mean;
             newer_duration_s += period.duration_s;
         }
         if (k >= count - half) {
-            older += period.mean;
             older_duration_s += period.duration_s;
         }
     }
@@ -204,8 +203,8 @@ SynchronousAverage<Scalar, Channels, MaxPeriods>::window() const {
     const Scalar apart_s = window.duration_s - halved(newer_duration_s + older_duration_s);
     if (apart_s > Scalar(0)) {
         window.spindle_acceleration_rad_s2 = (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
-        window.slope_per_s = (newer - older) * (Scalar(1) / (Scalar(half) * apart_s));
     }
+    window.rate_per_s = (at_start_ - at_starts_[place(count - 1)]) * (Scalar(1) / window.duration_s);
     return window;
 }
 
