@@ -70,23 +70,6 @@ function(millforce_core target)
     endif()
 endfunction()
 
-# What most host sources include from outside, parsed once per optimisation level.
-# GCC takes precompiled headers only where options and definitions agree: so all of them link fmt.
-function(millforce_precompiled_headers target level)
-    set(shared millforce_precompiled_${level})
-    if(NOT TARGET ${shared})
-        add_library(${shared} OBJECT ${CMAKE_SOURCE_DIR}/toolchains/cmake/precompiled.cpp)
-        target_compile_options(${shared} PRIVATE -${level})
-        millforce_target_warnings(${shared})
-        target_link_libraries(${shared} PRIVATE fmt::fmt Eigen3::Eigen)
-        target_precompile_headers(${shared} PRIVATE
-            <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <ostream> <span> <string> <vector>
-            <fmt/format.h> <Eigen/Core>)
-    endif()
-    target_link_libraries(${target} PRIVATE fmt::fmt)
-    target_precompile_headers(${target} REUSE_FROM ${shared})
-endfunction()
-
 # millforce_host_library(<prefix> <folder> [HOT] LINKS ...): all sources of a folder beside the caller, as
 # <prefix>_<folder>. HOT: the simulation's inner loops; -O3 pays for its compile time there, elsewhere -O1 is enough.
 function(millforce_host_library prefix folder)
@@ -117,8 +100,5 @@ function(millforce_host_optimisation target)
             # At -O1 GCC 12 sees copies beyond the small buffer of std::string that are never made (GCC bug 105651).
             $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>
             $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
-    endif()
-    if(NOT MILLFORCE_TIDY)
-        millforce_precompiled_headers(${target} ${level})
     endif()
 endfunction()
