@@ -55,6 +55,7 @@ class CutStates {
     CutState state_ = CutState::air;
     Fault fault_ = Fault::none;
     bool has_cut_ = false;
+    bool was_in_contact_ = false;
     Scalar travel_in_state_mm_{0};
     Scalar tooth_periods_in_state_{0};  // counted: a sum of shares of a revolution would round
     Scalar without_force_s_{0};

@@ -51,7 +51,8 @@ void CutStates<Scalar>::follow_contact(const Parameters& parameters, const Contr
     tooth_periods_in_state_ += input.cut.tooth_periods;
     switch (state_) {
         case CutState::air:
-            if (contact) {
+            // For one tooth the current of a spindle that begins to run up looks like a cut.
+            if (contact && was_in_contact_) {
                 go_to(CutState::entry);
             }
             break;
@@ -82,6 +83,7 @@ void CutStates<Scalar>::follow_contact(const Parameters& parameters, const Contr
         case CutState::fault:
             break;
     }
+    was_in_contact_ = contact;
 }
 
 template <typename Scalar>

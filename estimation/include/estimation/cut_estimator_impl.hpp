@@ -133,28 +133,30 @@ void CutEstimator<Scalar>::predict_drifts(Scalar passed_s) {
 
 template <typename Scalar>
 typename SpindleDrive<Scalar>::Average CutEstimator<Scalar>::spindle_average(const Window& window) const {
-    // Counted in halves of the window, each between two counts with an error of variance 1/12: 4/12 in all.
-    constexpr Scalar variance_counts2 = literal<Scalar>(1.0L / 3.0L);
+    // Of two speeds, each from three boundaries that weigh 1.5, −2 and 0.5, between two counts with an error of
+    // variance 1/12.
+    constexpr Scalar variance_counts2 = literal<Scalar>(13.0L / 12.0L);
     const Scalar count_rad = turn_rad<Scalar> / Scalar(static_cast<int>(settings_.encoder_counts_per_rev));
-    const Scalar half_s = halved(window.duration_s);
+    const Scalar base_s2 = window.speed_span_s * window.duration_s;
     typename SpindleDrive<Scalar>::Average spindle;
     spindle.current_A = window.mean[DriveSignals<Scalar>::spindle_current];
     spindle.speed_rad_s = window.spindle_speed_rad_s;
     spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
-    spindle.acceleration_variance =
-        half_s > Scalar(0) ? square(count_rad / square(half_s)) * variance_counts2 : Scalar(0);
+    const Scalar by_counts = base_s2 > Scalar(0) ? square(count_rad / base_s2) * variance_counts2 : Scalar(0);
+    spindle.acceleration_variance = by_counts + square(window.spindle_acceleration_change_rad_s2);
     spindle.samples = window.samples;
     spindle.present = (window.present & DriveSignals<Scalar>::spindle_present) != 0U;
     return spindle;
 }
 
-/// The last tooth period alone; the acceleration is that of the window.
+/// The last tooth period alone. The acceleration is that of the window, which says little of a single tooth.
 template <typename Scalar>
 typename SpindleDrive<Scalar>::Average CutEstimator<Scalar>::spindle_average_of_tooth(const Window& window) const {
     const typename Averager::Means& tooth = average_.tooth();
     typename SpindleDrive<Scalar>::Average spindle = spindle_average(window);
     spindle.current_A = tooth.mean[DriveSignals<Scalar>::spindle_current];
     spindle.speed_rad_s = average_.tooth_speed_rad_s();
+    spindle.acceleration_variance += square(spindle.acceleration_rad_s2);
     spindle.samples = tooth.samples;
     spindle.present = (tooth.present & DriveSignals<Scalar>::spindle_present) != 0U;
     return spindle;

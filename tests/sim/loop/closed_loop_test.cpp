@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "control/cut_state.hpp"
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
@@ -145,6 +146,19 @@ TEST(ClosedLoop, states_bands_that_hold) {
         coverage += bands_hold(name) / 4.0;
     }
     CHECK(coverage < 0.999);  // bands that always hold are too wide
+}
+
+TEST(ClosedLoop, takes_no_rapid_and_no_change_of_the_spindles_speed_in_air_for_a_cut) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Scenario scenario = scenario_named("speed_steps", {1.0, 1.0, seed});
+        MillforceController controller(scenario.parameters);
+        const RunResult run = simulate(scenario, controller, "millforce").result;
+        CHECK(run.trace.size() > 500);
+        for (const TracePoint& point : run.trace) {
+            CHECK(point.state == static_cast<std::uint8_t>(millforce::control::CutState::air));
+        }
+        STRCMP_EQUAL("none", run.figures.fault.c_str());
+    }
 }
 
 TEST(ClosedLoop, saves_time_against_a_safe_constant_feed) {

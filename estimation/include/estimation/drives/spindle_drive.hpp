@@ -57,7 +57,8 @@ class SpindleDrive {
         }
         const Scalar torque_Nm = torque_without_drift_Nm(average) - drift_Nm_.value();
         const Scalar noise = noise_variance(average, per_Nm);
-        const Scalar others = drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque_Nm);
+        const Scalar others =
+            drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque_Nm) + inertia_doubt_Nm2(average);
         return {true, torque_Nm * per_Nm, noise + others * square(per_Nm), noise};
     }
 
@@ -72,8 +73,8 @@ class SpindleDrive {
             return;
         }
         const Scalar noise = noise_variance(average, Scalar(1));
-        const Scalar doubt = square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
-        const Measurement<Scalar> seen{true, torque_without_drift_Nm(average), noise + doubt, noise};
+        const Measurement<Scalar> seen{true, torque_without_drift_Nm(average), noise + inertia_doubt_Nm2(average),
+                                       noise};
         is_implausible_ = !drift_Nm_.is_within_doubt(seen);
         if (!is_implausible_) {
             drift_Nm_.correct(seen);
@@ -90,8 +91,12 @@ class SpindleDrive {
     }
 
   private:
-    /// Of J dω/dt: what J is off by, and what the slope of an average misses of an acceleration that changes within it.
+    /// Of J dω/dt: what J is off by, and the current's delay behind the torque.
     static constexpr Scalar inertia_share_in_doubt = literal<Scalar>(0.15L);
+
+    [[nodiscard]] Scalar inertia_doubt_Nm2(const Average& average) const {
+        return square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
+    }
 
     [[nodiscard]] static bool is_usable(const Average& average) {
         return average.present && average.samples > Scalar(0) && average.speed_rad_s > Scalar(0);

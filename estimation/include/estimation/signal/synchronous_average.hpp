@@ -44,7 +44,11 @@ class SynchronousAverage {
     /// The last whole revolutions, and how the spindle and the signals changed across them.
     struct Window : Means {
         Scalar spindle_speed_rad_s{0};
+        /// Mean acceleration: from the speeds at the window's ends, each seen over twice speed_span_s before the end. 0
+        /// until so much has been seen before the window.
         Scalar spindle_acceleration_rad_s2{0};
+        Scalar spindle_acceleration_change_rad_s2{0};  ///< within the window: what the mean may be off by
+        Scalar speed_span_s{0};
         /// Mean rate of change of the last `Rates` signals: from their values at the window's ends.
         RateSignals rate_per_s = RateSignals::Zero();
         int revolutions = 0;    ///< 0: not enough has been seen since the last restart
@@ -84,6 +88,8 @@ class SynchronousAverage {
     [[nodiscard]] Scalar distance_to_boundary(Scalar angle_rev, Scalar expected_rev) const;
     [[nodiscard]] Scalar offset_in_pitch(Scalar angle_rev) const;
     [[nodiscard]] int periods_of_window() const;
+    [[nodiscard]] Scalar speed_rad_s(int back, int periods) const;
+    void set_acceleration(Window& window) const;
     [[nodiscard]] std::size_t place(int back) const;
     [[nodiscard]] const Means& at(int back) const { return periods_[place(back)]; }
 

@@ -168,6 +168,35 @@ int SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::periods_of_window()
     return 0;
 }
 
+/// Mean over so many periods, the newest of which ended `back` periods before the last one.
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+Scalar SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::speed_rad_s(int back, int periods) const {
+    Scalar duration_s{0};
+    for (int k = back; k < back + periods; ++k) {
+        duration_s += at(k).duration_s;
+    }
+    return Scalar(periods) * turn_rad<Scalar> * pitch_rev_ / duration_s;
+}
+
+/// How the speed at the window's end differs from that at its start. Both are read off a line through the two stretches
+/// before them: the same teeth, so that what repeats with each revolution cancels.
+template <typename Scalar, int Channels, int Rates, int MaxPeriods>
+void SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::set_acceleration(Window& window) const {
+    const int count = window.tooth_periods;
+    const int longest = (MaxPeriods - count) / 2;
+    const int quarter = count < 4 ? 1 : count / 4;
+    const int span = quarter < longest ? quarter : longest;
+    window.speed_span_s = window.duration_s * Scalar(span) / Scalar(count);
+    if (span < 1 || available_ < count + 2 * span) {
+        return;
+    }
+    const Scalar newer = speed_rad_s(0, span) - speed_rad_s(count, span);
+    const Scalar older = speed_rad_s(span, span) - speed_rad_s(count + span, span);
+    const Scalar per_s = Scalar(1) / window.duration_s;
+    window.spindle_acceleration_change_rad_s2 = halved(newer - older) * per_s;
+    window.spindle_acceleration_rad_s2 = newer * per_s + window.spindle_acceleration_change_rad_s2;
+}
+
 template <typename Scalar, int Channels, int Rates, int MaxPeriods>
 typename SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::Window
 SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::window() const {
@@ -179,31 +208,16 @@ SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::window() const {
     window.revolutions = count / settings_.teeth;
     window.tooth_periods = count;
     window.present = ~0U;
-    // Both halves hold the middle period where their number is odd.
-    const int half = (count + 1) / 2;
-    Scalar newer_duration_s{0};
-    Scalar older_duration_s{0};
     for (int k = 0; k < count; ++k) {
         const Means& period = at(k);
         window.mean += period.mean;
         window.present &= period.present;
         window.samples += period.samples;
         window.duration_s += period.duration_s;
-        if (k < half) {
-            newer_duration_s += period.duration_s;
-        }
-        if (k >= count - half) {
-            older_duration_s += period.duration_s;
-        }
     }
     window.mean *= Scalar(1) / Scalar(count);
-    const Scalar pitch_rad = turn_rad<Scalar> * pitch_rev_;
-    const Scalar half_rad = Scalar(half) * pitch_rad;
-    window.spindle_speed_rad_s = Scalar(count) * pitch_rad / window.duration_s;
-    const Scalar apart_s = window.duration_s - halved(newer_duration_s + older_duration_s);
-    if (apart_s > Scalar(0)) {
-        window.spindle_acceleration_rad_s2 = (half_rad / newer_duration_s - half_rad / older_duration_s) / apart_s;
-    }
+    window.spindle_speed_rad_s = Scalar(count) * turn_rad<Scalar> * pitch_rev_ / window.duration_s;
+    set_acceleration(window);
     window.rate_per_s = (at_start_ - at_starts_[place(count - 1)]) * (Scalar(1) / window.duration_s);
     return window;
 }
