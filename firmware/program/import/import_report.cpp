@@ -45,7 +45,9 @@ void write_times(std::string& out, const ImportedRecording& recording) {
         fmt::format_to(std::back_inserter(out), " (resampled, values held for at most {:g} s)",
                        recording.resampling.hold_s);
     } else if (steps.rows() > 2) {
-        fmt::format_to(std::back_inserter(out), "; steps vary by {:.2g} % (rms)", 100.0 * steps.unevenness());
+        // Below 0.001 % is rounding.
+        const double unevenness_percent = std::round(1e5 * steps.unevenness()) / 1e3;
+        fmt::format_to(std::back_inserter(out), "; steps vary by {:.2g} % (rms)", unevenness_percent);
     }
     if (steps.gaps() > 0) {
         fmt::format_to(std::back_inserter(out), "; {} gap{}, the longest {:.4g} s at {:.6g} s", steps.gaps(),

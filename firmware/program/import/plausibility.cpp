@@ -15,6 +15,7 @@ constexpr double largest_current_A = 500.0;
 constexpr double largest_force_N = 1e5;
 constexpr double largest_override = 3.0;
 constexpr double fastest_spindle_rpm = 1e5;
+constexpr double largest_fall_rad = 0.1;  // a spindle at rest may oscillate by less
 constexpr double slowest_rate_hz = 20.0;
 constexpr double fastest_rate_hz = 1e6;
 
@@ -54,6 +55,11 @@ std::vector<std::string> angle_doubts(const ColumnMap& column, const ColumnStati
     } else if (angle.change() < 0.0) {
         doubts.push_back(
             fmt::format("{} falls, by {:.4g} rad in all: is it sign = -1?", column.column.name, -angle.change()));
+    } else if (angle.largest_fall() > largest_fall_rad) {
+        doubts.push_back(
+            fmt::format("{} falls back {} time{}, by up to {:.4g} rad: does it go on by more than half of "
+                        "wrap from one sample to the next?",
+                        column.column.name, angle.falls(), angle.falls() == 1 ? "" : "s", angle.largest_fall()));
     }
     if (speed_rpm > fastest_spindle_rpm) {
         doubts.push_back(fmt::format("{} turns at {:.3g} rpm; its unit is \"{}\": is it deg or counts?",

@@ -110,6 +110,8 @@ std::string Sparkline::text() const {
             high = std::max(high, mean);
         }
     }
+    constexpr double rounding = 1e-9;
+    const bool is_constant = high - low <= rounding * std::max(std::abs(low), std::abs(high));
     std::string text;
     for (std::size_t k = 0; k < used_; ++k) {
         const Piece& piece = pieces_[k];
@@ -119,8 +121,7 @@ std::string Sparkline::text() const {
         }
         constexpr auto top = static_cast<double>(bars.size() - 1);
         const double level = (piece.sum / static_cast<double>(piece.count) - low) / (high - low) * (top + 1.0);
-        // NaN, as of a constant, is the lowest bar.
-        text += bars[level >= top ? bars.size() - 1 : level > 0.0 ? static_cast<std::size_t>(level) : 0];
+        text += bars[is_constant ? 0 : level >= top ? bars.size() - 1 : static_cast<std::size_t>(level)];
     }
     return text;
 }

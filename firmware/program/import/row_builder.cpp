@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "files/input_error.hpp"
 
@@ -56,7 +57,8 @@ void RowBuilder::finish() {
         chain.finish();
     }
     if (resampling_.rate_hz > 0.0) {
-        give_rows_before(last_time_s_ + 2.0 * time_tolerance_s);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        give_rows_before(std::nextafter(last_time_s_ + 2.0 * time_tolerance_s, infinity));
     } else {
         give_rows();
     }

@@ -195,7 +195,7 @@ TEST(CandumpSource, takes_a_row_from_each_frame_where_one_message_has_all) {
 
 TEST(CandumpSource, names_the_place_of_what_does_not_fit) {
     const Resampling rate{1000.0, 0.02};
-    CHECK(contains(bench.error("(1.0) can0 181#0A00\n(1.1) can0 18#0A00\n", bus_map, rate), "source0:2:12: "));
+    CHECK(contains(bench.error("(1.0) can0 181#0A00\n(1.1) can0 18#0A00\n", bus_map, rate), "source0:2:14: "));
     CHECK(contains(bench.error("(1.0) can0 181#0A00\n(1.1) can1 181#0A00\n", bus_map, rate),
                    "source0:2: frames of can0 and can1; expected source.interface"));
     CHECK(contains(bench.error("(1.0) can0 181#0A00\n(0.5) can0 181#0A00\n", bus_map, rate),

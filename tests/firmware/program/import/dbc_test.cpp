@@ -117,7 +117,7 @@ TEST(Dbc, knows_ids_of_29_bits) {
 
 TEST(Dbc, names_line_column_and_what_was_expected) {
     const std::string message = "BO_ 496 Motor: 8 X\n";
-    CHECK(contains(error_of(message + " SG_ S : 0|16@2+ (1,0) [0|0] \"\" X"), "a.dbc:2:16"));
+    CHECK(contains(error_of(message + " SG_ S : 0|16@2+ (1,0) [0|0] \"\" X"), "a.dbc:2:15"));
     CHECK(contains(error_of(message + " SG_ S : 0|65@1+ (1,0) [0|0] \"\" X"), "integer from 0 to 64"));
     CHECK(contains(error_of(message + " SG_ S : 0|0@1+ (1,0) [0|0] \"\" X"), "at least one bit"));
     CHECK(contains(error_of(message + " SG_ S : 0|8@1+ (inf,0) [0|0] \"\" X"), "expected a number"));
