@@ -69,5 +69,6 @@ TEST(ImportCommand, refuses_in_one_line_and_writes_nothing) {
                   {"expected --map; there are /Nck/!SD/nckServoDataActCurr32 [u1, 1]"});
     check_refused(import("table.csv", "table.toml", {"-o", out, "--format", "xls"}), {"--format", "xls"});
     check_refused(import("table.csv", "table.toml", {"-o", out, "--rate", "nan"}), {"--rate"});
+    check_refused(import("table.csv", "table.toml", {"-o", out, "--hold", "0.1"}), {"--hold", "--rate"});
     CHECK(!std::filesystem::exists(out));
 }

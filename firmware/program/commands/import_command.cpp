@@ -72,17 +72,19 @@ void add_import(Command& program) {
                                   {"halsampler", SourceFormat::halsampler},
                                   {"candump", SourceFormat::candump}});
     command.flag("--dry-run", options->dry_run, "Write nothing");
-    command
-        .option("--rate", settings.resampling.rate_hz,
-                "Rows at this rate in Hz, with the last value of each column; default: a row for each record")
-        .value_name("HZ")
-        .within(0.1, 1e6);
+    const Option rate =
+        command
+            .option("--rate", settings.resampling.rate_hz,
+                    "Rows at this rate in Hz, with the last value of each column; default: a row for each record")
+            .value_name("HZ")
+            .within(0.1, 1e6);
     command
         .option("--hold", settings.resampling.hold_s,
                 "With --rate: hold a value for at most this time in s; then its cell is empty")
         .value_name("S")
         .within(1e-6, 3600.0)
-        .shows_default();
+        .shows_default()
+        .needs(rate);
     command.on_run([options] { return import_files(*options); });
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/dbc.hpp"
+#include "files/input_error.hpp"
+#include "firmware/program/files/temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 #include <bit>
 #include <cmath>
 #include <random>
-
-#include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
 
 using namespace millforce::host;
 using namespace millforce::test;

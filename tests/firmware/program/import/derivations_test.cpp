@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/derivations.hpp"
 
+#include <functional>
+#include <vector>
+
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <vector>
 
 using namespace millforce::host;
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/import_map.hpp"
+#include "files/input_error.hpp"
+#include "firmware/program/files/temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 #include <numbers>
-
-#include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
 
 using namespace millforce::host;
 using namespace millforce::test;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/program/import/import_bench.hpp"
+#include "recording/recording.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "recording/recording.hpp"
 
 using namespace millforce::host;
 using namespace millforce::test;
@@ -148,6 +147,25 @@ TEST(ImportRecording, resamples_what_comes_late_at_its_own_time) {
         LONGS_EQUAL(2 * k, std::stoul(rows[k].at("x_current_A")));
     }
     DOUBLES_EQUAL(30.0, statistics_of(recording, "x_velocity_mm_s").mean(), 1e-9);
+}
+
+TEST(ImportRecording, makes_the_angle_of_a_speed_or_of_index_pulses_where_there_is_no_encoder) {
+    // 3000 rpm, backwards in the source: 20 rows a turn, the pulse high in two of them.
+    std::string text = "t,n,index\n";
+    for (int k = 0; k < 200; ++k) {
+        text += std::to_string(k) + ",-3000," + (k % 20 < 2 ? "24" : "0.2") + "\n";
+    }
+    const std::string time = "[time_s]\nsource = \"t\"\nunit = \"ms\"\n[spindle_angle_rad]\n";
+    const std::string of_speed = time + "source = \"n\"\nderived_from = \"speed\"\nunit = \"rpm\"\nsign = -1\n";
+    const std::string of_index = time + "source = \"index\"\nderived_from = \"index\"\nthreshold = 12\n";
+    constexpr double turn_rad = 2.0 * std::numbers::pi;
+    const auto by_speed = bench.import(text, of_speed);
+    DOUBLES_EQUAL(199.0 / 20.0 * turn_rad, by_speed.statistics[0].change(), 1e-6);
+    const auto by_index = bench.import(text, of_index);
+    // From the first edge, in row 20, to before the last one, in row 180.
+    LONGS_EQUAL(160, by_index.statistics[0].count());
+    DOUBLES_EQUAL(159.0 / 20.0 * turn_rad, by_index.statistics[0].change(), 1e-9);
+    CHECK(contains(import_report(by_index), "pulse above 12"));
 }
 
 TEST(ImportRecording, refuses_times_that_do_not_grow_and_names_the_line) {
