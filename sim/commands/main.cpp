@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
     host::add_serve(program);
     sim::add_plant(program);
     host::add_parameters(program);
+    host::add_import(program);
     return line.run(argc, argv);
 }
 

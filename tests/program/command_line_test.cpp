@@ -25,7 +25,8 @@ const std::vector<std::vector<std::string>> commands{{},
                                                      {"plant"},
                                                      {"cut-table"},
                                                      {"bench"},
-                                                     {"parameters"}};
+                                                     {"parameters"},
+                                                     {"import"}};
 
 std::vector<std::string> plus(std::vector<std::string> words, const std::string& word) {
     words.push_back(word);

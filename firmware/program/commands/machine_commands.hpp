@@ -12,5 +12,6 @@ void add_replay(Command& program);
 void add_calibrate(Command& program);
 void add_estimate(Command& program);
 void add_parameters(Command& program);
+void add_import(Command& program);
 
 }  // namespace millforce::host
