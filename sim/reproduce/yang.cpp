@@ -54,7 +54,7 @@ struct MethodLine {
 constexpr const char* why_not_type_III =
     "Table 1's row for type III is the peak of a single flute. Where the next flute enters before it, the sum peaks "
     "elsewhere: for mill 1 at α_sw after the valley. As vectors, mill 2's flutes also move the valley. With α_sw in "
-    "that row the method reaches the paper's accuracy, two rows down.";
+    "its place (below) the method reaches the paper's accuracy.";
 
 /// Mean absolute error per table and method. Type III is judged where Table 1's row for it can hold.
 void add_means(const std::vector<Series>& all, Reproduction& r) {
@@ -213,6 +213,9 @@ std::vector<std::string> deviations() {
          "flutes are added as scalars or as vectors. For mill 2 (III/LO) the vector sum moves the valley. So "
          "the published formulas do not give the published accuracy on a force that adds as vectors, and Table "
          "7 is shown for them, not judged. With α_sw in that row, flute forces added as scalars do give it."),
+        ("Two more rows of Table 1 miss the sum's peak, and no published test lies in them: II/HO, where the sum rises "
+         "until the flute before falls, α_sw − α_T after the valley, and III/HO, as III/MO at α_sw, less whole "
+         "pitches."),
         ("Eq. 9's K is the force per area at one hardness and chip thickness. A harder piece looks like a "
          "wider cut; between −20 and +20 % of width the edge forces alone are worth some 2 to 4 % of K."),
         ("The profile fit averages F_x and F_y over the flutes instead of their resultant: a magnitude is not "

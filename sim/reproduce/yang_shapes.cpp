@@ -77,14 +77,15 @@ PlotSeries line(const std::string& name, const std::vector<double>& x, const std
     return series;
 }
 
-/// Where Table 1 puts the peak, or with a flat top its end, after the entry of a flute: in pitches.
-double marked_rotation(const FluteShape& shape) {
+bool has_flat_top(const FluteShape& shape) {
+    return shape.category.type == FluteForceType::II &&
+           (shape.category.overlap == FluteOverlap::none || shape.category.overlap == FluteOverlap::low);
+}
+
+/// Where Table 1 puts the peak, or with a flat top its end, after the entry of a flute.
+double marked_rad(const FluteShape& shape) {
     const auto angles = angles_of(shape);
-    const bool has_flat_top =
-        shape.category.type == FluteForceType::II &&
-        (shape.category.overlap == FluteOverlap::none || shape.category.overlap == FluteOverlap::low);
-    const double marked_rad = has_flat_top ? angles.sweep_rad : estimation::published_peak_angle_rad(angles);
-    return marked_rad / angles.pitch_rad;
+    return has_flat_top(shape) ? angles.sweep_rad : estimation::published_peak_angle_rad(angles);
 }
 
 /// The four overlaps of a type (Figs. 13–15).
@@ -94,11 +95,14 @@ Plot overlaps_of_type(std::size_t type) {
         .title = fmt::format("Four overlaps of type {} (Fig. {})", type_names[type], type + 13),
         .x_label = "rotation in flute pitches",
         .y_label = "sum of the flutes' forces, largest force of one = 1",
-        .caption = std::array{"Forces added as numbers, as the paper adds them. Points: the peak by Table 1, counted "
-                              "from the entry of a flute (0, 1, 2).",
-                              "The same. NO and LO have a flat top: there the point is its end.",
-                              "The same. In MO the sum peaks earlier than Table 1's point, at the end of the next "
-                              "flute's entry: why Table 7 is not judged by Table 1."}[type],
+        .caption =
+            std::array{
+                "Forces added as numbers, as the paper adds them. Points: the peak by Table 1, counted "
+                "from the entry of a flute (0, 1, 2).",
+                "The same. NO and LO have a flat top: there the point is its end. In HO the sum goes on rising past "
+                "the point, until the flute before begins to fall, at α_sw − α_T.",
+                "The same. In MO and HO the sum does not peak at Table 1's point but at α_sw, the end of the next "
+                "flute's entry: why Table 7 is not judged by Table 1."}[type],
         .series = {}};
     PlotSeries points{"by Table 1", Style::points, {}, {}};
     for (std::size_t overlap = 0; overlap < overlap_names.size(); ++overlap) {
@@ -107,7 +111,7 @@ Plot overlaps_of_type(std::size_t type) {
         plot.series.push_back(line(fmt::format("{}: {} flutes, α_en {:g}°, α_sw {:g}°", overlap_names[overlap],
                                                shape.flutes, shape.engagement_deg, shape.sweep_deg),
                                    forces.rotation_pitches, forces.sum, shown_pitches));
-        const double at = marked_rotation(shape);
+        const double at = marked_rad(shape) / angles_of(shape).pitch_rad;
         const auto sample =
             static_cast<std::size_t>(std::lround(at * samples_per_revolution / static_cast<double>(shape.flutes)));
         points.x.push_back(at);
@@ -200,7 +204,7 @@ Plot types_and_overlaps() {
     PlotSeries both{"α_en + α_sw = α_T", Style::line, {}, {}};
     for (int k = 0; k <= 75; ++k) {
         both.x.push_back(0.02 * k);
-        both.y.push_back((pitch_rad - std::acos(1.0 - both.x.back())) / tan_helix);
+        both.y.push_back(std::max(0.0, pitch_rad - std::acos(1.0 - both.x.back())) / tan_helix);
     }
     return {.title = "Types and overlaps of three flutes, helix 30° (Fig. 11)",
             .x_label = "RDOC/R",
@@ -250,6 +254,24 @@ SteadyCut cut_of(const FluteShape& shape) {
     cut.radial_depth_mm = depths.radial_mm;
     cut.tip_angle_rad = pi - angles.engagement_rad;
     return cut;
+}
+
+std::string name_of(const FluteShape& shape) {
+    return fmt::format("{}/{}", type_names[static_cast<std::size_t>(shape.category.type)],
+                       overlap_names[static_cast<std::size_t>(shape.category.overlap)]);
+}
+
+bool peaks_by_table_1(const FluteShape& shape) {
+    const ShapeForces forces = forces_of(shape);
+    const auto end_of_pitch = forces.sum.begin() + samples_per_revolution / static_cast<std::ptrdiff_t>(shape.flutes);
+    const auto peak = std::max_element(forces.sum.begin(), end_of_pitch);
+    auto marked = peak;
+    if (has_flat_top(shape)) {
+        constexpr double flat = 0.999;
+        marked = std::find_if(peak, end_of_pitch, [&](double force) { return force < flat * *peak; });
+    }
+    const double peak_rad = turn * static_cast<double>(marked - forces.sum.begin()) / samples_per_revolution;
+    return std::abs(peak_rad - marked_rad(shape)) <= 1.0 * degree;
 }
 
 int flutes_in_cut_of_plant(const SteadyCut& cut) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "estimation/depth_shape/cut_category.hpp"
@@ -26,6 +27,13 @@ struct FluteShape {
 
 /// A flute enters the workpiece at the encoder's zero. No runout.
 [[nodiscard]] SteadyCut cut_of(const FluteShape& shape);
+
+/// "III/MO"
+[[nodiscard]] std::string name_of(const FluteShape& shape);
+
+/// Whether the flutes' forces, added as numbers, peak where Table 1 has the peak, or their flat top ends there: within
+/// 1°.
+[[nodiscard]] bool peaks_by_table_1(const FluteShape& shape);
 
 /// Flutes in cut at once in the plant, at most.
 [[nodiscard]] int flutes_in_cut_of_plant(const SteadyCut& cut);
