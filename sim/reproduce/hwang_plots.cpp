@@ -152,10 +152,11 @@ void add_slope_plot(const HwangLaws& laws, Reproduction& out) {
     }
     mean_r_av /= static_cast<double>(points.x.size());
     mean_r /= static_cast<double>(points.x.size());
-    const auto [low, high] = std::minmax_element(points.x.begin(), points.x.end());
+    const double low = *std::min_element(points.x.begin(), points.x.end());
+    const double high = *std::max_element(points.x.begin(), points.x.end());
     const auto line = [&](const char* name, double slope) {
         const auto at = [&](double r_av) { return mean_r + slope * (r_av - mean_r_av); };
-        return Plot::Series{name, Plot::Series::Style::line, {*low, *high}, {at(*low), at(*high)}};
+        return Plot::Series{name, Plot::Series::Style::line, {low, high}, {at(low), at(high)}};
     };
     out.plots.push_back(
         {.title = "Force ratio of a tooth over that of the average forces (Fig. 7, Eq. 12)",
