@@ -59,10 +59,10 @@ void add_slope(const HwangLaws& laws, Reproduction& out) {
     out.figures.push_back(
         {"Section 3.2.1, Fig. 7: a of r = a r_av + b, edge force left in", "", 0.50465, laws.steel_without_edges.law.a,
          Judged::within, 1.0, 0.0,
-         fmt::format("a belongs to tool and material, whose forces the paper does not print. It comes from the edge "
-                     "forces and the pressure of thin chips, which are assumed here: {:.2f} for this steel, {:.2f} for "
-                     "the aluminium. What the paper's method asks of a is the bound, 0 to 1.",
-                     laws.steel_without_edges.law.a, laws.aluminium_without_edges.law.a)});
+         fmt::format("a belongs to tool and material, by their edge forces and the pressure of thin chips. The paper "
+                     "prints neither, so they are assumed here; two others give {:.2f} and {:.2f} (below). What the "
+                     "paper's method asks of a is the bound, 0 to 1.",
+                     laws.a_at_twice_K_te_without_size_effect, laws.a_at_twice_both_edge_forces)});
 }
 
 /// Row 17: 6 inserts, 200 rpm, the immersion growing from 0.2 to 0.8 along 150 mm.

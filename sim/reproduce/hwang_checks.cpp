@@ -117,6 +117,9 @@ void check_laws(const HwangLaws& laws, Reproduction& out) {
     show("Fig. 7: standard error of our a", "", std::sqrt(plain.a_b_covariance(0, 0)));
     show("Fig. 7: b, edge force left in (the paper prints none)", "", plain.b);
     show("Fig. 7: a of Al 6061 on the same bench, edge force left in", "", laws.aluminium_without_edges.law.a);
+    show("Fig. 7: a of SM45C with twice the edge force K_te and no size effect", "",
+         laws.a_at_twice_K_te_without_size_effect);
+    show("Fig. 7: a of SM45C with twice both edge forces", "", laws.a_at_twice_both_edge_forces);
     show("a of SM45C, edge force taken out", "", law.a);
     show("its standard error", "", std::sqrt(law.a_b_covariance(0, 0)));
     show("Edge length e_t of SM45C", "mm", law.e_t_mm);

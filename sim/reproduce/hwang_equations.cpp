@@ -167,7 +167,8 @@ Plot figure_1(const std::vector<estimation::ForceDropCalibrationCut>& cuts) {
     constexpr double lowest_ratio = -2.0;
     for (const double r : drawn_ratios) {
         Plot::Series line{ratio_name("r", r), Plot::Series::Style::line, {}, {}};
-        for (double ratio = lowest_ratio; ratio <= r; ratio += 0.02) {
+        for (int k = 0; k <= 100; ++k) {
+            const double ratio = lowest_ratio + 0.01 * k * (r - lowest_ratio);
             line.x.push_back(ratio);
             line.y.push_back(swept_angle_rad(r, ratio) / degree);
         }

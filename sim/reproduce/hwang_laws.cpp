@@ -5,6 +5,14 @@
 
 namespace millforce::sim {
 
+namespace {
+
+double a_without_edges(const BenchMaterial& material) {
+    return calibration_of(calibration_cuts(material, true, hwang_seed)).solve_without_edges().law.a;
+}
+
+}  // namespace
+
 HwangLaws calibrated_laws() {
     HwangLaws laws;
     laws.steel_cuts = calibration_cuts(steel_SM45C(), true, hwang_seed);
@@ -16,6 +24,13 @@ HwangLaws calibrated_laws() {
     laws.aluminium = aluminium.solve();
     laws.aluminium_without_edges = aluminium.solve_without_edges();
     laws.steel_down = calibration_of(calibration_cuts(steel_SM45C(), false, hwang_seed)).solve();
+    BenchMaterial other = steel_SM45C();
+    other.coefficients.K_te_N_mm *= 2.0;
+    BenchMaterial without_size_effect = other;
+    without_size_effect.coefficients.size_effect = {};
+    laws.a_at_twice_K_te_without_size_effect = a_without_edges(without_size_effect);
+    other.coefficients.K_re_N_mm *= 2.0;
+    laws.a_at_twice_both_edge_forces = a_without_edges(other);
     return laws;
 }
 

@@ -20,6 +20,10 @@ struct HwangLaws {
     estimation::ForceDropCalibration::Result steel_down{};
     estimation::ForceDropCalibration::Result steel_without_edges{};
     estimation::ForceDropCalibration::Result aluminium_without_edges{};
+
+    /// a of Eq. 12, edge force left in, of the same steel with other edge forces: the paper prints none.
+    double a_at_twice_K_te_without_size_effect = 0.0;
+    double a_at_twice_both_edge_forces = 0.0;
 };
 
 [[nodiscard]] HwangLaws calibrated_laws();

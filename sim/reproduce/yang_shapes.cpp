@@ -38,6 +38,7 @@ std::vector<CuttingLoad> loads_of(const SteadyCut& cut) {
     const double engagement_rad = std::acos(1.0 - cut.radial_depth_mm / (0.5 * cutter.diameter_mm));
     const EngagementMap map = uniform_engagement(pi - engagement_rad, pi, cut.axial_depth_mm);
     std::vector<CuttingLoad> loads;
+    loads.reserve(samples_per_revolution);
     for (int i = 0; i < samples_per_revolution; ++i) {
         loads.push_back(force.load(cut.tip_angle_rad + turn * i / samples_per_revolution, cut.feed_per_tooth_mm, map));
     }
