@@ -97,9 +97,10 @@ void add_reproduce(host::Command& program) {
     host::Command command =
         program.subcommand("reproduce", "Compare published figures with ours: value, difference, bound");
     command.footer(
-        "Each paper's system runs on simulated cuts; every random number is seeded. A figure without a bound is shown\n"
-        "for comparison. DIR gets reproduce.html, with all figures, plots and deviations from print, and\n"
-        "reproduce.json.\n"
+        "Each paper's system runs on simulated cuts; every random number is seeded. Under \"paper\" stands only what "
+        "the\n"
+        "paper prints; all else is a check of our own. A figure without a bound gives its reason. DIR gets\n"
+        "reproduce.html, with all figures, plots and deviations from print, and reproduce.json.\n"
         "Exit code 1: a bound is broken.");
     command.option("paper", options->paper, joined_names(" | ")).value_name("PAPER").shows_default();
     command.option("--out", options->out, "Folder for reproduce.html and reproduce.json")

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace millforce::sim {
@@ -112,24 +113,59 @@ void add_drive_plot(const std::vector<TableCut>& cuts, Reproduction& out) {
                          .series = {diagonal_line(), series}});
 }
 
-void add_signal_plot(std::uint64_t seed, Reproduction& out) {
-    const BenchCut cut{.material = steel_SM45C(), .immersion = 0.5};
-    Plot::Series x{"F_x", Plot::Series::Style::line, {}, {}};
-    Plot::Series y{"F_y", Plot::Series::Style::line, {}, {}};
-    for (const BenchSample& sample : bench_samples(cut, {.seed = seed}, 1.0)) {
-        for (Plot::Series* series : {&x, &y}) {
-            series->x.push_back(360.0 * sample.angle_rev);
+void add_signal_plots(std::uint64_t seed, Reproduction& out) {
+    const auto add = [&](const BenchCut& cut, const char* title, const char* caption) {
+        Plot::Series x{"F_x", Plot::Series::Style::line, {}, {}};
+        Plot::Series y{"F_y", Plot::Series::Style::line, {}, {}};
+        for (const BenchSample& sample : bench_samples(cut, {.seed = seed}, 1.0)) {
+            for (Plot::Series* series : {&x, &y}) {
+                series->x.push_back(360.0 * sample.angle_rev);
+            }
+            x.y.push_back(sample.fx_N);
+            y.y.push_back(sample.fy_N);
         }
-        x.y.push_back(sample.fx_N);
-        y.y.push_back(sample.fy_N);
+        out.plots.push_back({.title = title,
+                             .x_label = "spindle angle, degrees",
+                             .y_label = "force, N",
+                             .caption = caption,
+                             .series = {x, y}});
+    };
+    add({.material = steel_SM45C(), .immersion = 0.5},
+        "One insert in cut: one revolution at immersion 0.5, as the estimator gets it (Fig. 4)",
+        "Three inserts, behind the 300 Hz low-pass, with noise and runout. Each sudden end is a tooth that leaves: its "
+        "height is that tooth's force.");
+    add({.teeth = 6, .axial_depth_mm = 1.0, .material = steel_SM45C(), .immersion = 0.8},
+        "Two inserts in cut: one revolution at immersion 0.8 (Fig. 5)",
+        "Six inserts: the next one is in cut before a tooth leaves, so the force falls by that tooth's part, and not "
+        "to nothing.");
+}
+
+void add_slope_plot(const HwangLaws& laws, Reproduction& out) {
+    Plot::Series points{"known cuts", Plot::Series::Style::points, {}, {}};
+    double mean_r_av = 0.0;
+    double mean_r = 0.0;
+    for (const ForceRatioPoint& point : force_ratio_points(laws.steel_cuts)) {
+        points.x.push_back(point.r_av);
+        points.y.push_back(point.r);
+        mean_r_av += point.r_av;
+        mean_r += point.r;
     }
-    out.plots.push_back({.title = "What the estimator sees: one revolution at immersion 0.5 (Fig. 4)",
-                         .x_label = "spindle angle, degrees",
-                         .y_label = "force, N",
-                         .caption =
-                             "Three inserts, behind the 300 Hz low-pass, with noise and runout. Each sudden end is a "
-                             "tooth that leaves: its height is that tooth's force.",
-                         .series = {x, y}});
+    mean_r_av /= static_cast<double>(points.x.size());
+    mean_r /= static_cast<double>(points.x.size());
+    const double low = *std::min_element(points.x.begin(), points.x.end());
+    const double high = *std::max_element(points.x.begin(), points.x.end());
+    const auto line = [&](const char* name, double slope) {
+        const auto at = [&](double r_av) { return mean_r + slope * (r_av - mean_r_av); };
+        return Plot::Series{name, Plot::Series::Style::line, {low, high}, {at(low), at(high)}};
+    };
+    out.plots.push_back(
+        {.title = "Force ratio of a tooth over that of the average forces (Fig. 7, Eq. 12)",
+         .x_label = "r_av",
+         .y_label = "r",
+         .caption =
+             "21 cuts of known immersion on the simulated bench, edge force left in, and the line through them. The "
+             "paper prints its slope, 0.50465, but no b: drawn through the mean of our points.",
+         .series = {points, line("our line", laws.steel_without_edges.law.a), line("slope as printed", 0.50465)}});
 }
 
 void add_threshold_plot(const std::vector<ThresholdPoint>& points, Reproduction& out) {

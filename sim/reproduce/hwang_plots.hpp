@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "reproduce/hwang_laws.hpp"
 #include "reproduce/hwang_thresholds.hpp"
 #include "reproduce/reproduction.hpp"
 
@@ -11,8 +12,11 @@
 
 namespace millforce::sim {
 
-/// Fig. 4: the forces of one revolution.
-void add_signal_plot(std::uint64_t seed, Reproduction& out);
+/// Figs. 4 and 5: the forces of one revolution, one insert and two inserts in cut.
+void add_signal_plots(std::uint64_t seed, Reproduction& out);
+
+/// Fig. 7: r over r_av, our line and the paper's slope.
+void add_slope_plot(const HwangLaws& laws, Reproduction& out);
 
 /// Figs. 9–14: one plot per group of rows of Table 1.
 void add_table_plots(const std::vector<TableRow>& rows, const std::vector<TableResult>& results, Reproduction& out);

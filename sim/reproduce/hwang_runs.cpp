@@ -76,8 +76,9 @@ estimation::ForceDropSettings<float> force_drop_settings(const BenchCut& cut, in
     return settings;
 }
 
-estimation::ForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling, std::uint64_t seed) {
-    estimation::ForceDropCalibration calibration;
+std::vector<estimation::ForceDropCalibrationCut> calibration_cuts(const BenchMaterial& material, bool up_milling,
+                                                                  std::uint64_t seed) {
+    std::vector<estimation::ForceDropCalibrationCut> cuts;
     int number = 0;
     for (const double feed_mm : {0.10, 0.15, 0.20}) {
         for (const double immersion : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
@@ -88,8 +89,16 @@ estimation::ForceDropCalibration calibration_cuts(const BenchMaterial& material,
                                .runout_angle_rad = 0.3 * number};
             ++number;
             const auto measured = measure_known_cut(cut, seed * 1000U + static_cast<std::uint64_t>(number));
-            calibration.add({estimation::in_double(measured), cut.axial_depth_mm, immersion});
+            cuts.push_back({estimation::in_double(measured), cut.axial_depth_mm, immersion});
         }
+    }
+    return cuts;
+}
+
+estimation::ForceDropCalibration calibration_of(const std::vector<estimation::ForceDropCalibrationCut>& cuts) {
+    estimation::ForceDropCalibration calibration;
+    for (const estimation::ForceDropCalibrationCut& cut : cuts) {
+        calibration.add(cut);
     }
     return calibration;
 }

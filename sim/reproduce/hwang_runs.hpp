@@ -19,8 +19,11 @@ using FloatForceDropEstimate = estimation::ForceDropEstimate<float>;
 
 /// Twenty-one cuts at 300 rpm, Ø100, 3 inserts, 1.5 mm: feeds 0.10, 0.15, 0.20 mm, immersions 0.2…0.8, each with its
 /// own noise, drift and mounting of the cutter. All other conditions of Table 1 are not among them.
-[[nodiscard]] estimation::ForceDropCalibration calibration_cuts(const BenchMaterial& material, bool up_milling,
-                                                                std::uint64_t seed);
+[[nodiscard]] std::vector<estimation::ForceDropCalibrationCut> calibration_cuts(const BenchMaterial& material,
+                                                                                bool up_milling, std::uint64_t seed);
+
+[[nodiscard]] estimation::ForceDropCalibration calibration_of(
+    const std::vector<estimation::ForceDropCalibrationCut>& cuts);
 
 /// One estimate and the truth.
 struct ForceDropRun {

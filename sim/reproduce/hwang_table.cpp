@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace millforce::sim {
 
@@ -50,11 +49,11 @@ double TableCut::mean() const {
     for (const ForceDropRun& run : runs) {
         sum += run.estimate.valid() ? static_cast<double>(run.estimate.radial_immersion) : 0.0;
     }
-    return estimates() > 0 ? sum / estimates() : std::numeric_limits<double>::quiet_NaN();
+    return estimates() > 0 ? sum / estimates() : no_estimate;
 }
 
 double TableCut::largest_relative_error() const {
-    double largest = estimates() > 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+    double largest = estimates() > 0 ? 0.0 : no_estimate;
     for (const ForceDropRun& run : runs) {
         if (run.estimate.valid()) {
             const double error = std::abs(static_cast<double>(run.estimate.radial_immersion) / run.immersion - 1.0);
@@ -62,6 +61,67 @@ double TableCut::largest_relative_error() const {
         }
     }
     return largest;
+}
+
+bool is_steel(const TableRow& row) {
+    return row.cut.material.name == steel_SM45C().name;
+}
+
+double relative_error(double ours, double truth) {
+    return std::abs(ours / truth - 1.0);
+}
+
+double mean_error(const std::vector<TableResult>& results, double immersion) {
+    double sum = 0.0;
+    int count = 0;
+    for (const TableResult& row : results) {
+        for (const TableCut& cut : row) {
+            if (cut.estimates() > 0 && (immersion == 0.0 || cut.immersion == immersion)) {
+                sum += relative_error(cut.mean(), cut.immersion);
+                ++count;
+            }
+        }
+    }
+    return count > 0 ? sum / count : no_estimate;
+}
+
+void ForceDropTally::add(const ForceDropRun& run) {
+    ++runs;
+    if (!run.estimate.valid()) {
+        return;
+    }
+    ++estimates;
+    const double ours = static_cast<double>(run.estimate.radial_immersion);
+    const double sd = static_cast<double>(run.estimate.radial_immersion_sd);
+    covered += std::abs(ours - run.immersion) <= 2.0 * sd ? 1 : 0;
+    error_sum += relative_error(ours, run.immersion);
+    largest_error = std::max(largest_error, relative_error(ours, run.immersion));
+}
+
+double ForceDropTally::share() const {
+    return runs > 0 ? static_cast<double>(estimates) / runs : 0.0;
+}
+
+double ForceDropTally::coverage() const {
+    return estimates > 0 ? static_cast<double>(covered) / estimates : no_estimate;
+}
+
+double ForceDropTally::mean_error() const {
+    return estimates > 0 ? error_sum / estimates : no_estimate;
+}
+
+double ForceDropTally::largest() const {
+    return estimates > 0 ? largest_error : no_estimate;
+}
+
+ForceDropTally tally_of(const std::vector<TableResult>& results) {
+    ForceDropTally tally;
+    for (const TableResult& row : results) {
+        for (const TableCut& cut : row) {
+            std::for_each(cut.runs.begin(), cut.runs.end(), [&](const ForceDropRun& run) { tally.add(run); });
+        }
+    }
+    return tally;
 }
 
 TableResult mill_row(const FittedForceDropLaw& law, const TableRow& row, std::uint64_t seed) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,31 @@ using TableResult = std::vector<TableCut>;  ///< one per immersion
 
 inline constexpr int revolutions_per_estimate = 4;
 inline constexpr int estimates_per_cut = 5;
+
+[[nodiscard]] bool is_steel(const TableRow& row);
+
+inline constexpr double no_estimate = std::numeric_limits<double>::quiet_NaN();
+
+[[nodiscard]] double relative_error(double ours, double truth);
+
+/// The mean over cuts of |mean estimate/truth − 1|; `immersion` 0: of all.
+[[nodiscard]] double mean_error(const std::vector<TableResult>& results, double immersion);
+
+/// Estimates, all runs, and how many estimates lie within two of their standard deviations.
+struct ForceDropTally {
+    int runs = 0;
+    int estimates = 0;
+    int covered = 0;
+    double error_sum = 0.0;
+    double largest_error = 0.0;
+
+    void add(const ForceDropRun& run);
+    [[nodiscard]] double share() const;       ///< of runs with an estimate
+    [[nodiscard]] double coverage() const;    ///< NaN without an estimate, as the next two
+    [[nodiscard]] double mean_error() const;  ///< relative
+    [[nodiscard]] double largest() const;
+};
+[[nodiscard]] ForceDropTally tally_of(const std::vector<TableResult>& results);
 
 [[nodiscard]] TableResult mill_row(const FittedForceDropLaw& law, const TableRow& row, std::uint64_t seed);
 

@@ -23,6 +23,8 @@ struct KimStandardCut {
     static constexpr double feed_mm_min = 250.0;
     static constexpr double radial_width_mm = 0.8;
     static constexpr double axial_depth_mm = 12.0;
+    static constexpr double radius_mm = 0.5 * diameter_mm;
+    static constexpr double feed_per_tooth_mm = feed_mm_min / (flutes * spindle_rpm);
 };
 
 struct KimCut {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/kim_plots.hpp"
 
+#include "reproduce/kim_published.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -95,7 +97,20 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
          "Points: steady feeds in air. Line: the quadratic of Eq. 9. At the lowest feeds friction rises "
          "again (Stribeck), which no quadratic follows.",
          {air, curve("K_x1 w² + K_x2 w + K_x3", 0.1, 1.0, friction)}});
-    const auto law = closed_law({1007.59, -0.2557, 0.2242, -0.1546});
+    constexpr double reference_m_min = 0.25;
+    result.plots.push_back(
+        {"The same as a share of the current at 0.25 m/min, with the paper's fit (Fig. 5, Table 3)",
+         "feed in m/min",
+         "share of the current at 0.25 m/min",
+         "The paper prints K_x1, K_x2 and K_x3 without a unit of current: only shares can be compared. Its feeds go "
+         "from 0.1 to 0.7 m/min.",
+         {curve("published", 0.1, 0.7,
+                [&](double w) {
+                    return KimPublishedDrives::friction_current(w) /
+                           KimPublishedDrives::friction_current(reference_m_min);
+                }),
+          curve("simulated machine", 0.1, 0.7, [&](double w) { return friction(w) / friction(reference_m_min); })}});
+    const auto law = closed_law(kim_tools[0].law);
     PlotSeries feed{"standard cuts and air", PlotSeries::Style::points, {}, {}};
     PlotSeries spindle{"standard cuts and air", PlotSeries::Style::points, {}, {}};
     const double kappa = campaign.gains.axes[0]->nuisance;
@@ -128,6 +143,16 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
          "to the right of it.",
          {spindle, curve("K_t1 I + K_t2", -s.offset / s.gain, 4.0,
                          [&](double I) { return (s.gain * I + s.offset) * per_Nm; })}});
+    result.plots.push_back(
+        {"The same over the idle current, with the paper's line (Eq. 8)",
+         "current as a multiple of the idle current",
+         "F_at in N",
+         "The paper prints no unit of current: it is counted in idle currents, −K_t2/K_t1. Then the slope is −K_t2, "
+         "what the idle spindle takes at the tool's radius of 4 mm.",
+         {curve("published", 1.0, 1.5,
+                [](double idle_currents) { return -KimPublishedDrives::K_t2_N * (idle_currents - 1.0); }),
+          curve("simulated machine", 1.0, 4.0,
+                [&](double idle_currents) { return -s.offset * per_Nm * (idle_currents - 1.0); })}});
 }
 
 void add_comparison_plot(const KimDrawn& drawn, const KimPressureLaw& by_published_currents, const KimUnknownTool& tool,

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace millforce::sim {
 
@@ -53,8 +55,17 @@ std::string Figure::bound_text() const {
     return "";
 }
 
+Figure own_check(std::string name, std::string unit, double value, Figure::Judged judged, double bound,
+                 double bound_low) {
+    return {std::move(name), std::move(unit), std::numeric_limits<double>::quiet_NaN(), value, judged,
+            bound,           bound_low};
+}
+
 bool Reproduction::holds() const {
-    return std::all_of(figures.begin(), figures.end(), [](const Figure& figure) { return figure.holds(); });
+    const auto hold = [](const std::vector<Figure>& all) {
+        return std::all_of(all.begin(), all.end(), [](const Figure& figure) { return figure.holds(); });
+    };
+    return hold(figures) && hold(checks);
 }
 
 }  // namespace millforce::sim

@@ -6,15 +6,17 @@
 
 /// What a paper's system gives here, and what the paper prints. A reproduction is plain data: the command prints it,
 /// the report page draws it, the tests judge it.
+///
+/// A value stands under "paper" only where a reader of the paper finds it in print, or works it out from printed
+/// numbers alone. A formula of the paper that this project evaluates, twice even, is a check of our own.
 
 namespace millforce::sim {
 
-/// One published figure and ours. A figure that the paper does not print, but that is promised here, has no published
-/// value (NaN).
+/// One published figure and ours, or a check of our own.
 struct Figure {
-    std::string name;  ///< with where the paper prints it: "Table 1, row 7: immersion"
+    std::string name;  ///< of a published one: first where the paper prints it, "Table 5, carbide: k_s"
     std::string unit;  ///< "" for a ratio
-    double published;
+    double published;  ///< NaN in a check of our own
     double ours;
     enum class Judged {
         difference,           ///< |ours − published| ≤ bound, in the figure's unit
@@ -26,11 +28,17 @@ struct Figure {
     } judged = Judged::difference;
     double bound = 0.0;
     double bound_low = 0.0;
+    std::string reason{};  ///< why a published figure has no bound, or why ours lies elsewhere
 
     [[nodiscard]] bool holds() const;              ///< false for NaN, unless it is only shown
     [[nodiscard]] std::string difference() const;  ///< as printed: "+1.3 %", "−0.02", "" without a published value
     [[nodiscard]] std::string bound_text() const;  ///< as printed: "± 3 %", "≤ 0.10", ""
 };
+
+/// A check of our own: a promise about this project's value, or a value that is worth a look.
+[[nodiscard]] Figure own_check(std::string name, std::string unit, double value,
+                               Figure::Judged judged = Figure::Judged::shown, double bound = 0.0,
+                               double bound_low = 0.0);
 
 /// A drawing of the report page.
 struct Plot {
@@ -47,13 +55,21 @@ struct Plot {
     std::vector<Series> series;
 };
 
+/// Something in the paper that does not stand here.
+struct NotReproduced {
+    std::string what;  ///< "Figs. 9–14: measured points"
+    std::string why;
+};
+
 struct Reproduction {
-    std::string name;       ///< as typed: "hwang"
-    std::string title;      ///< what the system is, with the paper's authors
-    std::string summary{};  ///< one paragraph: what the system does, readable without the paper
-    std::vector<Figure> figures;
+    std::string name;              ///< as typed: "hwang"
+    std::string title;             ///< what the system is, with the paper's authors
+    std::string summary{};         ///< one paragraph: what the system does, readable without the paper
+    std::vector<Figure> figures;   ///< each with a published value; one that is only shown has a reason
+    std::vector<Figure> checks{};  ///< of our own, without a published value
     std::vector<Plot> plots;
     std::vector<std::string> deviations;  ///< where this project differs from print, and why
+    std::vector<NotReproduced> not_reproduced{};
     [[nodiscard]] bool holds() const;
 };
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "reproduce/yang_shapes.hpp"
 #include "reproduce/yang_tables.hpp"
 
 namespace millforce::sim::yang {
@@ -140,14 +142,16 @@ Plot random_errors(const std::vector<RandomCutOutcome>& outcomes) {
 }  // namespace
 
 std::vector<Plot> plots(const std::vector<Series>& all, const std::vector<RandomCutOutcome>& outcomes) {
-    return {single_flute(0),
-            single_flute(1),
-            single_flute(2),
-            flute_average_plot("a", 0, 0, 3),
-            flute_average_plot("b", 0, 1, 4),
-            flute_average_plot("c", 1, 2, 3),
-            published_errors(all),
-            random_errors(outcomes)};
+    std::vector<Plot> all_plots{single_flute(0), single_flute(1), single_flute(2)};
+    for (Plot& plot : shape_plots()) {
+        all_plots.push_back(std::move(plot));
+    }
+    all_plots.push_back(flute_average_plot("a", 0, 0, 3));
+    all_plots.push_back(flute_average_plot("b", 0, 1, 4));
+    all_plots.push_back(flute_average_plot("c", 1, 2, 3));
+    all_plots.push_back(published_errors(all));
+    all_plots.push_back(random_errors(outcomes));
+    return all_plots;
 }
 
 }  // namespace millforce::sim::yang

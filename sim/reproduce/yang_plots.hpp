@@ -9,7 +9,7 @@
 
 namespace millforce::sim::yang {
 
-/// The paper's Figs. 5–7 and 16 redrawn from our forces, and the errors of both methods.
+/// The paper's Figs. 5–8, 10, 11 and 13–16 redrawn from our forces, and the errors of both methods.
 [[nodiscard]] std::vector<Plot> plots(const std::vector<Series>& all, const std::vector<RandomCutOutcome>& outcomes);
 
 }  // namespace millforce::sim::yang

@@ -156,6 +156,20 @@ Series published_series(std::size_t mill, std::size_t type) {
     return series;
 }
 
+TestIndices test_indices(std::size_t mill, std::size_t type, std::size_t test) {
+    const YangMill& table = yang_mills[mill];
+    const SteadyCut nominal = published_cut(mill, type, {0.0, 0.0});
+    ForceSensor sensor;
+    const auto nominal_indices = measure(nominal, sensor).resultant;
+    ++sensor.seed;
+    const SteadyCut cut =
+        published_cut(mill, type, {table.axial_variation_percent[test], table.radial_variation_percent[test]});
+    const auto angles = estimation::flute_angles(geometry_of(nominal.cutter), depths_of(nominal));
+    const auto indices = estimation::read_against(nominal_indices, angles, measure(cut, sensor).resultant);
+    const auto PT_doc = estimation::index_of<float>(estimation::cut_category(angles));
+    return {static_cast<double>(indices.*PT_doc) / degree, static_cast<double>(indices.mean_N)};
+}
+
 HardnessEffect hardness_effect() {
     const SteadyCut nominal = published_cut(0, 0, {0.0, 0.0});
     const ForceSensor sensor;

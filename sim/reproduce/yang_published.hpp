@@ -49,6 +49,13 @@ struct Series {
                                       double hardness = 1.0);
 [[nodiscard]] Series published_series(std::size_t mill, std::size_t type);
 
+/// What the published method reads off one test, PT_doc against the nominal cut's (Fig. 16).
+struct TestIndices {
+    double PT_doc_deg = 0.0;
+    double PT_ave_N = 0.0;
+};
+[[nodiscard]] TestIndices test_indices(std::size_t mill, std::size_t type, std::size_t test);
+
 /// Published method and profile fit on a material 20 % harder than the one that taught K (Table 5, mill 1, test 4):
 /// by how much each estimate moves.
 struct HardnessEffect {

@@ -87,12 +87,12 @@ FigureCount count_figures(std::span<const Figure> figures) {
     return count;
 }
 
-std::string verdict(const FigureCount& count) {
+std::string verdict(const FigureCount& count, std::string_view counted) {
     const std::string shown =
         count.judged == count.all ? std::string() : fmt::format(", {} shown without one", count.all - count.judged);
-    return count.broken == 0 ? fmt::format("{} figures, {} within their bound{}", count.all, count.judged, shown)
-                             : fmt::format("{} figures, {} within their bound, {} BROKEN{}", count.all,
-                                           count.judged - count.broken, count.broken, shown);
+    const std::string broken = count.broken == 0 ? std::string() : fmt::format(", {} BROKEN", count.broken);
+    return fmt::format("{} {}, {} within their bound{}{}", count.all, counted, count.judged - count.broken, broken,
+                       shown);
 }
 
 std::string value_text(double value) {

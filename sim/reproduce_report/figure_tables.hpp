@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reproduce/reproduction.hpp"
@@ -36,8 +37,8 @@ struct FigureCount {
 };
 [[nodiscard]] FigureCount count_figures(std::span<const Figure> figures);
 
-/// "24 figures, all 20 that have a bound within it", "24 figures, 2 of 20 beyond their bound".
-[[nodiscard]] std::string verdict(const FigureCount& count);
+/// "24 figures, 20 within their bound, 4 shown without one", "24 figures, 22 within their bound, 2 BROKEN".
+[[nodiscard]] std::string verdict(const FigureCount& count, std::string_view counted = "figures");
 
 /// A figure's value as printed: four digits, whole numbers in full, "–" if there is none.
 [[nodiscard]] std::string value_text(double value);

@@ -42,21 +42,34 @@ void write_figure(JsonWriter& json, const Figure& figure) {
         json.key("bound_low").number(figure.bound_low, figure_digits);
     }
     json.key("holds").boolean(figure.holds());
+    if (!figure.reason.empty()) {
+        json.key("reason").text(figure.reason);
+    }
     json.end_object();
+}
+
+void write_figures(JsonWriter& json, const char* key, const std::vector<Figure>& figures) {
+    json.key(key).begin_array();
+    for (const Figure& figure : figures) {
+        write_figure(json, figure);
+    }
+    json.end_array();
 }
 
 void write_reproduction(JsonWriter& json, const Reproduction& reproduction) {
     json.begin_object();
     json.key("name").text(reproduction.name).key("title").text(reproduction.title);
     json.key("holds").boolean(reproduction.holds());
-    json.key("figures").begin_array();
-    for (const Figure& figure : reproduction.figures) {
-        write_figure(json, figure);
-    }
-    json.end_array();
+    write_figures(json, "figures", reproduction.figures);
+    write_figures(json, "checks", reproduction.checks);
     json.key("deviations").begin_array();
     for (const std::string& deviation : reproduction.deviations) {
         json.text(deviation);
+    }
+    json.end_array();
+    json.key("not_reproduced").begin_array();
+    for (const NotReproduced& one : reproduction.not_reproduced) {
+        json.begin_object().key("what").text(one.what).key("why").text(one.why).end_object();
     }
     json.end_array().end_object();
 }

@@ -28,7 +28,10 @@ std::string cell_html(std::string_view label, std::string_view value) {
     return fmt::format("<td class=\"{0}\" data-label=\"{0}\">{1}</td>", label, value.empty() ? "–" : text);
 }
 
-std::string row_html(const Figure& figure, const FigureTable& table) {
+/// What the rows of a table are: a check of our own has no paper's value, and no difference from one.
+enum class Rows : unsigned char { published, own };
+
+std::string row_html(const Figure& figure, const FigureTable& table, Rows rows) {
     const bool is_shown = figure.judged == Figure::Judged::shown;
     const char* style = is_shown ? "shown" : (figure.holds() ? "held" : "broken");
     const char* judgement = is_shown ? "–" : (figure.holds() ? "ok" : "broken");
@@ -36,22 +39,31 @@ std::string row_html(const Figure& figure, const FigureTable& table) {
     if (!figure.unit.empty()) {
         name += fmt::format(" <span class=\"unit\">in {}</span>", html_escaped(figure.unit));
     }
+    if (!figure.reason.empty()) {
+        name += fmt::format("<span class=\"reason\">{}</span>", html_escaped(figure.reason));
+    }
+    const bool is_published = rows == Rows::published;
     return fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>{}{}{}{}<td class=\"judgement\">{}</td></tr>\n",
-                       style, name, cell_html("paper", value_text(figure.published)),
-                       cell_html("ours", value_text(figure.ours)), cell_html("difference", figure.difference()),
+                       style, name, is_published ? cell_html("paper", value_text(figure.published)) : "",
+                       cell_html("ours", value_text(figure.ours)),
+                       is_published ? cell_html("difference", figure.difference()) : "",
                        cell_html("bound", figure.bound_text()), judgement);
 }
 
-std::string table_html(const FigureTable& table) {
-    std::string rows;
+std::string head_html(Rows rows) {
+    return rows == Rows::published
+               ? "<th scope=\"col\">Figure</th><th scope=\"col\">Paper</th><th scope=\"col\">Ours</th>"
+                 "<th scope=\"col\">Difference</th><th scope=\"col\">Bound</th>"
+               : "<th scope=\"col\">Check</th><th scope=\"col\">Ours</th><th scope=\"col\">Bound</th>";
+}
+
+std::string table_html(const FigureTable& table, Rows rows) {
+    std::string body;
     for (const Figure& figure : table.figures) {
-        rows += row_html(figure, table);
+        body += row_html(figure, table, rows);
     }
-    std::string html =
-        "<table class=\"reproduced\">\n<thead><tr><th scope=\"col\">Figure</th><th scope=\"col\">Paper</th>"
-        "<th scope=\"col\">Ours</th><th scope=\"col\">Difference</th><th scope=\"col\">Bound</th>"
-        "<th scope=\"col\"></th></tr></thead>\n<tbody>\n" +
-        rows + "</tbody>\n</table>\n";
+    std::string html = "<table class=\"reproduced\">\n<thead><tr>" + head_html(rows) +
+                       "<th scope=\"col\"></th></tr></thead>\n<tbody>\n" + body + "</tbody>\n</table>\n";
     if (!table.is_long()) {
         return html;
     }
@@ -81,9 +93,32 @@ std::string deviations_html(const Reproduction& reproduction) {
                : "<h3>Where this differs from print, and why</h3>\n<ul class=\"deviations\">\n" + html + "</ul>\n";
 }
 
+std::string not_reproduced_html(const Reproduction& reproduction) {
+    std::string html;
+    for (const NotReproduced& one : reproduction.not_reproduced) {
+        html += fmt::format("<li><strong>{}</strong>: {}</li>\n", html_escaped(one.what), html_escaped(one.why));
+    }
+    return html.empty() ? html : "<h3>Not reproduced, and why</h3>\n<ul class=\"deviations\">\n" + html + "</ul>\n";
+}
+
+std::string tables_html(std::string_view heading, std::span<const Figure> figures, Rows rows) {
+    std::string html = figures.empty() ? "" : fmt::format("<h3>{}</h3>\n", heading);
+    for (const FigureTable& table : figure_tables(figures)) {
+        html += table_html(table, rows);
+    }
+    return html;
+}
+
+std::string whole_verdict(const Reproduction& reproduction) {
+    const std::string figures = verdict(count_figures(reproduction.figures));
+    return reproduction.checks.empty()
+               ? figures
+               : figures + "; " + verdict(count_figures(reproduction.checks), "checks of our own");
+}
+
 std::string verdict_html(const Reproduction& reproduction) {
     return fmt::format("<p class=\"verdict {}\">{}</p>\n", reproduction.holds() ? "held" : "broken",
-                       verdict(count_figures(reproduction.figures)));
+                       whole_verdict(reproduction));
 }
 
 std::string section_html(const Reproduction& reproduction) {
@@ -91,11 +126,10 @@ std::string section_html(const Reproduction& reproduction) {
     std::string html = fmt::format(
         "<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
         html_escaped(reproduction.title), html_escaped(reproduction.summary), verdict_html(reproduction));
-    html += "<h3>Figures</h3>\n";
-    for (const FigureTable& table : figure_tables(reproduction.figures)) {
-        html += table_html(table);
-    }
-    return html + plots_html(reproduction) + deviations_html(reproduction) + "</section>\n";
+    html += tables_html("Figures", reproduction.figures, Rows::published);
+    html += plots_html(reproduction);
+    html += tables_html("Checks of our own", reproduction.checks, Rows::own);
+    return html + deviations_html(reproduction) + not_reproduced_html(reproduction) + "</section>\n";
 }
 
 std::string contents_html(std::span<const Reproduction> reproductions) {
@@ -103,7 +137,7 @@ std::string contents_html(std::span<const Reproduction> reproductions) {
     for (const Reproduction& reproduction : reproductions) {
         html += fmt::format("<li class=\"{}\"><a href=\"#paper-{}\">{}</a><span>{}</span></li>\n",
                             reproduction.holds() ? "held" : "broken", html_escaped(reproduction.name),
-                            html_escaped(reproduction.title), verdict(count_figures(reproduction.figures)));
+                            html_escaped(reproduction.title), whole_verdict(reproduction));
     }
     return html;
 }

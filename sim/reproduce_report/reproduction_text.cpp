@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace millforce::sim {
 namespace {
 
 constexpr std::size_t name_width = 44;
+constexpr std::size_t page_width = 99;
 constexpr std::string_view row_form = "{:<44} {:>9} {:>9} {:<4} {:>10} {:>11} {:>6}";  // 99 columns
 
 /// Columns on a terminal: code points, which is right for all letters and signs that the names use.
@@ -47,16 +50,20 @@ std::string row_text(const Cells&... cells) {
     return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
 }
 
+std::string paragraph(std::string_view text, std::size_t indent) {
+    return fmt::format("{}\n", fmt::join(wrapped(text, page_width, indent), "\n"));
+}
+
 std::string figure_text(const Figure& figure, const std::string& name, std::size_t indent) {
     const bool is_shown = figure.judged == Figure::Judged::shown;
     const std::vector<std::string> lines = wrapped(name, name_width, indent);
-    std::string text =
-        row_text(lines.front(), value_text(figure.published), value_text(figure.ours), figure.unit, figure.difference(),
-                 figure.bound_text(), is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
+    std::string text = row_text(lines.front(), std::isfinite(figure.published) ? value_text(figure.published) : "",
+                                value_text(figure.ours), figure.unit, figure.difference(), figure.bound_text(),
+                                is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
     for (std::size_t k = 1; k < lines.size(); ++k) {
         text += lines[k] + '\n';
     }
-    return text;
+    return figure.reason.empty() ? text : text + paragraph("reason: " + figure.reason, indent + 2);
 }
 
 std::string short_table_text(const FigureTable& table) {
@@ -76,12 +83,9 @@ std::string short_table_text(const FigureTable& table) {
     return text;
 }
 
-}  // namespace
-
-std::string reproduction_text(const Reproduction& reproduction, bool every_row) {
-    std::string text = fmt::format("{}: {}\n\n", reproduction.name, reproduction.title);
-    text += row_text("figure", "paper", "ours", "", "difference", "bound", "");
-    for (const FigureTable& table : figure_tables(reproduction.figures)) {
+std::string figures_text(std::span<const Figure> figures, bool every_row) {
+    std::string text;
+    for (const FigureTable& table : figure_tables(figures)) {
         if (table.is_long() && !every_row) {
             text += short_table_text(table);
             continue;
@@ -90,7 +94,34 @@ std::string reproduction_text(const Reproduction& reproduction, bool every_row) 
             text += figure_text(figure, figure.name, 0);
         }
     }
-    return text + fmt::format("\n{}: {}\n", reproduction.name, verdict(count_figures(reproduction.figures)));
+    return text;
+}
+
+std::string not_reproduced_text(const std::vector<NotReproduced>& list) {
+    std::string text = list.empty() ? "" : "\nnot reproduced\n";
+    for (const NotReproduced& one : list) {
+        text += paragraph(one.what + ": " + one.why, 2);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string reproduction_text(const Reproduction& reproduction, bool every_row) {
+    std::string text = paragraph(reproduction.name + ": " + reproduction.title, 0) + '\n';
+    text += row_text("figure", "paper", "ours", "", "difference", "bound", "");
+    text += figures_text(reproduction.figures, every_row);
+    if (!reproduction.checks.empty()) {
+        text += '\n' + row_text("checks of our own", "", "ours", "", "", "bound", "");
+        text += figures_text(reproduction.checks, every_row);
+    }
+    text += not_reproduced_text(reproduction.not_reproduced);
+    text += fmt::format("\n{}: {}\n", reproduction.name, verdict(count_figures(reproduction.figures)));
+    if (!reproduction.checks.empty()) {
+        text += fmt::format("{}: {}\n", reproduction.name,
+                            verdict(count_figures(reproduction.checks), "checks of our own"));
+    }
+    return text;
 }
 
 }  // namespace millforce::sim

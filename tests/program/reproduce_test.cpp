@@ -24,7 +24,9 @@ TEST(Reproduce, a_paper_gives_its_table_a_page_and_json_and_is_silent_in_a_pipe)
     const Ended ended = reproduce({"roughness"});
     LONGS_EQUAL(0, ended.exit_code);
     STRCMP_EQUAL("", ended.error.c_str());
-    CHECK(contains(ended.out, "roughness: 28 figures, 24 within their bound, 4 shown without one\n"));
+    CHECK(contains(ended.out, "roughness: 12 figures, 12 within their bound\n"));
+    CHECK(contains(ended.out, "roughness: 16 checks of our own, 12 within their bound, 4 shown without one\n"));
+    CHECK(contains(ended.out, "not reproduced\n  Figs. 2–4: measured roughness: "));
     CHECK(contains(ended.out, "reproduce.html"));
     CHECK(contains(result("reproduce.html"), "Tangjitsitcharoen"));
     CHECK(millforce::sim::JsonCheck::valid(result("reproduce.json")));

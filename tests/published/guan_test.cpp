@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/fine_integration.hpp"
-#include "reproduce/reproduction.hpp"
+#include "reproduction_checks.hpp"
 
 #include <CppUTest/TestHarness.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 using namespace millforce::sim;
 
@@ -27,12 +25,9 @@ TEST_GROUP(Guan){};
 
 TEST(Guan, every_figure_of_the_paper_and_every_promise_about_it_holds) {
     const Reproduction guan = reproduce_guan();
-    const auto judged = std::count_if(guan.figures.begin(), guan.figures.end(),
-                                      [](const Figure& f) { return f.judged != Figure::Judged::shown; });
-    LONGS_EQUAL(20, judged);
-    for (const Figure& figure : guan.figures) {
-        CHECK_TEXT(figure.holds(), (figure.name + ": " + std::to_string(figure.ours)).c_str());
-    }
+    millforce::test::check_reproduction(guan);
+    LONGS_EQUAL(6, millforce::test::count_judged(guan.figures));
+    LONGS_EQUAL(11, millforce::test::count_judged(guan.checks));
     LONGS_EQUAL(3, guan.plots.size());
     LONGS_EQUAL(5, guan.plots[0].series.size());
 }

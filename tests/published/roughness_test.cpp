@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/surface/roughness.hpp"
 #include "files/parameter_files.hpp"
-#include "reproduce/reproduction.hpp"
+#include "reproduction_checks.hpp"
 
 #include <CppUTest/TestHarness.h>
 
-#include <algorithm>
 #include <string>
 
 using namespace millforce;
@@ -25,12 +24,9 @@ TEST_GROUP(Roughness){};
 
 TEST(Roughness, every_figure_of_the_paper_and_every_promise_about_it_holds) {
     const Reproduction roughness = reproduce_roughness();
-    const auto judged = std::count_if(roughness.figures.begin(), roughness.figures.end(),
-                                      [](const Figure& f) { return f.judged != Figure::Judged::shown; });
-    LONGS_EQUAL(24, judged);
-    for (const Figure& figure : roughness.figures) {
-        CHECK_TEXT(figure.holds(), (figure.name + ": " + std::to_string(figure.ours)).c_str());
-    }
+    millforce::test::check_reproduction(roughness);
+    LONGS_EQUAL(12, millforce::test::count_judged(roughness.figures));
+    LONGS_EQUAL(12, millforce::test::count_judged(roughness.checks));
     LONGS_EQUAL(3, roughness.plots.size());
 }
 

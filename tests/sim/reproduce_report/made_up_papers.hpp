@@ -8,7 +8,7 @@
 
 namespace millforce::sim {
 
-/// Every kind of figure and series, text that must be escaped, and values that are not numbers.
+/// Every kind of figure and series, a check of our own, text that must be escaped, and values that are not numbers.
 inline Reproduction paper_with_everything() {
     using Judged = Figure::Judged;
     using Style = Plot::Series::Style;
@@ -21,10 +21,12 @@ inline Reproduction paper_with_everything() {
     paper.summary = "What it does.";
     paper.figures = {{"Eq. 1: difference", "N", 10.0, 10.5, Judged::difference, 1.0},
                      {"Eq. 1: relative <difference>", "mm", 100.0, 98.0, Judged::relative_difference, 0.05},
-                     {"Eq. 2: no published value", "%", none, 1.5, Judged::at_most, 3.0},
+                     {"Eq. 2: an error", "%", 2.0, 1.5, Judged::at_most, 3.0},
                      {"Eq. 3: a share", "", 0.9, 0.95, Judged::at_least, 0.9},
                      {"Eq. 4: a coverage", "", 0.95, 0.94, Judged::within, 0.97, 0.93},
-                     {"Eq. 5: no value of ours", "", 1.0, none, Judged::shown}};
+                     {"Eq. 5: no value of ours", "", 1.0, none, Judged::shown, 0.0, 0.0, "not <measured> here."}};
+    paper.checks = {own_check("Eq. 6: a promise", "mm", 0.25, Judged::at_most, 1.0), own_check("a look", "N", 12.0)};
+    paper.not_reproduced = {{"Fig. 7: <points>", "they are not printed."}};
     paper.plots = {{"Force over angle",
                     "angle, °",
                     "force <N>",

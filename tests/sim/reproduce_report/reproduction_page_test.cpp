@@ -30,7 +30,7 @@ TEST_GROUP(ReproductionPage) {
 };
 
 TEST(ReproductionPage, shows_every_figure_plot_and_deviation) {
-    for (const char* part : {"A made-up paper", "What it does.", "Eq. 1: difference", "Eq. 2: no published value",
+    for (const char* part : {"A made-up paper", "What it does.", "Eq. 1: difference", "Eq. 2: an error",
                              "Force over angle", "What to see.", "Printed with a slip."}) {
         CHECK_TEXT(holds(page, part), part);
     }
@@ -40,6 +40,15 @@ TEST(ReproductionPage, shows_every_figure_plot_and_deviation) {
     CHECK(holds(page, "<div id=\"everything-1\">"));
     CHECK(holds(page_data(page), "\"everything-1\""));
     CHECK(holds(page_data(page), "\"band_low\""));
+}
+
+TEST(ReproductionPage, keeps_checks_of_our_own_apart_and_gives_reasons) {
+    const std::size_t checks = page.find("<h3>Checks of our own</h3>");
+    CHECK(checks != std::string::npos);
+    CHECK(page.find("Eq. 6: a promise") > checks && page.find("Eq. 6: a promise") != std::string::npos);
+    CHECK(holds(page, "<span class=\"reason\">not &lt;measured&gt; here.</span>"));
+    CHECK(holds(page, "<strong>Fig. 7: &lt;points&gt;</strong>: they are not printed."));
+    CHECK(holds(page, "6 figures, 5 within their bound, 1 shown without one; 2 checks of our own, 1 within"));
 }
 
 TEST(ReproductionPage, folds_a_long_table_unless_a_bound_in_it_is_broken) {
@@ -73,8 +82,12 @@ TEST(ReproductionPage, the_json_file_holds_every_figure_and_says_whether_bounds_
         for (const Figure& figure : paper.figures) {
             CHECK_TEXT(holds(json, figure.name.substr(0, figure.name.find('<'))), figure.name.c_str());
         }
+        for (const Figure& check : paper.checks) {
+            CHECK_TEXT(holds(json, check.name), check.name.c_str());
+        }
     }
     CHECK(holds(json, "\"holds\": true"));
+    CHECK(holds(json, "they are not printed."));
     const std::vector<Reproduction> broken{paper_with_a_long_table(true)};
     CHECK(holds(reproduction_json(broken).substr(0, 30), "\"holds\": false"));
 }
