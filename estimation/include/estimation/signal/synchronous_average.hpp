@@ -44,8 +44,7 @@ class SynchronousAverage {
     /// The last whole revolutions, and how the spindle and the signals changed across them.
     struct Window : Means {
         Scalar spindle_speed_rad_s{0};
-        /// Mean acceleration: from the speeds at the window's ends, each seen over twice speed_span_s before the end. 0
-        /// until so much has been seen before the window.
+        /// Mean acceleration: from the speeds at the window's ends, each seen over twice speed_span_s before the end.
         Scalar spindle_acceleration_rad_s2{0};
         Scalar spindle_acceleration_change_rad_s2{0};  ///< within the window: what the mean may be off by
         Scalar speed_span_s{0};

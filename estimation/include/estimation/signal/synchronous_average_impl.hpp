@@ -179,22 +179,28 @@ Scalar SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::speed_rad_s(int 
 }
 
 /// How the speed at the window's end differs from that at its start. Both are read off a line through the two stretches
-/// before them: the same teeth, so that what repeats with each revolution cancels.
+/// before them: the same teeth, so that what repeats with each revolution cancels. Until so much has been seen, the
+/// newer half is compared with the older one, and all of it is in doubt.
 template <typename Scalar, int Channels, int Rates, int MaxPeriods>
 void SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::set_acceleration(Window& window) const {
     const int count = window.tooth_periods;
     const int longest = (MaxPeriods - count) / 2;
     const int quarter = count < 4 ? 1 : count / 4;
     const int span = quarter < longest ? quarter : longest;
-    window.speed_span_s = window.duration_s * Scalar(span) / Scalar(count);
-    if (span < 1 || available_ < count + 2 * span) {
-        return;
-    }
-    const Scalar newer = speed_rad_s(0, span) - speed_rad_s(count, span);
-    const Scalar older = speed_rad_s(span, span) - speed_rad_s(count + span, span);
     const Scalar per_s = Scalar(1) / window.duration_s;
-    window.spindle_acceleration_change_rad_s2 = halved(newer - older) * per_s;
-    window.spindle_acceleration_rad_s2 = newer * per_s + window.spindle_acceleration_change_rad_s2;
+    if (span > 0 && available_ >= count + 2 * span) {
+        const Scalar newer = speed_rad_s(0, span) - speed_rad_s(count, span);
+        const Scalar older = speed_rad_s(span, span) - speed_rad_s(count + span, span);
+        window.spindle_acceleration_change_rad_s2 = halved(newer - older) * per_s;
+        window.spindle_acceleration_rad_s2 = newer * per_s + window.spindle_acceleration_change_rad_s2;
+        window.speed_span_s = window.duration_s * Scalar(span) / Scalar(count);
+    } else if (count > 1) {
+        const int half = count / 2;
+        const Scalar apart_s = window.duration_s * Scalar(count - half) / Scalar(count);
+        window.spindle_acceleration_rad_s2 = (speed_rad_s(0, half) - speed_rad_s(count - half, half)) / apart_s;
+        window.spindle_acceleration_change_rad_s2 = window.spindle_acceleration_rad_s2;
+        window.speed_span_s = halved(window.duration_s);
+    }
 }
 
 template <typename Scalar, int Channels, int Rates, int MaxPeriods>
