@@ -136,6 +136,25 @@ void refuse_what_cuts_lack(const StandardCutOptions& options, const StandardCutG
     }
 }
 
+/// Gains that no drive has.
+void refuse_implausible_gains(const StandardCutOptions& options, const StandardCutGains& gains) {
+    constexpr double least_Nm_per_A = 0.003;
+    constexpr double least_N_per_A = 1.0;
+    const auto refuse_small = [&](std::string_view key, double gain, double least, std::string_view column) {
+        if (gain < least) {
+            throw InputError(fmt::format("{}: '{}' = {:.3g}; expected {:g} or more; is {} in mA?",
+                                         options.cuts.string(), key, gain, least, column));
+        }
+    };
+    refuse_small(K_t1_key.name, gains.spindle.gain, least_Nm_per_A, "spindle_current_A");
+    for (std::size_t k = 0; k < gains.axes.size(); ++k) {
+        if (gains.axes[k]) {
+            refuse_small(fmt::format("{}.{}", axis_tables[k], K_x4_key.name), gains.axes[k]->gain, least_N_per_A,
+                         fmt::format("{}_current_A", axis_tables[k]));
+        }
+    }
+}
+
 /// Prints and writes one drive's gain and offset, and the doubt of the gain.
 void report(std::ostream& out, TomlWriter& toml, const DriveGainFit& fit, std::array<CalibrationKey, 3> keys,
             double database_sd) {
@@ -218,6 +237,7 @@ int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out)
     }
     const StandardCutGains gains = standard_cut_gains(stretches, machine, entry.law, options.side);
     refuse_what_cuts_lack(options, gains);
+    refuse_implausible_gains(options, gains);
     const DatabaseDoubt doubt = database_doubt(stretches, entry.law, options.side);
 
     AtomicFile file(options.output);
