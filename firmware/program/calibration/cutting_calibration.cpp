@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace millforce::host {
 
@@ -134,9 +135,7 @@ std::size_t parameters_of(CuttingLawForm form) {
     return form == CuttingLawForm::combined ? 6 : 4;
 }
 
-/// What no choice of the side would mend.
-void refuse_what_cuts_lack(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts) {
-    const std::string file = options.data.front().string();
+void refuse_too_few_values(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts) {
     std::size_t values = 0;
     for (const CutRow& row : cuts) {
         for (const double force : {row.spindle_torque_Nm, row.normal_force_N, row.feed_force_N}) {
@@ -145,23 +144,24 @@ void refuse_what_cuts_lack(const CuttingCalibrationOptions& options, const std::
     }
     const std::size_t parameters = parameters_of(options.form());
     if (values <= parameters) {
-        throw InputError(
-            fmt::format("{}: {} cuts with {} measured values for the {} parameters of the {} law; expected at least "
-                        "{} values, from cuts at two feeds and several widths",
-                        file, cuts.size(), values, parameters, form_name(options.form()), parameters + 1));
+        throw InputError(fmt::format(
+            "{}: {} cuts with {} measured values for the {} parameters of the {} law; expected at least "
+            "{} values, from cuts at two feeds and several widths",
+            options.data.front().string(), cuts.size(), values, parameters, form_name(options.form()), parameters + 1));
     }
-    const CuttingFit down = fit_on_side(options, cuts, CutSide::down, {}, 0);
-    const CuttingFit up = fit_on_side(options, cuts, CutSide::up, {}, 0);
-    const bool either = (down.undetermined == 0U && down.converged) || (up.undetermined == 0U && up.converged);
-    if (either) {
-        return;
-    }
-    const std::string lack = what_the_cuts_lack(down, options.form());
-    throw InputError(fmt::format(
-        "{}: {}", file,
-        !lack.empty() ? lack
-                      : fmt::format("the fit of {} cuts does not settle; expected more cuts, at more feeds and widths",
-                                    cuts.size())));
+}
+
+CutSide side_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, std::ostream& out) {
+    const auto fit = [&](const std::vector<CutRow>& rows, CutSide side) {
+        return fit_on_side(options, rows, side, {}, 0);
+    };
+    const std::string lack = what_the_cuts_lack(fit(cuts, CutSide::down), options.form());
+    return side_that_fits(
+        {options.data.front().string(),
+         lack.empty() ? fmt::format("the fit of {} cuts does not settle; expected more cuts, at more feeds and widths",
+                                    cuts.size())
+                      : lack},
+        cuts, options.side, fit, out);
 }
 
 /// A law and the parameters that it was fitted without.
@@ -184,6 +184,18 @@ void refuse_vague_law(const CuttingCalibrationOptions& options, const CuttingFit
             fmt::format("{}: 'k_1' cannot be determined: r_1 = {:.3g} ± {:.3g}; expected side cuts at more "
                         "feeds and widths",
                         file, r_1, fit.standard_error(estimation::cutting_r_1)));
+    }
+    constexpr double few_degrees_of_freedom = 10.0;
+    constexpr double no_scatter = 5e-4;  // no force is measured so well: the parameters have used up these forces
+    const std::array<std::pair<std::string_view, estimation::CuttingScatter>, 3> channels{
+        {{"torques", fit.tangential}, {"feed forces", fit.feed}, {"normal forces", fit.normal}}};
+    for (const auto& [name, channel] : channels) {
+        if (channel.cuts > 0 && channel.robust_sd < no_scatter && fit.degrees_of_freedom < few_degrees_of_freedom) {
+            throw InputError(fmt::format(
+                "{}: the {} of {} cuts fit without any scatter, so that their errors are not known; expected "
+                "more cuts",
+                file, name, channel.cuts));
+        }
     }
     const double scatter = std::max(fit.tangential.robust_sd, plane_scatter(fit));
     if (scatter > largest_scatter) {
@@ -375,11 +387,8 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
                                 options.from_currents()
                                     ? "are the currents in mA, or is spindle_angle_rad in degrees?"
                                     : "is spindle_rad_s in 1/min, or spindle_torque_Nm in another unit?");
-    refuse_what_cuts_lack(options, cuts);
-    const auto on_side = [&](const std::vector<CutRow>& rows, CutSide side) {
-        return fit_on_side(options, rows, side, {}, 0);
-    };
-    const CutSide side = side_that_fits(options.data.front().string(), cuts, options.side, on_side, out);
+    refuse_too_few_values(options, cuts);
+    const CutSide side = side_or_refuse(options, cuts, out);
     const CuttingResult result = fit_what_is_determined(options, cuts, side, doubt);
     print_fit(out, result, options.form());
     const bool holds = check_held_out(out, cuts, options.form(), side, result.held_at_zero);

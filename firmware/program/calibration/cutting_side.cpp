@@ -126,8 +126,9 @@ double plane_scatter(const CuttingFit& fit) {
                       : 0.0;
 }
 
-CutSide side_that_fits(const std::string& file, const std::vector<CutRow>& cuts, CutSide asked, const FitOnSide& fit,
+CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts, CutSide asked, const FitOnSide& fit,
                        std::ostream& out) {
+    const std::string& file = words.file;
     const Reading down{CutSide::down, {}, fit(cuts, CutSide::down)};
     const Reading up{CutSide::up, {}, fit(cuts, CutSide::up)};
     const Reading* chosen = nullptr;
@@ -143,6 +144,9 @@ CutSide side_that_fits(const std::string& file, const std::vector<CutRow>& cuts,
         refuse_turned_sign(file, std::nullopt, turned);
     } else if (!fits_any || chosen != nullptr) {
         refuse_turned_sign(file, chosen != nullptr ? std::optional(*chosen) : std::nullopt, turned);
+    }
+    if (!down.is_fitted() && !up.is_fitted()) {
+        throw InputError(fmt::format("{}: {}", file, words.lack));
     }
     if (!fits_any) {
         throw InputError(

@@ -24,9 +24,15 @@ using FitOnSide = std::function<estimation::CuttingFit(const std::vector<CutRow>
 /// How far the forces in the plane scatter about the fit, without the odd ones.
 double plane_scatter(const estimation::CuttingFit& fit);
 
+/// For messages: the file, and what the cuts lack where no side can be fitted at all.
+struct CutsInWords {
+    std::string file;
+    std::string lack;
+};
+
 /// The side that fits, or `asked` if it fits. One line on `out` says why. Throws InputError where neither does, where
-/// both do, where the other side or the opposite sign of a force fits far better. `file` is named in it.
-estimation::CutSide side_that_fits(const std::string& file, const std::vector<CutRow>& cuts, estimation::CutSide asked,
+/// both do, where the other side or the opposite sign of a force fits far better.
+estimation::CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts, estimation::CutSide asked,
                                    const FitOnSide& fit, std::ostream& out);
 
 }  // namespace millforce::host

@@ -89,15 +89,23 @@ AxisFit fit_what_is_determined(const std::vector<SteadyFeed>& feeds) {
     }
     AxisFit result;
     result.solution = fit.solve();
-    std::vector<int> candidates{estimation::positive_K_x1, estimation::positive_K_x2, estimation::negative_K_x1,
-                                estimation::negative_K_x2, estimation::common_K_x3,   estimation::gravity_offset};
-    while (const auto vague = most_vague(result.solution, candidates)) {
-        std::erase(candidates, *vague);
-        result.left_out.push_back({feed_current_keys[static_cast<std::size_t>(*vague)],
-                                   result.solution.parameters(*vague), result.solution.standard_error(*vague)});
-        result.held_at_zero |= 1U << static_cast<unsigned>(*vague);
-        result.solution = fit.solve(result.held_at_zero);
-    }
+    const auto leave_out = [&](std::vector<int> candidates, auto band) {
+        while (const auto vague = most_vague(result.solution, candidates, band())) {
+            std::erase(candidates, *vague);
+            result.left_out.push_back({feed_current_keys[static_cast<std::size_t>(*vague)],
+                                       result.solution.parameters(*vague), result.solution.standard_error(*vague)});
+            result.held_at_zero |= 1U << static_cast<unsigned>(*vague);
+            result.solution = fit.solve(result.held_at_zero);
+        }
+    };
+    // Over a short range of feeds a parabola and a line of opposite signs fit the noise: beyond it they are far off.
+    leave_out({estimation::positive_K_x1, estimation::negative_K_x1}, [&] {
+        const auto parameters = static_cast<double>(feed_current_keys.size() - result.left_out.size());
+        return estimation::student_t_975(static_cast<double>(feeds.size()) - parameters);
+    });
+    leave_out(
+        {estimation::positive_K_x2, estimation::negative_K_x2, estimation::common_K_x3, estimation::gravity_offset},
+        [] { return 1.0; });
     return result;
 }
 
@@ -119,8 +127,8 @@ void refuse_what_no_axis_has(const std::string& file, char axis, const std::vect
             fmt::format("{}: {}: {:.4g} A of friction on average; expected at most {:g} A; is {}_current_A in mA?",
                         file, axis, friction_A, largest_current_A, axis));
     }
-    for (const auto [linear, quadratic] : {std::pair(estimation::positive_K_x2, estimation::positive_K_x1),
-                                           std::pair(estimation::negative_K_x2, estimation::negative_K_x1)}) {
+    for (const auto& [linear, quadratic] : {std::pair(estimation::positive_K_x2, estimation::positive_K_x1),
+                                            std::pair(estimation::negative_K_x2, estimation::negative_K_x1)}) {
         if (fit.is_held(estimation::common_K_x3) && fit.is_held(linear) && fit.is_held(quadratic)) {
             throw InputError(
                 fmt::format("{}: '{}.K_x3_A' cannot be determined: no friction beyond the noise of the "

@@ -167,7 +167,7 @@ MechanicalResult fit_or_refuse(const FrictionCalibrationOptions& options, const 
 struct SecondHalf {
     bool is_there = false;
     double phantom_N = 0.0;  ///< force that the axis seems to feel, rms
-    double bound_N = 0.0;    ///< 1.5 times what the first half's own residual and standard errors allow
+    double bound_N = 0.0;    ///< 1.5 times the residual of all samples and the first half's standard errors
     double excess = 0.0;     ///< friction more than predicted, as a share of the predicted
     double excess_sd = 0.0;  ///< standard deviation of that
 
@@ -182,7 +182,7 @@ struct SecondHalf {
     static constexpr double largest_change = 0.1;
 };
 
-SecondHalf second_half(const std::vector<AxisMotion>& motions, double minimum_speed_m_s) {
+SecondHalf second_half(const std::vector<AxisMotion>& motions, double minimum_speed_m_s, double residual_N) {
     constexpr double fewest_independent = 10.0;
     constexpr double allowed_ratio = 1.5;
     const auto first = squares_of(motions, 0.0, 0.5, minimum_speed_m_s).directional();
@@ -224,7 +224,7 @@ SecondHalf second_half(const std::vector<AxisMotion>& motions, double minimum_sp
     SecondHalf result;
     result.is_there = predicted_N > 0.0;
     result.phantom_N = std::sqrt(squares / n);
-    result.bound_N = allowed_ratio * std::sqrt(first.residual_sd * first.residual_sd + prediction_variance / n);
+    result.bound_N = allowed_ratio * std::sqrt(residual_N * residual_N + prediction_variance / n);
     result.excess = mean_N * n / predicted_N;
     result.excess_sd = std::sqrt(mean_variance) * n / predicted_N;
     return result;
@@ -296,8 +296,10 @@ int calibrate_motion_friction(const FrictionCalibrationOptions& options, std::os
     report(out, toml, directional_friction_keys, result.directional);
     toml.key(friction_force_residual_key.name, result.directional.solution.residual_rms);
     file.commit();
-    return check_second_half(out, second_half(motions, options.minimum_speed_mm_s / 1000.0)) ? exit_done
-                                                                                             : exit_bound_broken;
+    return check_second_half(
+               out, second_half(motions, options.minimum_speed_mm_s / 1000.0, result.directional.solution.residual_rms))
+               ? exit_done
+               : exit_bound_broken;
 }
 
 }  // namespace millforce::host

@@ -188,7 +188,8 @@ TEST(SpindleCalibration, refuses_other_units_by_name) {
     CHECK(contains(calibrate(table({60, 90, 120}, torques, {.current_scale = 1000.0})).error, "in mA?"));
     CHECK(contains(calibrate(table({60, 90, 120}, torques, {.current_scale = 100.0, .torque_scale = 0.1})).error,
                    "'K_t1_Nm_per_A' = 0.0014"));
-    CHECK(contains(calibrate(table({6000, 9000}, {0, 10, 20, 40, 60}, {})).error, "spindle_speed_rad_s in 1/min"));
+    CHECK(contains(calibrate(table({120}, {0, 10, 20, 40, 60}, {.speed_scale = 50.0})).error,
+                   "spindle_speed_rad_s in 1/min"));
     CHECK(contains(calibrate(recording({.angle_scale = 180.0 / std::numbers::pi})).error,
                    "column 'spindle_angle_rad': "));
     CHECK(contains(calibrate(recording({.angle_scale = 180.0 / std::numbers::pi})).error, "is it in degrees?"));
