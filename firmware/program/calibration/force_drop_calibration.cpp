@@ -149,25 +149,32 @@ void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const st
                            const DropCalibration::Result& result) {
     constexpr std::size_t fewest_cuts = 4;
     constexpr double largest_scatter = 0.25;
+    constexpr float least_feed_ratio = 1.5F;
     const auto refuse = [&](std::string_view why) {
         throw InputError(fmt::format("{}: {}", options.cuts.string(), why));
     };
+    const auto [thinnest, thickest] =
+        std::minmax_element(cuts.begin(), cuts.end(), [](const MeasuredCut& a, const MeasuredCut& b) {
+            return a.measured.feed_per_tooth_mm < b.measured.feed_per_tooth_mm;
+        });
+    const bool feeds_differ =
+        thickest->measured.feed_per_tooth_mm >= least_feed_ratio * thinnest->measured.feed_per_tooth_mm;
+    if (!feeds_differ) {
+        refuse(
+            "'e_t_mm' and 'e_r_mm' cannot be determined: all cuts have about the same feed per tooth; expected cuts "
+            "whose feeds differ by a factor of 1.5 or more");
+    }
     if (const std::size_t different = different_cuts(cuts); different < fewest_cuts) {
         refuse(
             fmt::format("{} cuts of different width, depth or feed; expected at least {}: two widths at two feeds, "
                         "which differ by a factor of 1.5 or more",
                         different, fewest_cuts));
     }
-    if (const double scatter = scatter_about_law(result); scatter > largest_scatter) {
+    if (const double scatter = scatter_about_law(result); scatter > largest_scatter || !result.edges_determined) {
         refuse(fmt::format(
-            "the forces scatter by {:.0f} % about any cutting law of {} milling; expected less than {:.0f} "
-            "%; are fx_N and fy_N swapped or one of them reversed, or is the tool's side wrong?",
+            "the forces scatter by {:.0f} % about any cutting law of {} milling; expected less than {:.0f} % and a "
+            "force that grows with the chip; are fx_N and fy_N swapped or reversed, or is the tool's side wrong?",
             100.0 * scatter, cuts.front().measured.side == CutSide::up ? "up" : "down", 100.0 * largest_scatter));
-    }
-    if (!result.edges_determined) {
-        refuse(
-            "'e_t_mm' and 'e_r_mm' cannot be determined: all cuts have about the same feed per tooth; expected cuts "
-            "whose feeds differ by a factor of 1.5 or more");
     }
     if (!result.law.valid) {
         refuse("'b' cannot be determined: fewer than three cuts show their immersion; expected cuts of several widths");
@@ -186,7 +193,7 @@ void refuse_law_without_estimates(const ForceShapeCalibrationOptions& options, c
     if (2 * left_out.without > left_out.cuts) {
         throw InputError(
             fmt::format("{}: the law of the other cuts gives no immersion for {} of {}; expected one for most; "
-                        "are fx_N and fy_N swapped or one of them reversed, or is a width wrong?",
+                        "are fx_N and fy_N swapped or reversed, or is a width wrong?",
                         options.cuts.string(), left_out.without, left_out.cuts));
     }
 }
