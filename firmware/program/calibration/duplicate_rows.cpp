@@ -18,8 +18,9 @@ bool DuplicateRows::is_copy(const CsvReader& csv) {
 
 void DuplicateRows::report(std::ostream& out) const {
     if (!places_.empty()) {
-        out << fmt::format("{} rows repeat an earlier row exactly and are not counted again: {}\n", places_.size(),
-                           list_of_places(places_));
+        out << fmt::format("{} an earlier row exactly and {} not counted again: {}\n",
+                           places_.size() == 1 ? "1 row repeats" : fmt::format("{} rows repeat", places_.size()),
+                           places_.size() == 1 ? "is" : "are", list_of_places(places_));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,15 @@ void add_data_and_output(Command& command, Options& options) {
     command.option("-o,--output", options.output, "The fitted parameters").required().value_name("FILE.toml");
 }
 
+/// A refusal is one line on standard error alone: the report goes out when all is done.
+template <typename Calibration, typename Options>
+int report_when_done(Calibration calibration, const Options& options) {
+    std::ostringstream report;
+    const int exit_code = calibration(options, report);
+    std::cout << report.str();
+    return exit_code;
+}
+
 void add_friction(Command& calibrate) {
     auto options = std::make_shared<FrictionCalibrationOptions>();
     Command command = calibrate.subcommand("friction", "Feed axes: friction by direction, mass, weight");
@@ -61,7 +71,7 @@ void add_friction(Command& calibrate) {
     command.option("--minimum-speed", options->minimum_speed_mm_s, "Slower samples are pre-sliding, mm/s")
         .within(0.001, 1e4)
         .shows_default();
-    command.on_run([options] { return calibrate_friction(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_friction, *options); });
 }
 
 void add_spindle(Command& calibrate) {
@@ -78,7 +88,7 @@ void add_spindle(Command& calibrate) {
     command.option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
         .within(0.01, 1e4)
         .shows_default();
-    command.on_run([options] { return calibrate_spindle(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_spindle, *options); });
 }
 
 void add_standard_cut(Command& calibrate) {
@@ -101,7 +111,7 @@ void add_standard_cut(Command& calibrate) {
     command.option("--entry", options->entry, "Name in the database; default: its only entry").value_name("NAME");
     command.choice<CutSide>("--side", options->side, "Side of the cuts",
                             {{"down", CutSide::down}, {"up", CutSide::up}});
-    command.on_run([options] { return calibrate_standard_cut(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_standard_cut, *options); });
 }
 
 void add_warm_up(Command& calibrate) {
@@ -115,7 +125,7 @@ void add_warm_up(Command& calibrate) {
         .required()
         .value_name("M.toml");
     command.option("-o,--output", options->output, "The fitted parameters").required().value_name("FILE.toml");
-    command.on_run([options] { return calibrate_warm_up(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_warm_up, *options); });
 }
 
 void add_cutting(Command& calibrate) {
@@ -140,7 +150,7 @@ void add_cutting(Command& calibrate) {
                                    {{"linear_edge", CuttingLawForm::linear_edge},
                                     {"power", CuttingLawForm::power},
                                     {"combined", CuttingLawForm::combined}});
-    command.on_run([options] { return calibrate_cutting(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_cutting, *options); });
 }
 
 void add_roughness(Command& calibrate) {
@@ -155,7 +165,7 @@ void add_roughness(Command& calibrate) {
     command.option("--measure", options->measure, "Ra or Rz; default: Ra if the data have it").one_of({"Ra", "Rz"});
     command.option("--hold", options->held, "Column that the shop does not vary: its exponent is not fitted")
         .one_of(std::vector<std::string>(roughness_columns.begin(), roughness_columns.end()));
-    command.on_run([options] { return calibrate_roughness(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_roughness, *options); });
 }
 
 using ForceShapeCalibration = int (*)(const ForceShapeCalibrationOptions&, std::ostream&);
@@ -168,7 +178,7 @@ void add_force_shape(Command& command, ForceShapeCalibration calibration) {
     command.option("--tool", options->tool, "Tool parameters, with the force sensor's low-pass")
         .required()
         .value_name("T.toml");
-    command.on_run([options, calibration] { return calibration(*options, std::cout); });
+    command.on_run([options, calibration] { return report_when_done(calibration, *options); });
 }
 
 void add_force_drop(Command& calibrate) {
