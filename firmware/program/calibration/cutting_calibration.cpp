@@ -2,6 +2,7 @@
 #include "calibration/cutting_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/cutting_refusals.hpp"
 #include "calibration/cutting_side.hpp"
 #include "calibration/drive_forces.hpp"
 #include "calibration/duplicate_rows.hpp"
@@ -16,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace millforce::host {
 
@@ -25,18 +25,6 @@ namespace {
 using estimation::CutSide;
 using estimation::CuttingFit;
 using estimation::CuttingLawForm;
-
-std::string_view form_name(CuttingLawForm form) {
-    switch (form) {
-        case CuttingLawForm::linear_edge:
-            return "linear edge";
-        case CuttingLawForm::power:
-            return "power";
-        case CuttingLawForm::combined:
-            break;
-    }
-    return "combined";
-}
 
 std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files, std::ostream& out) {
     std::vector<CutRow> cuts;
@@ -100,55 +88,10 @@ CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
     return result;
 }
 
-/// A parameter that the cuts cannot determine, and the cut that is missing.
-std::string what_the_cuts_lack(const CuttingFit& fit, CuttingLawForm form) {
-    const auto lacks = [&](int j) { return !fit.determined(j); };
-    if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm &&
-        lacks(estimation::cutting_K_te)) {
-        return fmt::format(
-            "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
-            "tooth; expected cuts at a second feed, larger or smaller by half",
-            fit.maximum_feed_per_tooth_mm);
-    }
-    if (lacks(estimation::cutting_ln_K_s)) {
-        return "'k_s_N_per_mm2' cannot be determined: the torques and forces do not grow with the chip; expected cuts "
-               "with measured spindle_torque_Nm";
-    }
-    if (lacks(estimation::cutting_r_1)) {
-        return "'k_1' cannot be determined: the forces hold nothing of the radial force (slots have none along the "
-               "normal); "
-               "expected side cuts with normal_force_N, or feed_force_N";
-    }
-    if (lacks(estimation::cutting_p_s)) {
-        return "'p_s' cannot be determined: all chips are equally thick; expected cuts at a second feed";
-    }
-    return {};
-}
-
 CuttingFit fit_on_side(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, CutSide side,
                        const estimation::DriveGainDoubt& doubt, unsigned held_at_zero) {
     return options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt, held_at_zero)
                                    : fit_cuts(cuts, options.form(), side, held_at_zero);
-}
-
-std::size_t parameters_of(CuttingLawForm form) {
-    return form == CuttingLawForm::combined ? 6 : 4;
-}
-
-void refuse_too_few_values(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts) {
-    std::size_t values = 0;
-    for (const CutRow& row : cuts) {
-        for (const double force : {row.spindle_torque_Nm, row.normal_force_N, row.feed_force_N}) {
-            values += std::isfinite(force) ? 1U : 0U;
-        }
-    }
-    const std::size_t parameters = parameters_of(options.form());
-    if (values <= parameters) {
-        throw InputError(fmt::format(
-            "{}: {} cuts with {} measured values for the {} parameters of the {} law; expected at least "
-            "{} values, from cuts at two feeds and several widths",
-            options.data.front().string(), cuts.size(), values, parameters, form_name(options.form()), parameters + 1));
-    }
 }
 
 CutSide side_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, std::ostream& out) {
@@ -171,42 +114,6 @@ struct CuttingResult {
     std::vector<FittedValue> left_out;
 };
 
-/// What the cuts must not leave open: without it there is no law.
-void refuse_vague_law(const CuttingCalibrationOptions& options, const CuttingFit& fit) {
-    const std::string file = options.data.front().string();
-    const std::string lack = what_the_cuts_lack(fit, options.form());
-    if (!lack.empty()) {
-        throw InputError(fmt::format("{}: {}", file, lack));
-    }
-    const double r_1 = fit.parameters(estimation::cutting_r_1);
-    if (!(fit.standard_error(estimation::cutting_r_1) < std::abs(r_1))) {
-        throw InputError(
-            fmt::format("{}: 'k_1' cannot be determined: r_1 = {:.3g} ± {:.3g}; expected side cuts at more "
-                        "feeds and widths",
-                        file, r_1, fit.standard_error(estimation::cutting_r_1)));
-    }
-    constexpr double few_degrees_of_freedom = 10.0;
-    constexpr double no_scatter = 5e-4;  // no force is measured so well: the parameters have used up these forces
-    const std::array<std::pair<std::string_view, estimation::CuttingScatter>, 3> channels{
-        {{"torques", fit.tangential}, {"feed forces", fit.feed}, {"normal forces", fit.normal}}};
-    for (const auto& [name, channel] : channels) {
-        if (channel.cuts > 0 && channel.robust_sd < no_scatter && fit.degrees_of_freedom < few_degrees_of_freedom) {
-            throw InputError(fmt::format(
-                "{}: the {} of {} cuts fit without any scatter, so that their errors are not known; expected "
-                "more cuts",
-                file, name, channel.cuts));
-        }
-    }
-    const double scatter = std::max(fit.tangential.robust_sd, plane_scatter(fit));
-    if (scatter > largest_scatter) {
-        throw InputError(
-            fmt::format("{}: the {} scatter by {:.1f} % about the law; expected less than {:.0f} %, from cuts "
-                        "of one tool and material",
-                        file, fit.tangential.robust_sd == scatter ? "torques" : "forces", 100.0 * scatter,
-                        100.0 * largest_scatter));
-    }
-}
-
 /// The fit without those parameters whose standard error is larger than their value. The combined law keeps them: there
 /// the published values hold what the cuts leave open.
 CuttingResult fit_what_is_determined(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
@@ -227,7 +134,7 @@ CuttingResult fit_what_is_determined(const CuttingCalibrationOptions& options, c
         result.held_at_zero |= 1U << static_cast<unsigned>(*vague);
         result.fit = fit_without(result.held_at_zero);
     }
-    refuse_vague_law(options, result.fit);
+    refuse_vague_law(options.data.front().string(), result.fit, options.form());
     return result;
 }
 
@@ -387,7 +294,7 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
                                 options.from_currents()
                                     ? "are the currents in mA, or is spindle_angle_rad in degrees?"
                                     : "is spindle_rad_s in 1/min, or spindle_torque_Nm in another unit?");
-    refuse_too_few_values(options, cuts);
+    refuse_too_few_values(options.data.front().string(), cuts, options.form());
     const CutSide side = side_or_refuse(options, cuts, out);
     const CuttingResult result = fit_what_is_determined(options, cuts, side, doubt);
     print_fit(out, result, options.form());

@@ -37,7 +37,7 @@ void refuse_implausible_cut(const std::string& place, const CutKinematics& cut, 
 void refuse_implausible_pressure(const std::string& file, const std::vector<CutRow>& cuts, estimation::CutSide side,
                                  std::string_view hint) {
     constexpr double softest_N_per_mm2 = 10.0;
-    constexpr double hardest_N_per_mm2 = 12000.0;
+    constexpr double hardest_N_per_mm2 = 15000.0;
     std::vector<double> pressures;
     for (const CutRow& row : cuts) {
         const auto measured = row.measurement(side);

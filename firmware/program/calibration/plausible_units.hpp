@@ -23,7 +23,7 @@ struct CutKinematics {
 void refuse_implausible_cut(const std::string& place, const CutKinematics& cut, std::string_view feed_column,
                             std::string_view speed_column);
 
-/// The median of K_s that the torques mean by F_at = K_s f_z a_p N c/2π alone: 10 N/mm² (wax, foam) to 12 000 N/mm²
+/// The median of K_s that the torques mean by F_at = K_s f_z a_p N c/2π alone: 10 N/mm² (wax, foam) to 15 000 N/mm²
 /// (hard steel, thin chips). `hint`: the units to look at.
 void refuse_implausible_pressure(const std::string& file, const std::vector<CutRow>& cuts, estimation::CutSide side,
                                  std::string_view hint);
