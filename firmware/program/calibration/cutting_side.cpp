@@ -80,22 +80,6 @@ std::string_view expected_sign(std::string_view column) {
                : "expected the force on the workpiece, positive along the feed";
 }
 
-/// `chosen`: what the forces say as they are; empty where neither side is possible.
-void refuse_turned_sign(const std::string& file, const std::optional<Reading>& chosen,
-                        const std::optional<Reading>& turned) {
-    constexpr double far_better = 0.5;
-    constexpr double good_scatter = 0.05;
-    const bool is_better =
-        turned && (!chosen || (chosen->scatter() > good_scatter && turned->scatter() < far_better * chosen->scatter()));
-    if (is_better) {
-        throw InputError(
-            fmt::format("{}: column '{}': the sign is opposite to the convention: with it turned the forces "
-                        "fit {} milling (scatter {:.1f} %, r_1 = {:.3f}); {}",
-                        file, turned->turned_column, name_of(turned->side), 100.0 * turned->scatter(), turned->r_1(),
-                        expected_sign(turned->turned_column)));
-    }
-}
-
 /// Of two possible readings: the one that fits far better, or alone has a usual force ratio.
 const Reading* clearer(const Reading& one, const Reading& other) {
     constexpr double clear_ratio = 1.5;
@@ -105,6 +89,36 @@ const Reading* clearer(const Reading& one, const Reading& other) {
         return ratio > clear_ratio || (ratio * clear_ratio > 1.0 && a.has_usual_ratio() && !b.has_usual_ratio());
     };
     return is_clearer(one, other) ? &one : (is_clearer(other, one) ? &other : nullptr);
+}
+
+/// `chosen`: what the forces say as they are; empty where neither side is possible.
+void refuse_turned_sign(const std::string& file, const std::optional<Reading>& chosen,
+                        const std::optional<Reading>& turned) {
+    constexpr double far_better = 0.5;
+    constexpr double good_scatter = 0.05;
+    const auto fits_far_better = [&] {
+        return chosen->scatter() > good_scatter && turned->scatter() < far_better * chosen->scatter();
+    };
+    const auto alone_is_usual = [&] { return !chosen->has_usual_ratio() && clearer(*chosen, *turned) == &*turned; };
+    const bool is_better = turned && (!chosen || fits_far_better() || alone_is_usual());
+    if (is_better) {
+        throw InputError(
+            fmt::format("{}: column '{}': the sign is opposite to the convention: with it turned the forces "
+                        "fit {} milling (scatter {:.1f} %, r_1 = {:.3f}); {}",
+                        file, turned->turned_column, name_of(turned->side), 100.0 * turned->scatter(), turned->r_1(),
+                        expected_sign(turned->turned_column)));
+    }
+}
+
+/// At one width the opposite sign on another side, or with another force ratio, may fit as well.
+void warn_of_other_sign(std::ostream& out, const Reading& chosen, const std::optional<Reading>& turned) {
+    if (turned && clearer(chosen, *turned) != &chosen) {
+        out << fmt::format(
+            "warning: with the opposite sign of {} the forces fit {} milling as well (r_1 = {:.3f}): only cuts at "
+            "other "
+            "widths can tell\n",
+            turned->turned_column, name_of(turned->side), turned->r_1());
+    }
 }
 
 std::string why_not(const Reading& other) {
@@ -159,6 +173,7 @@ CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts
             throw InputError(fmt::format("{}: --side {}: {}, {}; expected the side of the cuts", file, name_of(asked),
                                          down.text(), up.text()));
         }
+        warn_of_other_sign(out, told, turned);
         return asked;
     }
     if (chosen == nullptr) {
@@ -171,6 +186,7 @@ CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts
     out << fmt::format("cut side: r_1 = {:.3f} ± {:.3f} at {:.4f} mm: {} milling ({})\n", chosen->r_1(),
                        chosen->fit.standard_error(estimation::cutting_r_1), chosen->fit.reference_chip_thickness_mm,
                        name_of(chosen->side), why_not(other));
+    warn_of_other_sign(out, *chosen, turned);
     return chosen->side;
 }
 

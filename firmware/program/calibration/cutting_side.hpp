@@ -30,7 +30,8 @@ struct CutsInWords {
     std::string lack;
 };
 
-/// The side that fits, or `asked` if it fits. One line on `out` says why. Throws InputError where neither does, where
+/// The side that fits, or `asked` if it fits. One line on `out` says why, and another one warns where the
+/// opposite sign of a force fits as well, as it may at a single width. Throws InputError where neither does, where
 /// both do, where the other side or the opposite sign of a force fits far better.
 estimation::CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts, estimation::CutSide asked,
                                    const FitOnSide& fit, std::ostream& out);

@@ -111,6 +111,22 @@ TEST(CuttingSide, a_feed_force_of_the_opposite_sign_is_refused_by_its_column) {
     }
 }
 
+TEST(CuttingSide, a_sign_that_cuts_of_one_width_do_not_show_is_warned_of_unless_the_side_is_stated) {
+    const auto cuts = make_cuts(carbide_law(), {.widths_mm = {0.8}});
+    CHECK(
+        contains(calibrate(cuts).text, "warning: with the opposite sign of normal_force_N the forces fit up milling"));
+    CHECK(!contains(calibrate(cuts, CuttingLawForm::power, CutSide::down).text, "warning"));
+    CHECK(!contains(calibrate(make_cuts(carbide_law(), {})).text, "warning"));
+}
+
+TEST(CuttingSide, a_sign_that_only_an_unheard_of_force_ratio_could_explain_is_refused) {
+    CutsToMake one_width = by_feed_force;
+    one_width.widths_mm = {0.8};
+    const auto cuts =
+        changed(make_cuts(carbide_law(), one_width), [](CutRow& row) { row.feed_force_N = -row.feed_force_N; });
+    refuses(calibrate(cuts, CuttingLawForm::power, CutSide::down), {"'feed_force_N'", "opposite"});
+}
+
 TEST_GROUP(CuttingRefusals){};
 
 TEST(CuttingRefusals, fewer_measured_values_than_parameters_and_one) {
