@@ -155,6 +155,22 @@ bool is_complete(const Sample& s) {
            std::isfinite(s.torque_Nm);
 }
 
+/// There are such spindles, but a speed in 1/min or an angle in degrees is more likely.
+void warn_of_fast_spindle(std::ostream& out, const std::vector<Sample>& samples) {
+    constexpr double fast_rad_s = 3000.0;
+    constexpr double rpm = 30.0 / std::numbers::pi;  // in 1 rad/s
+    double fastest = 0.0;
+    for (const Sample& sample : samples) {
+        fastest = std::max(fastest, sample.speed_rad_s);
+    }
+    if (fastest > fast_rad_s) {
+        out << fmt::format(
+            "warning: the spindle turns at up to {:.5g} rad/s, {:.6g} 1/min; is its speed in 1/min, or its angle in "
+            "degrees?\n",
+            fastest, fastest * rpm);
+    }
+}
+
 }  // namespace
 
 KnownSpindleTorques read_known_spindle_torques(const std::vector<std::filesystem::path>& data, double low_pass_hz,
@@ -180,6 +196,7 @@ KnownSpindleTorques read_known_spindle_torques(const std::vector<std::filesystem
     if (!spikes.empty()) {
         out << fmt::format("{} spikes of the current were replaced: {}\n", spikes.size(), list_of_places(spikes));
     }
+    warn_of_fast_spindle(out, known.samples);
     if (known.samples.size() < 4) {
         throw InputError(
             fmt::format("{}: 'K_t1_Nm_per_A' cannot be determined: {} rows with a known torque; expected at "

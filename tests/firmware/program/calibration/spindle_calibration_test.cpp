@@ -195,6 +195,13 @@ TEST(SpindleCalibration, refuses_other_units_by_name) {
     CHECK(contains(calibrate(recording({.angle_scale = 180.0 / std::numbers::pi})).error, "is it in degrees?"));
 }
 
+TEST(SpindleCalibration, warns_of_a_speed_that_only_few_spindles_have) {
+    const std::vector<double> torques{0, 1, 2, 4, 6, 8};
+    CHECK(contains(calibrate(table({60, 90, 120}, torques, {.speed_scale = 40.0})).text,
+                   "warning: the spindle turns at up to 4800 rad/s, 45836.6 1/min; is its speed in 1/min"));
+    CHECK(!contains(calibrate(table({60, 90, 120}, torques)).text, "warning"));
+}
+
 TEST(SpindleCalibration, leaves_out_a_term_that_is_smaller_than_its_error) {
     std::mt19937 generator(11);
     std::normal_distribution<double> normal(0.0, 0.05);
