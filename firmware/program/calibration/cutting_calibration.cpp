@@ -176,10 +176,12 @@ void print_fit(std::ostream& out, const CuttingResult& result, CuttingLawForm fo
     }
     for (const int j :
          {estimation::cutting_p_s, estimation::cutting_p_1, estimation::cutting_K_te, estimation::cutting_K_re}) {
+        const std::string_view name = cutting_coefficient_keys[static_cast<std::size_t>(j)].name;
         if (form == CuttingLawForm::combined && fit.decided_by_cuts(j) < 0.5) {
-            out << fmt::format("  {} is more the published value than the cuts' ({:.0f} %)\n",
-                               cutting_coefficient_keys[static_cast<std::size_t>(j)].name,
+            out << fmt::format("  {} is more the published value than the cuts' ({:.0f} %)\n", name,
                                100.0 * (1.0 - fit.decided_by_cuts(j)));
+        } else if (form == CuttingLawForm::combined && fit.standard_error(j) > std::abs(fit.parameters(j))) {
+            out << fmt::format("  {} is smaller than its standard error; the law would do without it\n", name);
         }
     }
     const auto scatter = [&](std::string_view name, const estimation::CuttingScatter& s) {

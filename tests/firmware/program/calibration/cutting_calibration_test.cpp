@@ -125,6 +125,7 @@ TEST(CuttingCalibration, finds_that_the_measured_cuts_are_down_milling) {
     std::ostringstream out;
     LONGS_EQUAL(0, calibrate_cutting(options, out));
     CHECK(contains(out.str(), "down milling (up milling would need an edge that pulls)"));
+    CHECK(contains(out.str(), "K_re_N_per_mm is smaller than its standard error"));
     CHECK(contains(folder.read("out.toml"), "cut_side = \"down\""));
     const auto up = fit_cuts(measured(), CuttingLawForm::combined, CutSide::up);
     CHECK(up.parameters(millforce::estimation::cutting_r_1) < -0.5);
