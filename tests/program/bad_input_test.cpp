@@ -182,3 +182,14 @@ TEST(BadInput, an_output_that_cannot_be_written_is_named) {
                   {"log.csv"});
     check_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--out", "/proc"}), {"/proc/summary.json"});
 }
+
+TEST(BadInput, a_calibration_that_is_refused_prints_no_report) {
+    const std::string rows =
+        "6.35,3,300,1,1.0,2.0,0.0205,6.66\n6.35,3,300,1,2.2,2.0,0.0374,13.46\n6.35,3,300,1,2.2,5.75,0.08,30\n";
+    inputs.write("log.csv",
+                 "tool_diameter_mm,flutes,spindle_rad_s,axial_depth_mm,radial_width_mm,feed_mm_s,spindle_torque_Nm,"
+                 "normal_force_N\n" +
+                     rows + rows);
+    check_refused(run_millforce({"calibrate", "cutting", inputs.name("log.csv"), "-o", inputs.name("out.csv")}),
+                  {"log.csv", "3 cuts with 6 measured values for the 6 parameters of the combined law"});
+}

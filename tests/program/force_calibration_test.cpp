@@ -3,6 +3,9 @@
 #include "force_recordings.hpp"
 #include "inputs.hpp"
 
+#include <filesystem>
+#include <sstream>
+
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce::test;
@@ -12,6 +15,20 @@ namespace {
 /// The tool without its law, its place in the holder not known.
 std::string without(const std::string& text, const std::string& table) {
     return text.substr(0, text.find("[" + table + "]"));
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) {
+        cells.push_back(cell);
+    }
+    return cells;
+}
+
+/// The number with this sign before it: "-" turns it.
+std::string negated(const std::string& cell, const std::string& sign) {
+    return sign.empty() || cell.starts_with('-') ? (sign.empty() ? cell : cell.substr(1)) : sign + cell;
 }
 
 constexpr const char* cut_columns = "recording,start_s,end_s,tool_diameter_mm,flutes,axial_depth_mm,radial_width_mm\n";
@@ -70,6 +87,59 @@ TEST(ForceCalibration, cuts_of_one_feed_do_not_tell_edge_from_chip) {
     const Ended ended = calibrate("force-drop", face_mill_cuts({0.15}));
     STRCMP_EQUAL("", not_refused(ended, {"cuts.csv", "e_t_mm", "factor of 1.5"}).c_str());
     CHECK(!std::filesystem::exists(inputs.path("law.toml")));
+}
+
+TEST(ForceCalibration, a_law_is_not_used_below_the_narrowest_of_its_cuts) {
+    inputs.write("tool.toml", without(face_mill_tool_text, "force_drop"));
+    LONGS_EQUAL(0, calibrate("force-drop", face_mill_cuts({0.1, 0.2})).exit_code);
+    CHECK(contains(inputs.read("law.toml"), "smallest_immersion = 0.3"));
+}
+
+TEST(ForceCalibration, two_cuts_are_too_few) {
+    inputs.write("tool.toml", without(face_mill_tool_text, "force_drop"));
+    inputs.write("a.csv", face_mill_recording(0.3, 0.0, 0.1));
+    inputs.write("b.csv", face_mill_recording(0.5, 0.0, 0.2));
+    inputs.write("cuts.csv", std::string(cut_columns) + "a.csv,0,10,100,3,1.5,15\nb.csv,0,10,100,3,1.5,25\n");
+    STRCMP_EQUAL("", not_refused(calibrate("force-drop", {inputs.name("a.csv"), inputs.name("b.csv")}),
+                                 {"cuts.csv", "2 cuts", "at least 4"})
+                         .c_str());
+}
+
+TEST(ForceCalibration, a_sensor_with_swapped_or_reversed_axes_is_refused) {
+    inputs.write("tool.toml", without(face_mill_tool_text, "force_drop"));
+    const auto files = face_mill_cuts({0.1, 0.2});
+    const std::string right = "fx_N,fy_N";
+    const auto with_columns = [&](const std::string& columns, const std::string& sign_x, const std::string& sign_y) {
+        for (const std::string& file : files) {
+            const auto name = std::filesystem::path(file).filename().string();
+            std::istringstream rows(inputs.read(name.c_str()));
+            std::ostringstream turned;
+            std::string line;
+            std::getline(rows, line);
+            turned << with(line, right, columns) << '\n';
+            while (std::getline(rows, line)) {
+                const auto cells = cells_of(line);
+                turned << cells[0] << ',' << cells[1] << ',' << negated(cells[2], sign_x) << ','
+                       << negated(cells[3], sign_y) << ',' << cells[4] << ',' << cells[5] << '\n';
+            }
+            inputs.write(("turned_" + name).c_str(), turned.str());
+        }
+        std::vector<std::string> all;
+        std::string table = inputs.read("cuts.csv");
+        for (const std::string& file : files) {
+            const auto name = std::filesystem::path(file).filename().string();
+            all.push_back(inputs.name(("turned_" + name).c_str()));
+            if (table.find("turned_" + name) == std::string::npos) {
+                table = with(table, "\n" + name, "\nturned_" + name);
+            }
+        }
+        inputs.write("cuts.csv", table);
+        return calibrate("force-drop", all);
+    };
+    STRCMP_EQUAL("", not_refused(with_columns("fy_N,fx_N", "", ""), {"cuts.csv", "swapped"}).c_str());
+    STRCMP_EQUAL("", not_refused(with_columns("fx_N,fy_N", "-", ""), {"cuts.csv", "reversed"}).c_str());
+    STRCMP_EQUAL("", not_refused(with_columns("fx_N,fy_N", "", "-"), {"cuts.csv", "reversed"}).c_str());
+    STRCMP_EQUAL("", not_refused(with_columns("fx_N,fy_N", "-", "-"), {"cuts.csv"}).c_str());
 }
 
 TEST(ForceCalibration, a_stretch_in_air_shows_no_drop) {

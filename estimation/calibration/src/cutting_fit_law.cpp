@@ -2,6 +2,8 @@
 // What a CuttingFit reports: the law, its standard deviations, and the parameters that the cuts leave open.
 #include "cutting_fit_solver.hpp"
 
+#include "estimation/surface/roughness_impl.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,6 +76,10 @@ void CuttingFitSolver::fill_law() {
         const double mean_square = channel.cuts > 0 ? channel.relative_squares / channel.cuts : 0.0;
         return CuttingScatter{channel.scale, std::sqrt(mean_square), channel.floor_N, channel.cuts, channel.odd};
     };
+    for (int j = 0; j < cutting_parameter_count; ++j) {
+        result_.decided_by_cuts(j) = decided_by_cuts(j);
+    }
+    result_.degrees_of_freedom = static_cast<double>(forces_.size()) - free_parameters();
     result_.tangential = scatter_of(channels_[0]);
     result_.feed = scatter_of(channels_[1]);
     result_.normal = scatter_of(channels_[2]);
@@ -96,13 +102,26 @@ double CuttingFitSolver::extra_radial_variance(double tangential_rms) const {
     return sensitivity > 0.0 ? extra / sensitivity : 0.0;
 }
 
+/// The variance of a parameter if all others were known: no fit can know it better. Relative for r_1.
+double CuttingFitSolver::least_variance(int parameter) const {
+    double information = 0.0;
+    for (const MeasuredForce& m : forces_) {
+        const ModelForce here = model(m);
+        const double factor = parameter == cutting_r_1 ? result_.parameters(cutting_r_1) : 1.0;
+        const double sd = relative_sd(m, here.force_N) * channels_[m.channel].scale;
+        information += square(here.derivatives(parameter) * factor / sd);
+    }
+    return information > 0.0 ? 1.0 / information : 0.0;
+}
+
 /// A CuttingLaw holds a variance that is least at one chip thickness and grows with the square of the logarithmic
 /// distance from there. It is made to cover the variance of the fit from a third of the thinnest calibrated chip to
-/// three times the thickest.
+/// three times the thickest. The fit may be most certain of chips thicker than any that was cut: the least is sought
+/// among those that were.
 void CuttingFitSolver::fill_standard_deviations() {
     constexpr double reach = 3.0;
     constexpr int points = 41;
-    // Closer to the minimum both the difference of the variances and the square of the distance are next to nothing.
+    // Closer to the reference the square of the distance is next to nothing: there the largest variance counts.
     constexpr double least_distance = 0.25;
 
     const double torque_or_normal_rms = result_.tangential.cuts > 0 ? result_.tangential.rms : result_.normal.rms;
@@ -111,15 +130,24 @@ void CuttingFitSolver::fill_standard_deviations() {
     const double extra = extra_radial_variance(tangential_rms);
     const auto variance = [&](double u) { return coefficient_variance(result_, u, tangential_rms, extra); };
 
-    const double low = std::log(thinnest_mm_ / reach) - ln_t_ref_;
-    const double width = std::log(thickest_mm_ * reach * reach / thinnest_mm_);
-    const auto at = [&](int k) { return low + width * k / (points - 1); };
-    double best = 0.0;
+    const double thinnest = std::log(thinnest_mm_) - ln_t_ref_;
+    const double thickest = std::log(thickest_mm_) - ln_t_ref_;
+    double best = thinnest;
     for (int k = 0; k < points; ++k) {
-        best = variance(at(k)).ln_K_s < variance(best).ln_K_s ? at(k) : best;
+        const double u = thinnest + (thickest - thinnest) * k / (points - 1);
+        best = variance(u).ln_K_s < variance(best).ln_K_s ? u : best;
     }
-    const CoefficientVariance least = variance(best);
-    CoefficientVariance growth;
+    const double low = thinnest - std::log(reach);
+    const double width = thickest + std::log(reach) - low;
+    const auto at = [&](int k) { return low + width * k / (points - 1); };
+    CoefficientVariance least = variance(best);
+    for (int k = 0; k < points; ++k) {
+        if (std::abs(at(k) - best) < least_distance) {
+            least.ln_K_s = std::max(least.ln_K_s, variance(at(k)).ln_K_s);
+            least.ln_r_1 = std::max(least.ln_r_1, variance(at(k)).ln_r_1);
+        }
+    }
+    CoefficientVariance growth{least_variance(cutting_p_s), least_variance(cutting_p_1)};
     for (int k = 0; k < points; ++k) {
         const double distance = at(k) - best;
         if (std::abs(distance) >= least_distance) {
@@ -128,12 +156,14 @@ void CuttingFitSolver::fill_standard_deviations() {
             growth.ln_r_1 = std::max(growth.ln_r_1, (here.ln_r_1 - least.ln_r_1) / (distance * distance));
         }
     }
+    // With few degrees of freedom the scatter itself is hardly known.
+    const double widening = student_t_975(std::max(1.0, std::floor(result_.degrees_of_freedom))) / normal_975<double>;
     CuttingLaw<double>& law = result_.law;
-    law.reference_chip_thickness_mm = std::exp(ln_t_ref_ + best);
-    law.K_s_relative_sd = std::sqrt(least.ln_K_s);
-    law.K_s_exponent_sd = std::sqrt(growth.ln_K_s);
-    law.r_1_relative_sd = std::sqrt(least.ln_r_1);
-    law.r_1_exponent_sd = std::sqrt(growth.ln_r_1);
+    law.reference_chip_thickness_mm = std::clamp(std::exp(ln_t_ref_ + best), thinnest_mm_, thickest_mm_);
+    law.K_s_relative_sd = widening * std::sqrt(std::max(least.ln_K_s, least_variance(cutting_ln_K_s)));
+    law.K_s_exponent_sd = widening * std::sqrt(growth.ln_K_s);
+    law.r_1_relative_sd = widening * std::sqrt(std::max(least.ln_r_1, least_variance(cutting_r_1)));
+    law.r_1_exponent_sd = widening * std::sqrt(growth.ln_r_1);
 }
 
 }  // namespace millforce::estimation

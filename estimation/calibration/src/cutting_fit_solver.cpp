@@ -115,7 +115,6 @@ double CuttingFitSolver::relative_sd(const MeasuredForce& measured, double model
 /// Returns whether the forces grow with the chip at all.
 bool CuttingFitSolver::start() {
     const bool linear_edge = options_.form == CuttingLawForm::linear_edge;
-    const bool combined = options_.form == CuttingLawForm::combined;
     prior_mean_(cutting_p_s) = linear_edge ? 0.0 : options_.p_s_mean;
     prior_mean_(cutting_p_1) = linear_edge ? 0.0 : options_.p_1_mean;
     result_.parameters = prior_mean_;
@@ -134,17 +133,27 @@ bool CuttingFitSolver::start() {
     }
     result_.parameters(cutting_ln_K_s) = std::log(K_s);
     result_.parameters(cutting_r_1) = solution.determined(1) ? solution.parameters(1) / K_s : 0.0;
-    if (linear_edge) {
+    set_prior_weights(K_s);
+    return true;
+}
+
+/// Must come after the initial values: a parameter that is held starts at its mean.
+void CuttingFitSolver::set_prior_weights(double K_s) {
+    if (options_.form == CuttingLawForm::linear_edge) {
         prior_weight_(cutting_p_s) = prior_weight_(cutting_p_1) = holding_weight;
-        return true;
-    }
-    const double edge_weight = combined ? 1.0 / (options_.edge_thickness_sd_mm * K_s) : holding_weight;
-    prior_weight_(cutting_K_te) = prior_weight_(cutting_K_re) = edge_weight;
-    if (combined) {
+    } else if (options_.form == CuttingLawForm::power) {
+        prior_weight_(cutting_K_te) = prior_weight_(cutting_K_re) = holding_weight;
+    } else {
+        prior_weight_(cutting_K_te) = prior_weight_(cutting_K_re) = 1.0 / (options_.edge_thickness_sd_mm * K_s);
         prior_weight_(cutting_p_s) = 1.0 / options_.p_s_sd;
         prior_weight_(cutting_p_1) = 1.0 / options_.p_1_sd;
     }
-    return true;
+    for (const int j : {cutting_p_s, cutting_p_1, cutting_K_te, cutting_K_re}) {
+        if (((options_.held_at_zero >> static_cast<unsigned>(j)) & 1U) != 0U) {
+            prior_mean_(j) = result_.parameters(j) = 0.0;
+            prior_weight_(j) = holding_weight;
+        }
+    }
 }
 
 /// `steps_from_here`: the fit is one of a step from the present parameters, not of the parameters themselves.
@@ -156,12 +165,17 @@ void CuttingFitSolver::add_priors(CuttingSquares& fit, bool steps_from_here) con
     }
 }
 
+/// Share of a parameter that the cuts, and not its prior, decide.
+double CuttingFitSolver::decided_by_cuts(int parameter) const {
+    const double weight = prior_weight_(parameter);
+    return std::max(0.0, 1.0 - result_.covariance(parameter, parameter) * weight * weight);
+}
+
 /// How many parameters the cuts, and not the priors, decide.
 double CuttingFitSolver::free_parameters() const {
     double sum = 0.0;
     for (int j = 0; j < cutting_parameter_count; ++j) {
-        const double decided_by_prior = result_.covariance(j, j) * prior_weight_(j) * prior_weight_(j);
-        sum += std::max(0.0, 1.0 - decided_by_prior);
+        sum += decided_by_cuts(j);
     }
     return sum;
 }

@@ -57,6 +57,7 @@ class CuttingFitSolver {
 
     void take(const CuttingMeasurement& cut);
     bool start();
+    void set_prior_weights(double K_s);
     double step();
     void measure_scatter();
     void conclude();
@@ -67,6 +68,8 @@ class CuttingFitSolver {
     [[nodiscard]] ModelForce model(const MeasuredForce& measured) const;
     [[nodiscard]] double relative_sd(const MeasuredForce& measured, double model_N) const;
     [[nodiscard]] double extra_radial_variance(double tangential_rms) const;
+    [[nodiscard]] double least_variance(int parameter) const;
+    [[nodiscard]] double decided_by_cuts(int parameter) const;
     [[nodiscard]] double free_parameters() const;
     void add_priors(LeastSquares<double, cutting_parameter_count>& fit, bool steps_from_here) const;
 

@@ -3,7 +3,24 @@
 
 #include "least_squares_in_double.hpp"
 
+#include <cmath>
+
 namespace millforce::estimation {
+
+namespace {
+
+template <int N>
+LeastSquaresSolution<double, N> solve_without(LeastSquares<double, N> fit, unsigned held_at_zero) {
+    constexpr double outweighing = 1e9;  // all rows together
+    for (int j = 0; j < N; ++j) {
+        if (((held_at_zero >> static_cast<unsigned>(j)) & 1U) != 0U) {
+            fit.add_prior(j, 0.0, outweighing);
+        }
+    }
+    return fit.solve();
+}
+
+}  // namespace
 
 double SymmetricFriction::force_N(double velocity_m_s, double acceleration_m_s2) const {
     const double direction = velocity_m_s > 0.0 ? 1.0 : (velocity_m_s < 0.0 ? -1.0 : 0.0);
@@ -21,27 +38,32 @@ double DirectionalFriction::force_N(double velocity_m_s, double acceleration_m_s
     return inertia_N;
 }
 
+Eigen::Matrix<double, 5, 1> directional_regressors(double velocity_m_s, double acceleration_m_s2) {
+    const double forward = velocity_m_s > 0.0 ? 1.0 : 0.0;
+    const double backward = velocity_m_s < 0.0 ? 1.0 : 0.0;
+    Eigen::Matrix<double, 5, 1> row;
+    row << acceleration_m_s2, forward * velocity_m_s, backward * velocity_m_s, forward, -backward;
+    return row;
+}
+
 bool MechanicalFrictionFit::add(double velocity_m_s, double acceleration_m_s2, double motor_force_N) {
     const bool is_forward = velocity_m_s > minimum_speed_m_s_;
     const bool is_backward = velocity_m_s < -minimum_speed_m_s_;
     if (!is_forward && !is_backward) {
         return false;
     }
-    const double forward = is_forward ? 1.0 : 0.0;
-    const double backward = is_backward ? 1.0 : 0.0;
     Eigen::Matrix<double, 4, 1> symmetric;
-    symmetric << acceleration_m_s2, velocity_m_s, forward - backward, 1.0;
-    Eigen::Matrix<double, 5, 1> directional;
-    directional << acceleration_m_s2, forward * velocity_m_s, backward * velocity_m_s, forward, -backward;
-    return symmetric_.add(symmetric, motor_force_N) && directional_.add(directional, motor_force_N);
+    symmetric << acceleration_m_s2, velocity_m_s, is_forward ? 1.0 : -1.0, 1.0;
+    return symmetric_.add(symmetric, motor_force_N) &&
+           directional_.add(directional_regressors(velocity_m_s, acceleration_m_s2), motor_force_N);
 }
 
-LeastSquaresSolution<double, 4> MechanicalFrictionFit::symmetric() const {
-    return symmetric_.solve();
+LeastSquaresSolution<double, 4> MechanicalFrictionFit::symmetric(unsigned held_at_zero) const {
+    return solve_without(symmetric_, held_at_zero);
 }
 
-LeastSquaresSolution<double, 5> MechanicalFrictionFit::directional() const {
-    return directional_.solve();
+LeastSquaresSolution<double, 5> MechanicalFrictionFit::directional(unsigned held_at_zero) const {
+    return solve_without(directional_, held_at_zero);
 }
 
 SymmetricFriction symmetric_friction(const LeastSquaresSolution<double, 4>& solution) {
@@ -54,30 +76,28 @@ DirectionalFriction directional_friction(const LeastSquaresSolution<double, 5>& 
     return {p(directional_mass), p(positive_viscous), p(negative_viscous), p(positive_coulomb), p(negative_coulomb)};
 }
 
-bool FeedCurrentFit::add(double feed_m_per_min, double current_A, double minimum_feed_m_per_min) {
+Eigen::Matrix<double, 6, 1> feed_current_regressors(double feed_m_per_min) {
     const double w = feed_m_per_min;
     Eigen::Matrix<double, 6, 1> row;
-    if (w > minimum_feed_m_per_min) {
+    if (w > 0.0) {
         row << w * w, w, 0.0, 0.0, 1.0, 1.0;
-    } else if (w < -minimum_feed_m_per_min) {
-        row << 0.0, 0.0, -w * w, w, -1.0, 1.0;
     } else {
-        return false;
+        row << 0.0, 0.0, -w * w, w, -1.0, 1.0;
     }
-    return fit_.add(row, current_A);
+    return row;
 }
 
-LeastSquaresSolution<double, 6> FeedCurrentFit::solve() const {
-    return fit_.solve();
+bool FeedCurrentFit::add(double feed_m_per_min, double current_A, double minimum_feed_m_per_min) {
+    return std::abs(feed_m_per_min) > minimum_feed_m_per_min &&
+           fit_.add(feed_current_regressors(feed_m_per_min), current_A);
+}
+
+LeastSquaresSolution<double, 6> FeedCurrentFit::solve(unsigned held_at_zero) const {
+    return solve_without(fit_, held_at_zero);
 }
 
 double feed_friction_current_A(const Eigen::Matrix<double, 6, 1>& parameters, double feed_m_per_min) {
-    const auto& p = parameters;
-    const double w = feed_m_per_min;
-    if (w > 0.0) {
-        return (p(positive_K_x1) * w + p(positive_K_x2)) * w + p(common_K_x3) + p(gravity_offset);
-    }
-    return (-p(negative_K_x1) * w + p(negative_K_x2)) * w - p(common_K_x3) + p(gravity_offset);
+    return parameters.dot(feed_current_regressors(feed_m_per_min));
 }
 
 }  // namespace millforce::estimation

@@ -27,9 +27,12 @@ SpindleSquares squares_at(std::span<const SpindleSample> samples, SpindleFitTerm
         const double torque_per_base_speed =
             gain < 1.0 ? K_t1_for_step * sample.current_A / sample.speed_rad_s : 0.0;  // ∂T/∂ω_b
         SpindleSquares::Vector row;
-        row << gain * sample.current_A, 1.0, terms.idle_slope ? -sample.speed_rad_s : 0.0,
+        row << gain * sample.current_A, terms.idle_torque ? 1.0 : 0.0, terms.idle_slope ? -sample.speed_rad_s : 0.0,
             terms.inertia ? -sample.acceleration_rad_s2 : 0.0, torque_per_base_speed;
         fit.add(row, sample.torque_Nm);
+    }
+    if (!terms.idle_torque) {
+        hold_at_zero(fit, spindle_K_t2);
     }
     if (!terms.idle_slope) {
         hold_at_zero(fit, spindle_idle_slope);
@@ -52,7 +55,7 @@ double field_weakening_gain(double base_speed_rad_s, double speed_rad_s) {
 SpindleFit fit_spindle(std::span<const SpindleSample> samples, SpindleFitTerms terms, double significance) {
     constexpr int scan_steps = 48;             // over the speeds of the samples
     constexpr double at_slowest_speed = 1e-3;  // of the range of speeds: the search cannot go lower
-    constexpr int always_fitted = 3;           // K_t1, K_t2, ω_b
+    constexpr int always_fitted = 2;           // K_t1, ω_b
 
     SpindleFit result;
     const SpindleSquares constant = squares_at(samples, terms, 0.0, 0.0);
@@ -66,8 +69,8 @@ SpindleFit fit_spindle(std::span<const SpindleSample> samples, SpindleFitTerms t
         place_of_minimum([&](double rad_s) { return squares_at(samples, terms, rad_s, 0.0).residual_sum_of_squares(); },
                          slowest.speed_rad_s, fastest.speed_rad_s, scan_steps);
     const SpindleSquares weakened = squares_at(samples, terms, base_speed, 0.0);
-    const int free_rows =
-        weakened.rows() - always_fitted - static_cast<int>(terms.idle_slope) - static_cast<int>(terms.inertia);
+    const int free_rows = weakened.rows() - always_fitted - static_cast<int>(terms.idle_torque) -
+                          static_cast<int>(terms.idle_slope) - static_cast<int>(terms.inertia);
     const double gain = constant.residual_sum_of_squares() - weakened.residual_sum_of_squares();
     if (free_rows < 1 || !(gain * free_rows > significance * weakened.residual_sum_of_squares())) {
         return result;

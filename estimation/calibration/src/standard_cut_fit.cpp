@@ -125,8 +125,12 @@ DriveGainFit fit_feed_gain(std::span<const StandardCutStretch> stretches, const 
     if (result.lack != StandardCutLack::nothing) {
         return result;
     }
+    if (!rules.fits_K_x5) {
+        constexpr double no_K_x5 = 1e9;  // weight: far more than the rows have
+        fit.add_prior(at.offset, 0.0, no_K_x5);
+    }
     const auto solution = fit.solve();
-    result.lack = lack_of_fit(solution, at, 3);
+    result.lack = lack_of_fit(solution, at, rules.fits_K_x5 ? 3 : 2);
     if (result.lack == StandardCutLack::nothing) {
         fill_gain(solution, at, 1.0, result);
     }

@@ -31,6 +31,18 @@ void check_even_spacing(const CsvReader& csv, const std::vector<double>& time_s,
     }
 }
 
+void refuse_implausible_speed(const CsvReader& csv, const std::vector<double>& velocity_m_s) {
+    constexpr double fastest_m_s = 5.0;
+    const double largest = std::abs(*std::max_element(velocity_m_s.begin(), velocity_m_s.end(),
+                                                      [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    if (largest > fastest_m_s) {
+        throw InputError(
+            fmt::format("{}: column 'position_m': the axis moves at up to {:.4g} m/s; expected at most {:g} "
+                        "m/s; is it in mm, or time_s in ms?",
+                        csv.file_name(), largest, fastest_m_s));
+    }
+}
+
 /// Collects stretches of steady velocity, without their beginning (the drive settles) and their end (it begins to
 /// brake).
 class SteadyFeedFinder {
@@ -63,7 +75,8 @@ class SteadyFeedFinder {
         constexpr double m_per_min = 0.06;  // in 1 mm/s
         const double duration = last_settled_s_ - first_settled_s_;
         if (settled_ > 2 && duration >= shortest_s && std::abs(settled_velocity_) > minimum_speed_mm_s_) {
-            found_.push_back({settled_velocity_ * m_per_min, settled_current_, duration});
+            found_.push_back({settled_velocity_ * m_per_min, settled_current_, duration,
+                              0.5 * (first_settled_s_ + last_settled_s_)});
         }
         pending_.clear();
         samples_ = settled_ = 0;
@@ -136,6 +149,7 @@ AxisMotion read_axis_motion(const std::filesystem::path& file, double low_pass_h
     motion.dt_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
     const double rate_hz = 1.0 / motion.dt_s;
     motion.velocity_m_s = derivative(zero_phase_low_pass(position_m, low_pass_hz, rate_hz), motion.dt_s);
+    refuse_implausible_speed(csv, motion.velocity_m_s);
     motion.acceleration_m_s2 = derivative(motion.velocity_m_s, motion.dt_s);
     motion.motor_force_N = zero_phase_low_pass(force_N, low_pass_hz, rate_hz);
     return motion;
@@ -158,7 +172,12 @@ std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, cha
             csv.fail(time, fmt::format("{} s after {} s; expected time to grow", time_s, last_s));
         }
         last_s = time_s;
+        constexpr double fastest_mm_s = 3000.0;
         const double v = csv.number(velocity);
+        if (std::abs(v) > fastest_mm_s) {
+            csv.fail(*velocity,
+                     fmt::format("{:.6g} mm/s; expected at most {:g} mm/s; is it in mm/min?", v, fastest_mm_s));
+        }
         const double i = csv.number(current);
         if (std::isnan(v) || std::isnan(i)) {
             finder.close();

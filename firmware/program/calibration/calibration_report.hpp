@@ -4,7 +4,10 @@
 #include "calibration/calibration_keys.hpp"
 #include "files/toml_writer.hpp"
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -25,9 +28,34 @@ struct FittedValue {
 /// Prints one aligned line "name  value ± standard error  unit"; a value without a standard error was not fitted.
 void print_fitted(std::ostream& out, const FittedValue& fitted);
 
-/// Writes KEY and KEY_se. Throws InputError where the value lies outside of what the parameter files allow: such a fit
-/// is of data that are no machine's, and a file that cannot be read back is of no use.
+/// Prints that the value is smaller than its standard error, so that the data were fitted without it and it is not
+/// written.
+void print_left_out(std::ostream& out, const FittedValue& left_out);
+
+/// Writes KEY and KEY_se; a standard error of 0 is none. Throws InputError where the value lies outside of what the
+/// parameter files allow: such a fit is of data that are no machine's, and a file that cannot be read back is of no
+/// use.
 void write_fitted(TomlWriter& toml, const FittedValue& fitted);
+
+/// Writes a standard deviation, or another value that only bad data make 0 or less. Throws InputError as write_fitted.
+void write_positive(TomlWriter& toml, const CalibrationKey& key, double value);
+
+/// Of the parameters `candidates` of a fit: the one whose standard error exceeds its value by the largest factor, if
+/// there is any. A parameter that the data do not determine at all comes first.
+template <typename Fit>
+std::optional<int> most_vague(const Fit& fit, const std::vector<int>& candidates, double error_scale = 1.0) {
+    std::optional<int> vague;
+    double largest = 1.0;
+    for (const int j : candidates) {
+        const double ratio = error_scale * fit.standard_error(j) / std::abs(fit.parameters(j));
+        const double excess = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
+        if (excess > largest) {
+            largest = excess;
+            vague = j;
+        }
+    }
+    return vague;
+}
 
 /// "a.csv, b.csv" for a TOML comment.
 std::string list_of_files(const std::vector<std::filesystem::path>& files);

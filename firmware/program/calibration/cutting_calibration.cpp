@@ -2,7 +2,11 @@
 #include "calibration/cutting_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/cutting_refusals.hpp"
+#include "calibration/cutting_side.hpp"
 #include "calibration/drive_forces.hpp"
+#include "calibration/duplicate_rows.hpp"
+#include "calibration/plausible_units.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
@@ -22,20 +26,9 @@ using estimation::CutSide;
 using estimation::CuttingFit;
 using estimation::CuttingLawForm;
 
-std::string_view form_name(CuttingLawForm form) {
-    switch (form) {
-        case CuttingLawForm::linear_edge:
-            return "linear edge";
-        case CuttingLawForm::power:
-            return "power";
-        case CuttingLawForm::combined:
-            break;
-    }
-    return "combined";
-}
-
-std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files) {
+std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files, std::ostream& out) {
     std::vector<CutRow> cuts;
+    DuplicateRows duplicates;
     for (const auto& file : files) {
         ConditionsReader reader(file);
         if (!reader.has_torque()) {
@@ -50,11 +43,17 @@ std::vector<CutRow> read_cuts(const std::vector<std::filesystem::path>& files) {
         while (reader.next(row)) {
             const bool measured = std::isfinite(row.spindle_torque_Nm) || std::isfinite(row.normal_force_N) ||
                                   std::isfinite(row.feed_force_N);
-            if (measured && std::isfinite(row.axial_depth_mm) && std::isfinite(row.radial_width_mm)) {
+            if (measured && std::isfinite(row.axial_depth_mm) && std::isfinite(row.radial_width_mm) &&
+                !duplicates.is_copy(reader.csv())) {
+                refuse_implausible_cut(
+                    row_place(reader.csv()),
+                    {row.tool_diameter_mm, row.feed_mm_s, row.feed_per_tooth_mm(), row.spindle_rad_s}, "feed_mm_s",
+                    "spindle_rad_s");
                 cuts.push_back(row);
             }
         }
     }
+    duplicates.report(out);
     if (cuts.empty()) {
         throw InputError(
             fmt::format("{}: 'k_s_N_per_mm2' cannot be determined: no row with depth, width and a measured "
@@ -89,64 +88,54 @@ CutsAndDoubt read_recordings(const CuttingCalibrationOptions& options) {
     return result;
 }
 
-/// A parameter that the cuts cannot determine, and the cut that is missing.
-std::string what_the_cuts_lack(const CuttingFit& fit, CuttingLawForm form) {
-    const auto lacks = [&](int j) { return !fit.determined(j); };
-    if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm &&
-        lacks(estimation::cutting_K_te)) {
-        return fmt::format(
-            "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
-            "tooth; expected cuts at a second feed, larger or smaller by half",
-            fit.maximum_feed_per_tooth_mm);
-    }
-    if (lacks(estimation::cutting_ln_K_s)) {
-        return "'k_s_N_per_mm2' cannot be determined: the torques and forces do not grow with the chip; expected cuts "
-               "with measured spindle_torque_Nm";
-    }
-    if (lacks(estimation::cutting_r_1)) {
-        return "'k_1' cannot be determined: the forces hold nothing of the radial force (slots have none along the "
-               "normal); "
-               "expected side cuts with normal_force_N, or feed_force_N";
-    }
-    if (lacks(estimation::cutting_p_s)) {
-        return "'p_s' cannot be determined: all chips are equally thick; expected cuts at a second feed";
-    }
-    return {};
+CuttingFit fit_on_side(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, CutSide side,
+                       const estimation::DriveGainDoubt& doubt, unsigned held_at_zero) {
+    return options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt, held_at_zero)
+                                   : fit_cuts(cuts, options.form(), side, held_at_zero);
 }
 
-CuttingFit fit_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, CutSide side,
-                         const estimation::DriveGainDoubt& doubt) {
-    auto fit = options.from_currents() ? fit_cuts_from_currents(cuts, options.form(), side, doubt)
-                                       : fit_cuts(cuts, options.form(), side);
-    const std::string lack = what_the_cuts_lack(fit, options.form());
-    if (!lack.empty()) {
-        throw InputError(fmt::format("{}: {}", options.data.front().string(), lack));
-    }
-    if (fit.undetermined != 0U || !fit.converged) {
-        throw InputError(
-            fmt::format("{}: the fit of {} cuts does not settle; expected more cuts, at more feeds and widths",
-                        options.data.front().string(), cuts.size()));
-    }
-    return fit;
+CutSide side_or_refuse(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts, std::ostream& out) {
+    const auto fit = [&](const std::vector<CutRow>& rows, CutSide side) {
+        return fit_on_side(options, rows, side, {}, 0);
+    };
+    const std::string lack = what_the_cuts_lack(fit(cuts, CutSide::down), options.form());
+    return side_that_fits(
+        {options.data.front().string(),
+         lack.empty() ? fmt::format("the fit of {} cuts does not settle; expected more cuts, at more feeds and widths",
+                                    cuts.size())
+                      : lack},
+        cuts, options.side, fit, out);
 }
 
-/// Down milling, unless the forces then need an edge that pulls the workpiece.
-CutSide told_or_inferred_side(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
-                              std::ostream& out) {
-    if (options.side != CutSide::unknown) {
-        return options.side;
+/// A law and the parameters that it was fitted without.
+struct CuttingResult {
+    CuttingFit fit{};
+    unsigned held_at_zero = 0;
+    std::vector<FittedValue> left_out;
+};
+
+/// The fit without those parameters whose standard error is larger than their value. The combined law keeps them: there
+/// the published values hold what the cuts leave open.
+CuttingResult fit_what_is_determined(const CuttingCalibrationOptions& options, const std::vector<CutRow>& cuts,
+                                     CutSide side, const estimation::DriveGainDoubt& doubt) {
+    const auto fit_without = [&](unsigned held) { return fit_on_side(options, cuts, side, doubt, held); };
+    std::vector<int> candidates;
+    if (options.form() == CuttingLawForm::power) {
+        candidates = {estimation::cutting_p_s, estimation::cutting_p_1};
+    } else if (options.form() == CuttingLawForm::linear_edge) {
+        candidates = {estimation::cutting_K_te, estimation::cutting_K_re};
     }
-    const auto down = fit_or_refuse(options, cuts, CutSide::down, {});
-    const double r_1 = down.parameters(estimation::cutting_r_1);
-    const double error = down.standard_error(estimation::cutting_r_1);
-    const CutSide side = r_1 >= 0.0 ? CutSide::down : CutSide::up;
-    const bool told = std::abs(r_1) > 2.0 * error;
-    out << fmt::format("cut side: as down milling r_1 = {:.3f} ± {:.3f} at {:.4f} mm: {}\n", r_1, error,
-                       down.reference_chip_thickness_mm,
-                       !told ? "the forces do not tell; taken as down milling"
-                             : (side == CutSide::down ? "down milling (up milling would need an edge that pulls)"
-                                                      : "up milling (down milling would need an edge that pulls)"));
-    return told ? side : CutSide::down;
+    CuttingResult result;
+    result.fit = fit_without(0);
+    while (const auto vague = most_vague(result.fit, candidates)) {
+        std::erase(candidates, *vague);
+        result.left_out.push_back({cutting_coefficient_keys[static_cast<std::size_t>(*vague)],
+                                   result.fit.parameters(*vague), result.fit.standard_error(*vague)});
+        result.held_at_zero |= 1U << static_cast<unsigned>(*vague);
+        result.fit = fit_without(result.held_at_zero);
+    }
+    refuse_vague_law(options.data.front().string(), result.fit, options.form());
+    return result;
 }
 
 /// Values at t = 1 mm, as the law holds them. Parameters that the chosen form does not have are 0, without a standard
@@ -167,12 +156,33 @@ std::array<FittedValue, 6> fitted_values(const CuttingFit& fit, CuttingLawForm f
              fitted(keys[5], no_edge, law.K_re_N_per_mm, estimation::cutting_K_re)}};
 }
 
-void print_fit(std::ostream& out, const CuttingFit& fit, CuttingLawForm form) {
+bool is_left_out(const CuttingResult& result, const CalibrationKey& key) {
+    return std::any_of(result.left_out.begin(), result.left_out.end(),
+                       [&](const FittedValue& left_out) { return left_out.key.name == key.name; });
+}
+
+void print_fit(std::ostream& out, const CuttingResult& result, CuttingLawForm form) {
+    const CuttingFit& fit = result.fit;
     out << fmt::format("{} law, feed per tooth {:.4g} to {:.4g} mm, mean chip thickness {:.4g} to {:.4g} mm\n",
                        form_name(form), fit.minimum_feed_per_tooth_mm, fit.maximum_feed_per_tooth_mm,
                        fit.law.minimum_chip_thickness_mm, fit.law.maximum_chip_thickness_mm);
     for (const FittedValue& fitted : fitted_values(fit, form)) {
-        print_fitted(out, fitted);
+        if (!is_left_out(result, fitted.key)) {
+            print_fitted(out, fitted);
+        }
+    }
+    for (const FittedValue& left_out : result.left_out) {
+        print_left_out(out, left_out);
+    }
+    for (const int j :
+         {estimation::cutting_p_s, estimation::cutting_p_1, estimation::cutting_K_te, estimation::cutting_K_re}) {
+        const std::string_view name = cutting_coefficient_keys[static_cast<std::size_t>(j)].name;
+        if (form == CuttingLawForm::combined && fit.decided_by_cuts(j) < 0.5) {
+            out << fmt::format("  {} is more the published value than the cuts' ({:.0f} %)\n", name,
+                               100.0 * (1.0 - fit.decided_by_cuts(j)));
+        } else if (form == CuttingLawForm::combined && fit.standard_error(j) > std::abs(fit.parameters(j))) {
+            out << fmt::format("  {} is smaller than its standard error; the law would do without it\n", name);
+        }
     }
     const auto scatter = [&](std::string_view name, const estimation::CuttingScatter& s) {
         if (s.cuts > 0) {
@@ -197,7 +207,8 @@ void print_errors(std::ostream& out, std::string_view what, CuttingLawForm form,
 }
 
 /// Prints the table of held-out errors; returns whether the stated deviations hold for the chosen law.
-bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingLawForm chosen, CutSide side) {
+bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingLawForm chosen, CutSide side,
+                    unsigned held_at_zero) {
     constexpr double share_within = 0.9;
     constexpr std::array<CuttingLawForm, 3> forms{CuttingLawForm::combined, CuttingLawForm::linear_edge,
                                                   CuttingLawForm::power};
@@ -215,7 +226,9 @@ bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingL
             }
         }
     };
-    one("each width in turn", [&](CuttingLawForm form) { return leave_one_width_out(cuts, form, side); });
+    const auto held_of = [&](CuttingLawForm form) { return form == chosen ? held_at_zero : 0U; };
+    one("each width in turn",
+        [&](CuttingLawForm form) { return leave_one_width_out(cuts, form, side, held_of(form)); });
     // Feeds that were measured differ in their last digits.
     const auto same_feed = [](double a, double b) { return std::abs(a - b) < 0.01 * b; };
     std::set<double> feeds;
@@ -227,7 +240,8 @@ bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingL
     constexpr std::size_t most_feeds = 20;
     for (const double feed : feeds.size() <= most_feeds ? feeds : std::set<double>{}) {
         one(fmt::format("feed {:.4g} mm/s", feed), [&](CuttingLawForm form) {
-            return held_out_errors(cuts, form, side, [&](const CutRow& row) { return same_feed(row.feed_mm_s, feed); });
+            return held_out_errors(
+                cuts, form, side, [&](const CutRow& row) { return same_feed(row.feed_mm_s, feed); }, held_of(form));
         });
     }
     if (values == 0.0) {
@@ -240,7 +254,8 @@ bool check_held_out(std::ostream& out, const std::vector<CutRow>& cuts, CuttingL
     return holds;
 }
 
-void write_fit(const CuttingCalibrationOptions& options, const CuttingFit& fit, CutSide side) {
+void write_fit(const CuttingCalibrationOptions& options, const CuttingResult& result, CutSide side) {
+    const CuttingFit& fit = result.fit;
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment(fmt::format("Coefficients of the cutting force, {} law: K_s = k_s t^p_s, r_1 = k_1 t^p_1, t in mm.",
@@ -248,7 +263,9 @@ void write_fit(const CuttingCalibrationOptions& options, const CuttingFit& fit, 
     toml.comment("Fitted from " + list_of_files(options.data));
     toml.table("cutting");
     for (const FittedValue& fitted : fitted_values(fit, options.form())) {
-        write_fitted(toml, fitted);
+        if (!is_left_out(result, fitted.key)) {
+            write_fitted(toml, fitted);
+        }
     }
     const auto& law = fit.law;
     const std::array<double, 9> doubts{law.K_s_relative_sd,
@@ -261,7 +278,7 @@ void write_fit(const CuttingCalibrationOptions& options, const CuttingFit& fit, 
                                        fit.minimum_feed_per_tooth_mm,
                                        fit.maximum_feed_per_tooth_mm};
     for (std::size_t j = 0; j < doubts.size(); ++j) {
-        toml.key(cutting_doubt_keys[j].name, doubts[j]);
+        write_positive(toml, cutting_doubt_keys[j], doubts[j]);
     }
     toml.key(cut_side_key.name, side == CutSide::up ? "up" : "down");
     file.commit();
@@ -274,12 +291,17 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
         throw InputError("calibrate cutting: no data file; expected at least one CSV file of conditions");
     }
     const auto [cuts, doubt] =
-        options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data), {}};
-    const CutSide side = told_or_inferred_side(options, cuts, out);
-    const auto fit = fit_or_refuse(options, cuts, side, doubt);
-    print_fit(out, fit, options.form());
-    const bool holds = check_held_out(out, cuts, options.form(), side);
-    write_fit(options, fit, side);
+        options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data, out), {}};
+    refuse_implausible_pressure(options.data.front().string(), cuts, CutSide::down,
+                                options.from_currents()
+                                    ? "are the currents in mA, or is spindle_angle_rad in degrees?"
+                                    : "is spindle_rad_s in 1/min, or spindle_torque_Nm in another unit?");
+    refuse_too_few_values(options.data.front().string(), cuts, options.form());
+    const CutSide side = side_or_refuse(options, cuts, out);
+    const CuttingResult result = fit_what_is_determined(options, cuts, side, doubt);
+    print_fit(out, result, options.form());
+    const bool holds = check_held_out(out, cuts, options.form(), side, result.held_at_zero);
+    write_fit(options, result, side);
     return holds ? exit_done : exit_bound_broken;
 }
 

@@ -127,14 +127,54 @@ DropCalibration::Result law_of(const std::vector<MeasuredCut>& cuts, const Measu
     return calibration.solve();
 }
 
-void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const DropCalibration::Result& result) {
+std::size_t different_cuts(const std::vector<MeasuredCut>& cuts) {
+    std::vector<MeasuredCut> different;
+    for (const MeasuredCut& cut : cuts) {
+        if (std::none_of(different.begin(), different.end(),
+                         [&](const MeasuredCut& other) { return is_same_cut(cut, other); })) {
+            different.push_back(cut);
+        }
+    }
+    return different.size();
+}
+
+/// How far jumps and averages are from the edge law, relative to the forces: the rows of the fit are weighted by 2 % of
+/// the force and their own noise.
+double scatter_about_law(const DropCalibration::Result& result) {
+    constexpr double unit_of_weights = 0.02;
+    return unit_of_weights * result.coefficients.residual_rms;
+}
+
+void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const std::vector<MeasuredCut>& cuts,
+                           const DropCalibration::Result& result) {
+    constexpr std::size_t fewest_cuts = 4;
+    constexpr double largest_scatter = 0.25;
+    constexpr float least_feed_ratio = 1.5F;
     const auto refuse = [&](std::string_view why) {
         throw InputError(fmt::format("{}: {}", options.cuts.string(), why));
     };
-    if (!result.edges_determined) {
+    const auto [thinnest, thickest] =
+        std::minmax_element(cuts.begin(), cuts.end(), [](const MeasuredCut& a, const MeasuredCut& b) {
+            return a.measured.feed_per_tooth_mm < b.measured.feed_per_tooth_mm;
+        });
+    const bool feeds_differ =
+        thickest->measured.feed_per_tooth_mm >= least_feed_ratio * thinnest->measured.feed_per_tooth_mm;
+    if (!feeds_differ) {
         refuse(
             "'e_t_mm' and 'e_r_mm' cannot be determined: all cuts have about the same feed per tooth; expected cuts "
             "whose feeds differ by a factor of 1.5 or more");
+    }
+    if (const std::size_t different = different_cuts(cuts); different < fewest_cuts) {
+        refuse(
+            fmt::format("{} cuts of different width, depth or feed; expected at least {}: two widths at two feeds, "
+                        "which differ by a factor of 1.5 or more",
+                        different, fewest_cuts));
+    }
+    if (const double scatter = scatter_about_law(result); scatter > largest_scatter || !result.edges_determined) {
+        refuse(fmt::format(
+            "the forces scatter by {:.0f} % about any cutting law of {} milling; expected less than {:.0f} % and a "
+            "force that grows with the chip; are fx_N and fy_N swapped or reversed, or is the tool's side wrong?",
+            100.0 * scatter, cuts.front().measured.side == CutSide::up ? "up" : "down", 100.0 * largest_scatter));
     }
     if (!result.law.valid) {
         refuse("'b' cannot be determined: fewer than three cuts show their immersion; expected cuts of several widths");
@@ -148,6 +188,23 @@ struct LeftOut {
     std::size_t without = 0;
     std::size_t cuts = 0;
 };
+
+void refuse_law_without_estimates(const ForceShapeCalibrationOptions& options, const LeftOut& left_out) {
+    if (2 * left_out.without > left_out.cuts) {
+        throw InputError(
+            fmt::format("{}: the law of the other cuts gives no immersion for {} of {}; expected one for most; "
+                        "are fx_N and fy_N swapped or reversed, or is a width wrong?",
+                        options.cuts.string(), left_out.without, left_out.cuts));
+    }
+}
+
+/// No narrower than the narrowest cut: what lies below it was not measured.
+void keep_to_measured_widths(const std::vector<MeasuredCut>& cuts, estimation::ForceDropLaw<double>& law) {
+    const auto narrowest = std::min_element(cuts.begin(), cuts.end(), [](const MeasuredCut& a, const MeasuredCut& b) {
+        return a.radial_immersion < b.radial_immersion;
+    });
+    law.smallest_immersion = std::max(law.smallest_immersion, narrowest->radial_immersion);
+}
 
 LeftOut leave_each_out(const std::vector<MeasuredCut>& cuts) {
     LeftOut result;
@@ -215,9 +272,11 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
                         options.tool.string()));
     }
     const std::vector<MeasuredCut> cuts = read_known_cuts(options, parameters);
-    const auto result = law_of(cuts);
-    refuse_what_cuts_lack(options, result);
+    auto result = law_of(cuts);
+    refuse_what_cuts_lack(options, cuts, result);
     const LeftOut left_out = leave_each_out(cuts);
+    refuse_law_without_estimates(options, left_out);
+    keep_to_measured_widths(cuts, result.law);
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment("Immersion from force drops: r = a r_av + b, ln(K/K_av) = c_0 + c_1 (1 - R_r) + c_2 ln(f_z/0.15 mm).");
@@ -227,6 +286,9 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
     out << fmt::format("force drops of {} times {} revolutions, {} milling\n", cuts.size(), revolutions_of_a_cut,
                        cuts.front().measured.side == CutSide::up ? "up" : "down");
     print_law(out, result);
+    out << fmt::format(
+        "  jumps and averages scatter by {:.1f} % about the edge law; immersions from {:.3g} to {:.3g}\n",
+        100.0 * scatter_about_law(result), result.law.smallest_immersion, result.law.largest_immersion);
     out << fmt::format(
         "  each cut by the law of the others: immersion off by {:.1f} % on average, {:.1f} % at most; no "
         "estimate for {} of {}\n",

@@ -3,7 +3,8 @@
 
 #include "calibration/axis_motion.hpp"
 #include "calibration/calibration_report.hpp"
-#include "calibration/signal.hpp"
+#include "calibration/motion_friction.hpp"
+#include "estimation/surface/roughness_impl.hpp"
 #include "estimation_calibration/friction_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
@@ -14,150 +15,13 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace millforce::host {
 
 namespace {
 
 using estimation::FeedCurrentFit;
-using estimation::MechanicalFrictionFit;
-
-struct MechanicalResult {
-    estimation::LeastSquaresSolution<double, 4> symmetric;
-    estimation::LeastSquaresSolution<double, 5> directional;
-    double symmetric_correlation = 1.0;  ///< samples worth one independent sample
-    double directional_correlation = 1.0;
-};
-
-/// Samples [from, to) of each recording, as shares of its length.
-MechanicalResult fit_motion(const std::vector<AxisMotion>& motions, double from, double to, double minimum_speed_m_s) {
-    MechanicalFrictionFit fit(minimum_speed_m_s);
-    const auto for_each = [&](auto f) {
-        for (const AxisMotion& motion : motions) {
-            const auto n = static_cast<double>(motion.velocity_m_s.size());
-            for (auto k = static_cast<std::size_t>(from * n); k < static_cast<std::size_t>(to * n); ++k) {
-                f(motion.velocity_m_s[k], motion.acceleration_m_s2[k], motion.motor_force_N[k]);
-            }
-        }
-    };
-    for_each([&](double v, double a, double F) { fit.add(v, a, F); });
-    MechanicalResult result{fit.symmetric(), fit.directional(), 1.0, 1.0};
-    const auto symmetric = estimation::symmetric_friction(result.symmetric);
-    const auto directional = estimation::directional_friction(result.directional);
-    std::vector<double> symmetric_residuals;
-    std::vector<double> directional_residuals;
-    for_each([&](double v, double a, double F) {
-        if (std::abs(v) > minimum_speed_m_s) {
-            symmetric_residuals.push_back(F - symmetric.force_N(v, a));
-            directional_residuals.push_back(F - directional.force_N(v, a));
-        }
-    });
-    result.symmetric_correlation = correlated_samples(symmetric_residuals);
-    result.directional_correlation = correlated_samples(directional_residuals);
-    return result;
-}
-
-/// The force that the axis seems to feel in the second half of each recording, by the friction of the first half. N
-/// rms.
-double phantom_force_N(const std::vector<AxisMotion>& motions, double minimum_speed_m_s) {
-    const auto first = fit_motion(motions, 0.0, 0.5, minimum_speed_m_s);
-    if (first.directional.undetermined != 0U) {
-        return no_estimate;
-    }
-    const auto friction = estimation::directional_friction(first.directional);
-    double sum = 0.0;
-    double count = 0.0;
-    for (const AxisMotion& motion : motions) {
-        for (std::size_t k = motion.velocity_m_s.size() / 2; k < motion.velocity_m_s.size(); ++k) {
-            if (std::abs(motion.velocity_m_s[k]) > minimum_speed_m_s) {
-                const double phantom =
-                    motion.motor_force_N[k] - friction.force_N(motion.velocity_m_s[k], motion.acceleration_m_s2[k]);
-                sum += phantom * phantom;
-                count += 1.0;
-            }
-        }
-    }
-    return count > 0.0 ? std::sqrt(sum / count) : no_estimate;
-}
-
-[[noreturn]] void refuse(const std::vector<std::filesystem::path>& files, std::string_view parameter,
-                         std::string_view why) {
-    throw InputError(fmt::format("{}: '{}' cannot be determined: {}", files.front().string(), parameter, why));
-}
-
-void refuse_what_motion_lacks(const FrictionCalibrationOptions& options, const MechanicalResult& result) {
-    const auto& s = result.symmetric;
-    if (s.rows == 0) {
-        refuse(
-            options.data, "coulomb_N",
-            fmt::format("the axis is never faster than {} mm/s; expected travel in both directions at several speeds",
-                        options.minimum_speed_mm_s));
-    }
-    if (!result.directional.determined(estimation::positive_coulomb)) {
-        refuse(options.data, "positive_coulomb_N",
-               "no travel in + direction, or at one speed only; expected two speeds");
-    }
-    if (!result.directional.determined(estimation::negative_coulomb)) {
-        refuse(options.data, "negative_coulomb_N",
-               "no travel in − direction, or at one speed only; expected two speeds");
-    }
-    const auto vague = [&](int j) {
-        return !s.determined(j) ||
-               !(s.standard_error(j) * std::sqrt(result.symmetric_correlation) < std::abs(s.parameters(j)) / 3.0);
-    };
-    if (vague(estimation::symmetric_mass)) {
-        refuse(options.data, "mass_kg", "its force is lost in the noise; expected acceleration and braking");
-    }
-    for (const int j : {estimation::symmetric_viscous, estimation::symmetric_coulomb}) {
-        if (!s.determined(j)) {
-            refuse(options.data, symmetric_friction_keys[static_cast<std::size_t>(j)].name,
-                   "the speeds are too much alike; expected several speeds in both directions");
-        }
-    }
-}
-
-int calibrate_motion(const FrictionCalibrationOptions& options, std::ostream& out) {
-    const double minimum_speed_m_s = options.minimum_speed_mm_s / 1000.0;
-    std::vector<AxisMotion> motions;
-    for (const auto& file : options.data) {
-        motions.push_back(read_axis_motion(file, options.low_pass_hz));
-    }
-    const MechanicalResult result = fit_motion(motions, 0.0, 1.0, minimum_speed_m_s);
-    refuse_what_motion_lacks(options, result);
-    const double phantom_N = phantom_force_N(motions, minimum_speed_m_s);
-
-    AtomicFile file(options.output);
-    TomlWriter toml(file.stream());
-    toml.comment("Friction of a feed axis without load: F = M a + F_v v + F_c sign(v) + offset, and by direction.");
-    toml.comment("Fitted from " + list_of_files(options.data));
-    toml.table(options.axis);
-    out << fmt::format("{}: F = M a + F_v v + F_c sign(v) + offset, {} samples faster than {} mm/s, low-pass {} Hz\n",
-                       options.axis, result.symmetric.rows, options.minimum_speed_mm_s, options.low_pass_hz);
-    const auto report = [&](const auto& keys, const auto& solution, double correlation) {
-        for (std::size_t j = 0; j < keys.size(); ++j) {
-            const int index = static_cast<int>(j);
-            const FittedValue fitted{keys[j], solution.parameters(index),
-                                     solution.standard_error(index) * std::sqrt(correlation)};
-            print_fitted(out, fitted);
-            write_fitted(toml, fitted);
-        }
-        out << fmt::format("  residual {:.2f} N rms\n", solution.residual_rms);
-    };
-    report(symmetric_friction_keys, result.symmetric, result.symmetric_correlation);
-    out << "by direction:\n";
-    report(directional_friction_keys, result.directional, result.directional_correlation);
-    toml.key(friction_force_residual_key.name, result.directional.residual_rms);
-    file.commit();
-
-    const double bound_N = 1.5 * result.directional.residual_rms;
-    const bool holds = !(phantom_N > bound_N);
-    out << (std::isnan(phantom_N)
-                ? std::string("the first half alone cannot determine the friction: no check on the second half\n")
-                : fmt::format(
-                      "fitted on the first half, phantom force in the second: {:.2f} N rms, bound {:.2f} N: {}\n",
-                      phantom_N, bound_N, holds ? "holds" : "BROKEN: the friction changed"));
-    return holds ? exit_done : exit_bound_broken;
-}
 
 /// Feeds of one direction that differ from each other by more than a tenth.
 std::size_t distinct_feeds(const std::vector<SteadyFeed>& feeds, double direction) {
@@ -203,23 +67,184 @@ std::string what_the_axis_lacks(char axis, const std::vector<SteadyFeed>& feeds)
     return {};
 }
 
-void fit_axis(char axis, const std::vector<SteadyFeed>& feeds, TomlWriter& toml, std::ostream& out) {
+/// The friction current of an axis, without the terms that the feeds do not determine.
+struct AxisFit {
+    estimation::LeastSquaresSolution<double, 6> solution{};
+    unsigned held_at_zero = 0;
+    std::vector<FittedValue> left_out;
+
+    [[nodiscard]] bool is_held(int j) const { return ((held_at_zero >> static_cast<unsigned>(j)) & 1U) != 0U; }
+    /// Along the motion: positive, unless a sign is reversed.
+    [[nodiscard]] double friction_A(double feed_m_per_min) const {
+        const double current_A = estimation::feed_friction_current_A(solution.parameters, feed_m_per_min) -
+                                 solution.parameters(estimation::gravity_offset);
+        return std::copysign(1.0, feed_m_per_min) * current_A;
+    }
+};
+
+AxisFit fit_what_is_determined(const std::vector<SteadyFeed>& feeds) {
     FeedCurrentFit fit;
     for (const SteadyFeed& feed : feeds) {
         fit.add(feed.feed_m_per_min, feed.current_A);
     }
-    const auto solution = fit.solve();
+    AxisFit result;
+    result.solution = fit.solve();
+    const auto leave_out = [&](std::vector<int> candidates, auto band) {
+        while (const auto vague = most_vague(result.solution, candidates, band())) {
+            std::erase(candidates, *vague);
+            result.left_out.push_back({feed_current_keys[static_cast<std::size_t>(*vague)],
+                                       result.solution.parameters(*vague), result.solution.standard_error(*vague)});
+            result.held_at_zero |= 1U << static_cast<unsigned>(*vague);
+            result.solution = fit.solve(result.held_at_zero);
+        }
+    };
+    // Over a short range of feeds a parabola and a line of opposite signs fit the noise: beyond it they are far off.
+    leave_out({estimation::positive_K_x1, estimation::negative_K_x1}, [&] {
+        const auto parameters = static_cast<double>(feed_current_keys.size() - result.left_out.size());
+        return estimation::student_t_975(static_cast<double>(feeds.size()) - parameters);
+    });
+    leave_out(
+        {estimation::positive_K_x2, estimation::negative_K_x2, estimation::common_K_x3, estimation::gravity_offset},
+        [] { return 1.0; });
+    return result;
+}
+
+void refuse_what_no_axis_has(const std::string& file, char axis, const std::vector<SteadyFeed>& feeds,
+                             const AxisFit& fit) {
+    constexpr double largest_current_A = 100.0;
+    double friction_A = 0.0;
+    for (const SteadyFeed& feed : feeds) {
+        friction_A += fit.friction_A(feed.feed_m_per_min) / static_cast<double>(feeds.size());
+    }
+    if (friction_A < 0.0) {
+        throw InputError(fmt::format(
+            "{}: {}: the current is opposite to the motion: {:.4g} A of friction on average; expected a "
+            "positive current for travel in +{}; is the sign of {}_current_A or of {}_velocity_mm_s reversed?",
+            file, axis, friction_A, axis, axis, axis));
+    }
+    if (friction_A > largest_current_A) {
+        throw InputError(
+            fmt::format("{}: {}: {:.4g} A of friction on average; expected at most {:g} A; is {}_current_A in mA?",
+                        file, axis, friction_A, largest_current_A, axis));
+    }
+    for (const auto& [linear, quadratic] : {std::pair(estimation::positive_K_x2, estimation::positive_K_x1),
+                                            std::pair(estimation::negative_K_x2, estimation::negative_K_x1)}) {
+        if (fit.is_held(estimation::common_K_x3) && fit.is_held(linear) && fit.is_held(quadratic)) {
+            throw InputError(
+                fmt::format("{}: '{}.K_x3_A' cannot be determined: no friction beyond the noise of the "
+                            "current; expected longer stretches at steady feed",
+                            file, axis));
+        }
+    }
+}
+
+/// How the friction changed from the first to the last stretch, as a share of itself.
+struct FrictionDrift {
+    double share = no_estimate;
+    double standard_error = no_estimate;
+    double degrees_of_freedom = 0.0;
+};
+
+/// Fitted beside the friction itself, because feeds and time mostly rise together: where they do so too closely, the
+/// standard error is large.
+FrictionDrift drift_of(const std::vector<SteadyFeed>& feeds, const AxisFit& fit) {
+    constexpr int drift = 6;  // after the six of FeedCurrentIndex
+    const auto [first, last] = std::minmax_element(
+        feeds.begin(), feeds.end(), [](const SteadyFeed& a, const SteadyFeed& b) { return a.middle_s < b.middle_s; });
+    const double length_s = last->middle_s - first->middle_s;
+    estimation::LeastSquares<double, 7> squares;
+    for (const SteadyFeed& feed : feeds) {
+        const double w = feed.feed_m_per_min;
+        Eigen::Matrix<double, 7, 1> row;
+        row << estimation::feed_current_regressors(w),
+            (feed.middle_s - first->middle_s) / length_s * std::copysign(fit.friction_A(w), w);
+        squares.add(row, feed.current_A);
+    }
+    int free_rows = squares.rows() - 7;
+    for (int j = 0; j < drift; ++j) {
+        if (fit.is_held(j)) {
+            constexpr double holding_weight = 1e9;
+            squares.add_prior(j, 0.0, holding_weight);
+            ++free_rows;
+        }
+    }
+    const auto solution = squares.solve();
+    return free_rows > 0 && solution.determined(drift)
+               ? FrictionDrift{solution.parameters(drift), solution.standard_error(drift),
+                               static_cast<double>(free_rows)}
+               : FrictionDrift{};
+}
+
+/// Prints whether the friction kept; returns false where it did not.
+bool check_drift(std::ostream& out, const FrictionDrift& drift) {
+    constexpr double largest_change = 0.1;
+    if (std::isnan(drift.standard_error)) {
+        out << "  cannot tell whether the friction changed: too few steady feeds\n";
+        return true;
+    }
+    const double half_band = estimation::student_t_975(drift.degrees_of_freedom) * drift.standard_error;
+    const bool changed = std::abs(drift.share) > std::max(largest_change, 2.0 * half_band);
+    const bool can_tell = changed || half_band < largest_change;
+    out << fmt::format("  friction from the first stretch to the last: {:+.1f} ± {:.1f} %, bound {:.0f} %: {}\n",
+                       100.0 * drift.share, 100.0 * half_band, 100.0 * largest_change,
+                       changed    ? "BROKEN: the friction changed"
+                       : can_tell ? "holds"
+                                  : "cannot tell, since feed and time rise together or the feeds are few");
+    return !changed;
+}
+
+/// Writes the axis' table; returns whether its friction kept.
+bool fit_axis(const std::string& file, char axis, const std::vector<SteadyFeed>& feeds, TomlWriter& toml,
+              std::ostream& out) {
+    const AxisFit fit = fit_what_is_determined(feeds);
+    refuse_what_no_axis_has(file, axis, feeds, fit);
     toml.table(std::string_view(&axis, 1));
     out << fmt::format("{}: I_f(w) = K_x1 w² + K_x2 w + K_x3, w in m/min, {} steady feeds in air\n", axis,
                        feeds.size());
     for (std::size_t j = 0; j < feed_current_keys.size(); ++j) {
         const int index = static_cast<int>(j);
-        const FittedValue fitted{feed_current_keys[j], solution.parameters(index), solution.standard_error(index)};
-        print_fitted(out, fitted);
-        write_fitted(toml, fitted);
+        if (!fit.is_held(index)) {
+            const FittedValue fitted{feed_current_keys[j], fit.solution.parameters(index),
+                                     fit.solution.standard_error(index)};
+            print_fitted(out, fitted);
+            write_fitted(toml, fitted);
+        }
     }
-    toml.key(friction_current_residual_key.name, solution.residual_rms);
-    out << fmt::format("  residual {:.4g} A rms\n", solution.residual_rms);
+    for (const FittedValue& left_out : fit.left_out) {
+        print_left_out(out, left_out);
+    }
+    toml.key(friction_current_residual_key.name, fit.solution.residual_rms);
+    out << fmt::format("  residual {:.4g} A rms\n", fit.solution.residual_rms);
+    return check_drift(out, drift_of(feeds, fit));
+}
+
+/// Steady feeds of all files, each file after the one before. A file given twice would make the standard errors too
+/// small: what was there already is left out.
+std::vector<SteadyFeed> steady_feeds_of_all(const FrictionCalibrationOptions& options, char axis, std::ostream& out) {
+    std::vector<SteadyFeed> feeds;
+    double offset_s = 0.0;
+    for (const auto& file : options.data) {
+        auto found = read_steady_feeds(file, axis, options.minimum_speed_mm_s);
+        const auto before = feeds;
+        const auto copies = std::erase_if(found, [&](const SteadyFeed& feed) {
+            return std::any_of(before.begin(), before.end(), [&](const SteadyFeed& b) {
+                return b.feed_m_per_min == feed.feed_m_per_min && b.current_A == feed.current_A &&
+                       b.duration_s == feed.duration_s;
+            });
+        });
+        if (copies > 0) {
+            out << fmt::format("{}: {}: {} steady feeds repeat earlier ones exactly and are not counted again\n",
+                               file.filename().string(), axis, copies);
+        }
+        double last_s = 0.0;
+        for (SteadyFeed& feed : found) {
+            last_s = std::max(last_s, feed.middle_s + 0.5 * feed.duration_s);
+            feed.middle_s += offset_s;
+        }
+        offset_s += last_s;
+        feeds.insert(feeds.end(), found.begin(), found.end());
+    }
+    return feeds;
 }
 
 int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream& out) {
@@ -227,18 +252,15 @@ int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream&
     TomlWriter fitted_toml(fitted_text);
     std::string first_refusal;
     bool any = false;
+    bool holds = true;
     for (const char axis : {'x', 'y', 'z'}) {
-        std::vector<SteadyFeed> feeds;
-        for (const auto& file : options.data) {
-            const auto found = read_steady_feeds(file, axis, options.minimum_speed_mm_s);
-            feeds.insert(feeds.end(), found.begin(), found.end());
-        }
+        const std::vector<SteadyFeed> feeds = steady_feeds_of_all(options, axis, out);
         if (feeds.empty()) {
             continue;
         }
         const std::string lack = what_the_axis_lacks(axis, feeds);
         if (lack.empty()) {
-            fit_axis(axis, feeds, fitted_toml, out);
+            holds = fit_axis(options.data.front().string(), axis, feeds, fitted_toml, out) && holds;
             any = true;
         } else {
             first_refusal = first_refusal.empty() ? lack : first_refusal;
@@ -260,7 +282,7 @@ int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream&
     toml.comment("Fitted from " + list_of_files(options.data));
     file.stream() << fitted_text.str();
     file.commit();
-    return exit_done;
+    return holds ? exit_done : exit_bound_broken;
 }
 
 }  // namespace
@@ -278,7 +300,7 @@ int calibrate_friction(const FrictionCalibrationOptions& options, std::ostream& 
                             file.string(), options.data.front().string()));
         }
     }
-    return motion ? calibrate_motion(options, out) : calibrate_recording(options, out);
+    return motion ? calibrate_motion_friction(options, out) : calibrate_recording(options, out);
 }
 
 }  // namespace millforce::host

@@ -55,14 +55,14 @@ std::vector<estimation::CuttingMeasurement> measurements_of(const std::vector<Cu
 }
 
 void hold_out(Sums& sums, const std::vector<CutRow>& cuts, estimation::CuttingLawForm form, estimation::CutSide side,
-              const std::function<bool(const CutRow&)>& held_out) {
+              const std::function<bool(const CutRow&)>& held_out, unsigned held_at_zero) {
     std::vector<CutRow> kept;
     for (const CutRow& row : cuts) {
         if (!held_out(row)) {
             kept.push_back(row);
         }
     }
-    const auto fit = fit_cuts(kept, form, side);
+    const auto fit = fit_cuts(kept, form, side, held_at_zero);
     if (fit.undetermined != 0U || !fit.converged) {
         sums.fitted = false;
         return;
@@ -87,39 +87,44 @@ std::vector<CutRow> read_conditions(const std::filesystem::path& file) {
 }
 
 estimation::CuttingFit fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                estimation::CutSide side) {
+                                estimation::CutSide side, unsigned held_at_zero) {
     const auto measurements = measurements_of(cuts, side);
     estimation::CuttingFitOptions options;
     options.form = form;
+    options.held_at_zero = held_at_zero;
     return estimation::fit_cutting_law(measurements, options);
 }
 
 estimation::CuttingFit fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                              estimation::CutSide side, const estimation::DriveGainDoubt& doubt) {
+                                              estimation::CutSide side, const estimation::DriveGainDoubt& doubt,
+                                              unsigned held_at_zero) {
     const auto measurements = measurements_of(cuts, side);
     estimation::CuttingFitOptions options;
     options.form = form;
+    options.held_at_zero = held_at_zero;
     // Noise, idle torque and friction are wrong by newtons, whatever the cut: not by a share of its force.
     options.error_floor = 1.0;
     return estimation::fit_cutting_law_from_currents(measurements, doubt, options);
 }
 
 HeldOutErrors held_out_errors(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                              estimation::CutSide side, const std::function<bool(const CutRow&)>& held_out) {
+                              estimation::CutSide side, const std::function<bool(const CutRow&)>& held_out,
+                              unsigned held_at_zero) {
     Sums sums;
-    hold_out(sums, cuts, form, side, held_out);
+    hold_out(sums, cuts, form, side, held_out, held_at_zero);
     return sums.errors();
 }
 
 HeldOutErrors leave_one_width_out(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
-                                  estimation::CutSide side) {
+                                  estimation::CutSide side, unsigned held_at_zero) {
     std::set<double> widths;
     for (const CutRow& row : cuts) {
         widths.insert(row.radial_width_mm);
     }
     Sums sums;
     for (const double width : widths) {
-        hold_out(sums, cuts, form, side, [width](const CutRow& row) { return row.radial_width_mm == width; });
+        hold_out(
+            sums, cuts, form, side, [width](const CutRow& row) { return row.radial_width_mm == width; }, held_at_zero);
     }
     return sums.errors();
 }

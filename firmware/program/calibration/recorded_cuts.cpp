@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/recorded_cuts.hpp"
 
+#include "calibration/duplicate_rows.hpp"
+#include "calibration/plausible_units.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
@@ -81,10 +83,12 @@ void average_recording(const std::filesystem::path& path, const std::vector<Stre
     CsvReader csv(path);
     const RecordingColumns columns(csv);
     Progress progress("reading " + csv.file_name());
+    AngleUnit angle_unit;
     double last_s = -std::numeric_limits<double>::infinity();
     while (csv.next_row()) {
         progress.update(csv.fraction_read());
         const DriveReading reading = columns.read(csv);
+        angle_unit.look_at(csv, columns.angle, reading.spindle_angle_rad);
         if (!(reading.time_s > last_s)) {
             csv.fail(columns.time, fmt::format("{} s after {} s; expected time to grow", reading.time_s, last_s));
         }
@@ -196,7 +200,11 @@ std::vector<StretchConditions> read_cut_table(const std::filesystem::path& table
     const CsvColumn depth = csv.require("axial_depth_mm");
     const CsvColumn width = csv.require("radial_width_mm");
     std::vector<StretchConditions> rows;
+    DuplicateRows duplicates;
     while (csv.next_row()) {
+        if (duplicates.is_copy(csv)) {
+            csv.fail(start, "the row repeats an earlier one; expected each stretch once");
+        }
         StretchConditions row;
         row.recording = named_recording(csv, recording, recordings);
         row.place = fmt::format("{}:{}", csv.file_name(), csv.line_number());
@@ -231,6 +239,10 @@ std::vector<RecordedStretch> read_recorded_cuts(const std::vector<std::filesyste
     std::vector<RecordedStretch> stretches;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         stretches.push_back(averages[k].stretch(rows[k]));
+        const RecordedStretch& s = stretches.back();
+        refuse_implausible_cut(
+            rows[k].place, {rows[k].tool_diameter_mm, std::abs(s.feed_mm_s), s.feed_per_tooth_mm(), s.spindle_rad_s},
+            fmt::format("{}_velocity_mm_s", axis_letters[s.axis]), "spindle_angle_rad");
     }
     return stretches;
 }

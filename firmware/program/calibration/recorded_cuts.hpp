@@ -73,12 +73,13 @@ class StretchAverage {
 };
 
 /// Reads the table of cuts: start_s, end_s, tool_diameter_mm, flutes, axial_depth_mm, radial_width_mm, and `recording`
-/// where there is more than one. Depth or width 0 or empty: running in air. Throws InputError.
+/// where there is more than one. Depth or width 0 or empty: running in air. Throws InputError; a row that repeats
+/// another one is refused, too.
 std::vector<StretchConditions> read_cut_table(const std::filesystem::path& table,
                                               const std::vector<std::filesystem::path>& recordings);
 
 /// The stretches of the table, averaged, in the table's order. Recordings need time_s, spindle_angle_rad,
-/// spindle_current_A, and current and velocity of an axis. Throws InputError.
+/// spindle_current_A, and current and velocity of an axis. Throws InputError, also where feed or speed are no tool's.
 std::vector<RecordedStretch> read_recorded_cuts(const std::vector<std::filesystem::path>& recordings,
                                                 const std::filesystem::path& table);
 

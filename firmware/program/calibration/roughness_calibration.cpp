@@ -2,6 +2,7 @@
 #include "calibration/roughness_calibration.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/duplicate_rows.hpp"
 #include "estimation/surface/roughness_impl.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
@@ -84,7 +85,8 @@ class RatioColumns {
     std::optional<CsvColumn> ratio_, feed_, axial_;
 };
 
-void read_tests(const std::filesystem::path& file, const std::string& measure, std::vector<TestRow>& rows) {
+void read_tests(const std::filesystem::path& file, const std::string& measure, DuplicateRows& duplicates,
+                std::vector<TestRow>& rows) {
     CsvReader csv(file);
     const CsvColumn speed = csv.require(roughness_columns[0]);
     const CsvColumn feed = csv.require(roughness_columns[1]);
@@ -93,7 +95,7 @@ void read_tests(const std::filesystem::path& file, const std::string& measure, s
     const RatioColumns ratio(csv);
     const CsvColumn roughness = csv.require(measure + "_um", "the measured roughness");
     while (csv.next_row()) {
-        if (std::isnan(csv.number(roughness))) {
+        if (std::isnan(csv.number(roughness)) || duplicates.is_copy(csv)) {
             continue;
         }
         const estimation::RoughnessConditions<double> cut{
@@ -265,9 +267,11 @@ int calibrate_roughness(const RoughnessCalibrationOptions& options, std::ostream
     const unsigned held = held_bits(options);
     const std::string measure = measure_of(options);
     std::vector<TestRow> rows;
+    DuplicateRows duplicates;
     for (const auto& file : options.data) {
-        read_tests(file, measure, rows);
+        read_tests(file, measure, duplicates, rows);
     }
+    duplicates.report(out);
     const auto fit = fit_without(rows, rows.size(), held);
     const std::string lack = what_the_tests_lack(fit);
     if (!lack.empty()) {

@@ -27,7 +27,7 @@ inline constexpr std::array<const char*, 5> roughness_columns{"spindle_speed_rpm
 ///
 /// Columns: spindle_speed_rpm, feed_mm_rev (per revolution), tool_diameter_mm, axial_depth_mm; force_ratio, or in its
 /// place feed_force_N and axial_force_N, of which the ratio of magnitudes is taken; the measured Ra_um or Rz_um. A row
-/// with an empty roughness cell was not measured, and is left out.
+/// with an empty roughness cell was not measured, and is left out. Rows that repeat another one exactly count once.
 ///
 /// Prints exponents with standard errors, scatter, the test furthest off, and how many tests lie in the 95 % prediction
 /// interval of the model that was fitted without them; the stated bound is 85 % of them. Writes a complete [roughness]

@@ -86,6 +86,39 @@ std::vector<double> derivative(std::span<const double> signal, double dt_s) {
     return result;
 }
 
+std::vector<std::size_t> replace_spikes(std::vector<double>& signal) {
+    constexpr std::size_t window = 7;
+    constexpr double limit = 10.0;
+    constexpr double sd_per_median = 1.4826;
+    std::vector<std::size_t> places;
+    if (signal.size() < window) {
+        return places;
+    }
+    const auto median_of = [](auto first, auto last) {
+        const auto middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last);
+        return *middle;
+    };
+    std::vector<double> medians(signal.size());
+    std::vector<double> distances(signal.size());
+    for (std::size_t k = 0; k < signal.size(); ++k) {
+        const std::size_t first = std::min(k - std::min(k, window / 2), signal.size() - window);
+        std::array<double, window> around{};
+        std::copy_n(signal.begin() + static_cast<std::ptrdiff_t>(first), window, around.begin());
+        medians[k] = median_of(around.begin(), around.end());
+        distances[k] = std::abs(signal[k] - medians[k]);
+    }
+    std::vector<double> sorted = distances;
+    const double sd = sd_per_median * median_of(sorted.begin(), sorted.end());
+    for (std::size_t k = 0; sd > 0.0 && k < signal.size(); ++k) {
+        if (distances[k] > limit * sd) {
+            signal[k] = medians[k];
+            places.push_back(k);
+        }
+    }
+    return places;
+}
+
 double correlated_samples(std::span<const double> residuals) {
     double variance = 0.0;
     for (const double residual : residuals) {

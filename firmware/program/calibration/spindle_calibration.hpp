@@ -24,8 +24,14 @@ struct SpindleCalibrationOptions {
 /// Two speeds or more: the idle torque's slope is fitted. Speeds apart by more than a fifth: field weakening is looked
 /// for. Acceleration of more than 1 rad/s²: the inertia is fitted.
 ///
-/// Prints the fit on `out`, writes `output`, returns 0. Throws InputError for bad data, and where the data cannot
-/// determine a parameter: it names the parameter and what to measure.
+/// Rows far from the fit are left out and named (estimation::fit_spindle_without_outliers), in a recording spikes of
+/// the current are replaced; rows of a table that repeat another one exactly count once. A term whose standard error is
+/// larger than its value is left out: the fit is made without it, and it is not written; nor is a term that the rows
+/// cannot show.
+///
+/// Prints the fit on `out`, writes `output`, returns 0. Throws InputError for bad data, for a reversed sign or a wrong
+/// unit, where a fifth of the rows are outliers, and where the data cannot determine a parameter: it names the
+/// parameter and what to measure.
 int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

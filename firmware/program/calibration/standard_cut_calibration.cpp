@@ -136,13 +136,38 @@ void refuse_what_cuts_lack(const StandardCutOptions& options, const StandardCutG
     }
 }
 
+/// Gains that no drive has.
+void refuse_implausible_gains(const StandardCutOptions& options, const StandardCutGains& gains) {
+    constexpr double least_Nm_per_A = 0.003;
+    constexpr double least_N_per_A = 1.0;
+    const auto refuse_small = [&](std::string_view key, double gain, double least, std::string_view column) {
+        if (gain < least) {
+            throw InputError(fmt::format("{}: '{}' = {:.3g}; expected {:g} or more; is {} in mA?",
+                                         options.cuts.string(), key, gain, least, column));
+        }
+    };
+    refuse_small(K_t1_key.name, gains.spindle.gain, least_Nm_per_A, "spindle_current_A");
+    for (std::size_t k = 0; k < gains.axes.size(); ++k) {
+        if (gains.axes[k]) {
+            refuse_small(fmt::format("{}.{}", axis_tables[k], K_x4_key.name), gains.axes[k]->gain, least_N_per_A,
+                         fmt::format("{}_current_A", axis_tables[k]));
+        }
+    }
+}
+
 /// Prints and writes one drive's gain and offset, and the doubt of the gain.
 void report(std::ostream& out, TomlWriter& toml, const DriveGainFit& fit, std::array<CalibrationKey, 3> keys,
-            double database_sd) {
-    for (const FittedValue& fitted :
-         {FittedValue{keys[0], fit.gain, fit.gain_se}, FittedValue{keys[1], fit.offset, fit.offset_se}}) {
+            double database_sd, const std::optional<FittedValue>& left_out = std::nullopt) {
+    std::vector<FittedValue> written{{keys[0], fit.gain, fit.gain_se}};
+    if (!left_out) {
+        written.push_back({keys[1], fit.offset, fit.offset_se});
+    }
+    for (const FittedValue& fitted : written) {
         print_fitted(out, fitted);
         write_fitted(toml, fitted);
+    }
+    if (left_out) {
+        print_left_out(out, *left_out);
     }
     const double doubt = std::hypot(fit.gain_se / fit.gain, database_sd);
     toml.key(keys[2].name, doubt);
@@ -206,6 +231,25 @@ StandardCutGains standard_cut_gains(const std::vector<RecordedStretch>& stretche
     return gains;
 }
 
+void leave_out_vague_K_x5(StandardCutGains& gains, const std::vector<RecordedStretch>& stretches,
+                          const MachineParameters& machine, const estimation::CuttingLaw<double>& law,
+                          estimation::CutSide side) {
+    for (std::size_t k = 0; k < gains.axes.size(); ++k) {
+        auto& fit = gains.axes[k];
+        if (!fit || fit->lack != StandardCutLack::nothing || fit->offset_se < std::abs(fit->offset)) {
+            continue;
+        }
+        std::vector<Stretch> rows;
+        for (const RecordedStretch& stretch : stretches) {
+            if (stretch.axis == k) {
+                rows.push_back(fit_row(stretch, stretch.middle_s, machine, law, side));  // drift is the spindle's alone
+            }
+        }
+        gains.left_out_K_x5[k] = FittedValue{K_x5_key, fit->offset, fit->offset_se};
+        fit = estimation::fit_feed_gain(rows, {.fits_K_x5 = false});
+    }
+}
+
 int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out) {
     if (options.data.empty()) {
         throw InputError("calibrate standard-cut: no data file; expected at least one recording (CSV)");
@@ -216,8 +260,10 @@ int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out)
     for (const RecordedStretch& stretch : stretches) {
         refuse_below_velocity_floor(stretch, machine);
     }
-    const StandardCutGains gains = standard_cut_gains(stretches, machine, entry.law, options.side);
+    StandardCutGains gains = standard_cut_gains(stretches, machine, entry.law, options.side);
+    leave_out_vague_K_x5(gains, stretches, machine, entry.law, options.side);
     refuse_what_cuts_lack(options, gains);
+    refuse_implausible_gains(options, gains);
     const DatabaseDoubt doubt = database_doubt(stretches, entry.law, options.side);
 
     AtomicFile file(options.output);
@@ -233,7 +279,7 @@ int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out)
             toml.table(axis_tables[k]);
             out << fmt::format("{}: F = K_x4 (I − I_f) + K_x5/w, friction {:.3f} ± {:.3f} of the machine file's\n",
                                axis_tables[k], gains.axes[k]->nuisance, gains.axes[k]->nuisance_se);
-            report(out, toml, *gains.axes[k], {K_x4_key, K_x5_key, axis_doubt_key}, doubt.feed);
+            report(out, toml, *gains.axes[k], {K_x4_key, K_x5_key, axis_doubt_key}, doubt.feed, gains.left_out_K_x5[k]);
         }
     }
     file.commit();

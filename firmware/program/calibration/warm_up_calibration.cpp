@@ -3,6 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/drive_forces.hpp"
+#include "calibration/plausible_units.hpp"
 #include "estimation_calibration/warm_up_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
@@ -70,6 +71,7 @@ std::vector<IdleSecond> read_idle_seconds(const std::filesystem::path& path) {
     const CsvColumn angle = csv.require("spindle_angle_rad", "the spindle's speed comes from it");
     const CsvColumn current = csv.require("spindle_current_A");
     IdleSeconds seconds;
+    AngleUnit angle_unit;
     Progress progress("reading " + csv.file_name());
     double last_s = -std::numeric_limits<double>::infinity();
     while (csv.next_row()) {
@@ -79,6 +81,7 @@ std::vector<IdleSecond> read_idle_seconds(const std::filesystem::path& path) {
             csv.fail(time, fmt::format("{} s after {} s; expected time to grow", time_s, last_s));
         }
         last_s = time_s;
+        angle_unit.look_at(csv, angle, csv.number(angle));
         if (std::isfinite(csv.number(angle)) && std::isfinite(csv.number(current))) {
             seconds.add(time_s, csv.number(angle), csv.number(current));
         }

@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,15 +38,29 @@ void add_data_and_output(Command& command, Options& options) {
     command.option("-o,--output", options.output, "The fitted parameters").required().value_name("FILE.toml");
 }
 
+/// A refusal is one line on standard error alone: the report goes out when all is done.
+template <typename Calibration, typename Options>
+int report_when_done(Calibration calibration, const Options& options) {
+    std::ostringstream report;
+    const int exit_code = calibration(options, report);
+    std::cout << report.str();
+    return exit_code;
+}
+
 void add_friction(Command& calibrate) {
     auto options = std::make_shared<FrictionCalibrationOptions>();
     Command command = calibrate.subcommand("friction", "Feed axes: friction by direction, mass, weight");
     command.footer(
         "Data: a recording of air cuts (time_s, AXIS_velocity_mm_s, AXIS_current_A; at least three steady feeds in "
         "each\n"
-        "direction), or one axis in motion (time_s, position_m, motor_force_N). The tables go into machine.toml as "
-        "they\n"
-        "are. Exit code 1: the friction changed within the data.");
+        "direction), or one axis in motion (time_s, position_m, motor_force_N). Currents and forces are positive "
+        "where\n"
+        "the motor drives the axis in +. The tables go into machine.toml as they are; a parameter that is smaller "
+        "than\n"
+        "its standard error is left out of the fit and of the file.\n"
+        "Exit code 1: the friction changed within the data. Of a motion: the second half lies beyond what the first\n"
+        "half predicts, or its friction differs by more than 10 % and four standard deviations. Of air cuts: the same\n"
+        "from the first stretch to the last. Where the data cannot tell, the report says so, with exit code 0.");
     add_data_and_output(command, *options);
     command.option("--axis", options->axis, "Axis, for data with a single axis")
         .one_of({"x", "y", "z"})
@@ -56,7 +71,7 @@ void add_friction(Command& calibrate) {
     command.option("--minimum-speed", options->minimum_speed_mm_s, "Slower samples are pre-sliding, mm/s")
         .within(0.001, 1e4)
         .shows_default();
-    command.on_run([options] { return calibrate_friction(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_friction, *options); });
 }
 
 void add_spindle(Command& calibrate) {
@@ -65,12 +80,15 @@ void add_spindle(Command& calibrate) {
     command.footer(
         "Data: spindle_current_A and spindle_torque_Nm, with spindle_speed_rad_s or with time_s and "
         "spindle_angle_rad.\n"
-        "The table goes into machine.toml as it is.");
+        "The current is positive where the motor drives. Rows far from the fit are left out and named; rows that "
+        "repeat\n"
+        "another one exactly count once. The table goes into machine.toml as it is; a term that is smaller than its\n"
+        "standard error, or that the rows do not show, is not in it.");
     add_data_and_output(command, *options);
     command.option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
         .within(0.01, 1e4)
         .shows_default();
-    command.on_run([options] { return calibrate_spindle(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_spindle, *options); });
 }
 
 void add_standard_cut(Command& calibrate) {
@@ -93,7 +111,7 @@ void add_standard_cut(Command& calibrate) {
     command.option("--entry", options->entry, "Name in the database; default: its only entry").value_name("NAME");
     command.choice<CutSide>("--side", options->side, "Side of the cuts",
                             {{"down", CutSide::down}, {"up", CutSide::up}});
-    command.on_run([options] { return calibrate_standard_cut(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_standard_cut, *options); });
 }
 
 void add_warm_up(Command& calibrate) {
@@ -107,7 +125,7 @@ void add_warm_up(Command& calibrate) {
         .required()
         .value_name("M.toml");
     command.option("-o,--output", options->output, "The fitted parameters").required().value_name("FILE.toml");
-    command.on_run([options] { return calibrate_warm_up(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_warm_up, *options); });
 }
 
 void add_cutting(Command& calibrate) {
@@ -118,9 +136,12 @@ void add_cutting(Command& calibrate) {
         "and\n"
         "normal_force_N or feed_force_N; cuts at two feeds and several widths. Or recordings of\n"
         "drive currents, with --cuts and --machine. The table goes into tool.toml as it is.\n"
+        "Signs: normal_force_N is positive where it pushes tool and wall apart, which it always does in down milling;\n"
+        "feed_force_N is the force on the workpiece, positive along the feed; spindle_torque_Nm is positive.\n"
+        "Rows that repeat another one exactly count once.\n"
         "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
     add_data_and_output(command, *options);
-    add_side(command, options->side, "Side of the cuts; unknown: from the data");
+    add_side(command, options->side, "Side of the cuts; unknown: the one that fits the forces");
     command.option("--cuts", options->cuts, "Table of the cuts, for recordings of drive currents")
         .value_name("CUTS.csv");
     command.option("--machine", options->machine, "Machine file with calibrated drives, for recordings")
@@ -129,7 +150,7 @@ void add_cutting(Command& calibrate) {
                                    {{"linear_edge", CuttingLawForm::linear_edge},
                                     {"power", CuttingLawForm::power},
                                     {"combined", CuttingLawForm::combined}});
-    command.on_run([options] { return calibrate_cutting(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_cutting, *options); });
 }
 
 void add_roughness(Command& calibrate) {
@@ -144,7 +165,7 @@ void add_roughness(Command& calibrate) {
     command.option("--measure", options->measure, "Ra or Rz; default: Ra if the data have it").one_of({"Ra", "Rz"});
     command.option("--hold", options->held, "Column that the shop does not vary: its exponent is not fitted")
         .one_of(std::vector<std::string>(roughness_columns.begin(), roughness_columns.end()));
-    command.on_run([options] { return calibrate_roughness(*options, std::cout); });
+    command.on_run([options] { return report_when_done(calibrate_roughness, *options); });
 }
 
 using ForceShapeCalibration = int (*)(const ForceShapeCalibrationOptions&, std::ostream&);
@@ -157,7 +178,7 @@ void add_force_shape(Command& command, ForceShapeCalibration calibration) {
     command.option("--tool", options->tool, "Tool parameters, with the force sensor's low-pass")
         .required()
         .value_name("T.toml");
-    command.on_run([options, calibration] { return calibration(*options, std::cout); });
+    command.on_run([options, calibration] { return report_when_done(calibration, *options); });
 }
 
 void add_force_drop(Command& calibrate) {
@@ -167,7 +188,8 @@ void add_force_drop(Command& calibrate) {
         "both\n"
         "axes travel and tooth passing is slow. CUTS.csv says which stretch is which cut: start_s, end_s,\n"
         "tool_diameter_mm, flutes, axial_depth_mm and radial_width_mm. Feeds must differ by a factor of 1.5, widths\n"
-        "should span those of the work. The table goes into tool.toml as it is.\n"
+        "should span those of the work: at least four different cuts, and no estimate below the narrowest of them.\n"
+        "The table goes into tool.toml as it is.\n"
         "Exit code 1: the immersion of a cut, by the law of the others, is off by more than 10 %.");
     add_force_shape(command, calibrate_force_drop);
 }

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -123,6 +123,46 @@ class WideBandCells {
     bool is_there_;
 };
 
+/// Which samples get a row: the first, and then one after each interval, to the microsecond. Sums of seconds are not
+/// that exact: at 50 Hz and 0.02 s every third sample came too early by their last digit.
+class RowTimes {
+  public:
+    explicit RowTimes(double interval_s) : interval_us_(std::llround(interval_s * 1e6)) {}
+
+    bool is_due(double time_s) {
+        const std::int64_t time_us = std::llround(time_s * 1e6);
+        first_us_ = samples_ == 0 ? time_us : first_us_;
+        last_us_ = time_us;
+        ++samples_;
+        const bool due = rows_ == 0 || time_us >= next_us_;
+        if (due) {
+            next_us_ = time_us + interval_us_;
+            ++rows_;
+        }
+        return due;
+    }
+    [[nodiscard]] std::size_t rows() const { return rows_; }
+    /// Samples without a row, where the samples come so slowly that one would expect a row for each. Else empty.
+    [[nodiscard]] std::string left_out() const {
+        const bool is_slow = samples_ > 1 && 2.0 * static_cast<double>(last_us_ - first_us_) >
+                                                 static_cast<double>(samples_ - 1) * static_cast<double>(interval_us_);
+        return is_slow && rows_ < samples_
+                   ? fmt::format(
+                         "{} of {} samples come less than the interval of {} s after a row and have none; "
+                         "--interval 0 gives a row for each",
+                         samples_ - rows_, samples_, static_cast<double>(interval_us_) / 1e6)
+                   : std::string();
+    }
+
+  private:
+    std::int64_t interval_us_;
+    std::int64_t first_us_ = 0;
+    std::int64_t last_us_ = 0;
+    std::int64_t next_us_ = 0;
+    std::size_t samples_ = 0;
+    std::size_t rows_ = 0;
+};
+
 /// The program's status of each row: from the recording, with F from the command line if it was given.
 hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOptions& options) {
     hal::ProgramStatus program = recording.program();
@@ -153,25 +193,26 @@ int replay_table(const ReplayOptions& options) {
     wide_band.write_header(out);
     out << '\n';
     Progress progress("replaying");
-    std::size_t rows = 0;
-    double next_row_s = -std::numeric_limits<double>::infinity();
+    RowTimes row_times(options.interval_s);
     while (recording.next()) {
         progress.update(recording.fraction_read());
         const hal::FeedOverride output =
             firmware::step_and_work(tick, recording.sample(), program_of(recording, options));
-        if (recording.time_s() >= next_row_s) {
+        if (row_times.is_due(recording.time_s())) {
             write_estimate_row(out, recording.time_s(), firmware::tick_record(tick, output, 0), total);
             roughness.write(out, tick.roughness());
             wide_band.write(out, tick.wide_band());
             out << '\n';
-            next_row_s = recording.time_s() + options.interval_s;
-            ++rows;
         }
     }
+    const std::size_t rows = row_times.rows();
     if (rows == 0) {
         throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
     }
     wide_band.tell_what_is_missing();
+    if (const std::string left_out = row_times.left_out(); !left_out.empty()) {
+        fmt::print(stderr, "millforce: note: {}: {}\n", options.log, left_out);
+    }
     if (recording.has_one_force_only()) {
         fmt::print(stderr, "millforce: note: {}: fx_N and fy_N are used together, and one of them is missing\n",
                    options.log);

@@ -223,3 +223,48 @@ TEST(CuttingFit, of_forces_rounded_to_float_is_the_same_within_a_tenth_of_its_st
         DOUBLES_EQUAL(exact.parameters(j), from_coarse.parameters(j), 0.1 * exact.standard_error(j));
     }
 }
+
+TEST(CuttingFit, without_the_exponents_is_the_linear_law) {
+    Noise noise(41);
+    const auto cuts = cut_with(linear_edge_law(1400.0, 0.0, 1050.0, 0.0), five_feeds, 0.02, noise);
+    CuttingFitOptions options;
+    options.form = CuttingLawForm::power;
+    options.held_at_zero = (1U << cutting_p_s) | (1U << cutting_p_1);
+    const auto held = fit_cutting_law(cuts, options);
+    LONGS_EQUAL(0, held.undetermined);
+    DOUBLES_EQUAL(0.0, held.law.p_s, 1e-6);
+    DOUBLES_EQUAL(0.0, held.law.p_1, 1e-6);
+    DOUBLES_EQUAL(0.75, held.law.k_1, 3.0 * held.k_1_standard_error());
+    CHECK(held.k_1_standard_error() < 0.5 * fit(cuts, CuttingLawForm::power).k_1_standard_error());
+}
+
+TEST(CuttingFit, states_its_doubt_at_a_chip_that_was_cut_and_covers_the_fits_variance_beyond) {
+    Noise noise(42);
+    for (const auto form : {CuttingLawForm::combined, CuttingLawForm::linear_edge, CuttingLawForm::power}) {
+        const auto result = fit(cut_with(linear_edge_law(1400.0, 15.0, 1050.0, 10.0), five_feeds, 0.02, noise), form);
+        const auto& law = result.law;
+        CHECK(law.reference_chip_thickness_mm >= law.minimum_chip_thickness_mm);
+        CHECK(law.reference_chip_thickness_mm <= law.maximum_chip_thickness_mm);
+        CHECK(result.degrees_of_freedom > 50.0);
+        for (double t_mm = law.minimum_chip_thickness_mm / 3.0; t_mm < 3.0 * law.maximum_chip_thickness_mm;
+             t_mm *= 1.1) {
+            const double u = std::log(t_mm / result.reference_chip_thickness_mm);
+            const double ln_K_s_variance = result.covariance(cutting_ln_K_s, cutting_ln_K_s) +
+                                           u * u * result.covariance(cutting_p_s, cutting_p_s) +
+                                           2.0 * u * result.covariance(cutting_ln_K_s, cutting_p_s);
+            CHECK(cutting_coefficients(law, t_mm).ln_K_s_variance >
+                  (form == CuttingLawForm::power ? ln_K_s_variance : 0.0));
+        }
+    }
+}
+
+TEST(CuttingFit, says_which_parameters_the_cuts_decide) {
+    Noise noise(43);
+    const auto law = linear_edge_law(1400.0, 9.6, 1050.0, 6.1);
+    const auto of_few = fit(cut_with(law, {0.03, 0.05}, 0.05, noise), CuttingLawForm::combined);
+    const auto of_linear = fit(cut_with(law, five_feeds, 0.02, noise), CuttingLawForm::linear_edge);
+    CHECK(of_few.decided_by_cuts(cutting_ln_K_s) > 0.99);
+    CHECK(of_few.decided_by_cuts(cutting_p_1) < 0.5);
+    CHECK(of_linear.decided_by_cuts(cutting_K_re) > 0.99);
+    DOUBLES_EQUAL(0.0, of_linear.decided_by_cuts(cutting_p_s), 1e-6);
+}

@@ -168,3 +168,18 @@ TEST(FrictionFit, with_one_feed_refuses_the_curve_and_in_one_direction_refuses_g
         CHECK(!one_direction.solve().determined(j));
     }
 }
+
+TEST(FrictionFit, without_a_term_is_the_fit_of_the_others) {
+    FeedCurrentFit fit;
+    for (const double w : {0.5, 1.0, 2.0, 3.0, -0.5, -1.0, -2.0, -3.0}) {
+        const double size = std::abs(w);
+        fit.add(w, std::copysign(0.3 * size + 1.5, w) + 0.2 + 0.01 * std::sin(40.0 * w));
+    }
+    const unsigned both = (1U << positive_K_x1) | (1U << negative_K_x1);
+    const auto held = fit.solve(both);
+    LONGS_EQUAL(0, held.undetermined);
+    DOUBLES_EQUAL(0.0, held.parameters(positive_K_x1), 1e-9);
+    DOUBLES_EQUAL(0.3, held.parameters(positive_K_x2), 0.02);
+    DOUBLES_EQUAL(1.5, held.parameters(common_K_x3), 0.02);
+    CHECK(held.standard_error(positive_K_x2) < 0.5 * fit.solve().standard_error(positive_K_x2));
+}

@@ -116,3 +116,34 @@ TEST(SpindleFit, of_samples_rounded_to_float_is_the_same_within_a_tenth_of_its_s
                       0.1 * exact.solution.standard_error(j));
     }
 }
+
+TEST(SpindleFit, without_outliers_is_as_good_as_without_them_from_the_start) {
+    const Drive drive;
+    Noise noise(25);
+    for (int repetition = 0; repetition < 5; ++repetition) {
+        auto samples = cuts(drive, {60, 90, 120, 220, 300, 400}, noise, 0.05);
+        const auto clean = fit_spindle(samples, {true, true, true});
+        std::vector<std::size_t> spoilt;
+        for (std::size_t k = 3; k < samples.size(); k += 17) {
+            samples[k].current_A += noise.uniform(0.0, 1.0) < 0.5 ? 25.0 : -25.0;
+            spoilt.push_back(k);
+        }
+        const auto trimmed = fit_spindle_without_outliers(samples, {true, true, true});
+        CHECK(trimmed.outliers == spoilt);
+        for (int j = 0; j < spindle_parameter_count; ++j) {
+            DOUBLES_EQUAL(clean.solution.parameters(j), trimmed.fit.solution.parameters(j),
+                          2.0 * clean.solution.standard_error(j));
+        }
+    }
+}
+
+TEST(SpindleFit, leaves_no_sample_out_where_there_is_no_outlier) {
+    const Drive drive;
+    Noise noise(26);
+    std::size_t left_out = 0;
+    for (int repetition = 0; repetition < 20; ++repetition) {
+        const auto samples = cuts(drive, {60, 90, 120, 220, 300, 400}, noise, 0.05);
+        left_out += fit_spindle_without_outliers(samples, {true, true, true}).outliers.size();
+    }
+    CHECK(left_out <= 4);  // of 720 samples
+}

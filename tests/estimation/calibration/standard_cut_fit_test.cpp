@@ -103,6 +103,18 @@ TEST(StandardCutFit, standard_errors_cover_in_every_direction_of_feed) {
     DOUBLES_EQUAL(95.0, offsets.percent(), 2.0);
 }
 
+TEST(StandardCutFit, without_K_x5_knows_K_x4_better) {
+    auto stretches = campaign(cuts, noise, 0.01);
+    for (StandardCutStretch& s : stretches) {
+        s.feed_current_A += K_x5 / s.feed_m_per_min / K_x4;  // a drive that has none
+    }
+    const auto with = fit_feed_gain(stretches);
+    const auto without = fit_feed_gain(stretches, {.fits_K_x5 = false});
+    DOUBLES_EQUAL(K_x4, without.gain, 3.0 * without.gain_se);
+    DOUBLES_EQUAL(0.0, without.offset, 1e-6);
+    CHECK(without.gain_se < with.gain_se);
+}
+
 TEST(StandardCutFit, hardly_differs_for_currents_rounded_to_float) {
     const auto stretches = campaign(cuts, noise, 0.003);
     const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };

@@ -48,6 +48,7 @@ struct CuttingFitOptions {
     double error_floor = 0.1;             ///< share of the mean force below which errors are constant
     double huber_limit = 1.345;           ///< 95 % efficient for normal errors
     double minimum_feed_ratio = 1.2;      ///< largest over smallest feed per tooth
+    unsigned held_at_zero = 0;            ///< bit j of CuttingFitIndex: p_s, p_1, K_te or K_re is 0, and not fitted
 };
 
 enum CuttingFitIndex : int {
@@ -74,10 +75,14 @@ struct CuttingScatter {
 };
 
 struct CuttingFit {
-    /// Its standard deviations cover the covariance of the parameters and the scatter of single cuts together.
+    /// Its standard deviations cover the covariance of the parameters and the scatter of single cuts together. Twice a
+    /// deviation is a 95 % band by Student's t, however few the cuts; none is zero. The reference chip thickness is the
+    /// one within the range of the cuts at which K_s is known best.
     CuttingLaw<double> law{};
     CuttingParameters parameters = CuttingParameters::Zero();
     CuttingCovariance covariance = CuttingCovariance::Zero();
+    CuttingParameters decided_by_cuts = CuttingParameters::Zero();  ///< 0: by the prior alone, 1: by the cuts alone
+    double degrees_of_freedom = 0.0;           ///< measured forces less the parameters that the cuts decide
     double reference_chip_thickness_mm = 0.0;  ///< t_ref of the parameters
     double minimum_feed_per_tooth_mm = 0.0;
     double maximum_feed_per_tooth_mm = 0.0;

@@ -54,7 +54,11 @@ enum DirectionalFrictionIndex : int {
     negative_coulomb
 };
 
-/// Collects samples of an unloaded axis; both forms can be read at any time.
+/// What the parameters of MechanicalFrictionFit::directional() are multiplied with. v ≠ 0.
+[[nodiscard]] Eigen::Matrix<double, 5, 1> directional_regressors(double velocity_m_s, double acceleration_m_s2);
+
+/// Collects samples of an unloaded axis; both forms can be read at any time. `held_at_zero`, bit j: parameter j is 0,
+/// and the others are fitted without it.
 class MechanicalFrictionFit {
   public:
     /// Samples with |v| ≤ `minimum_speed_m_s` are left out as pre-sliding.
@@ -63,8 +67,8 @@ class MechanicalFrictionFit {
     /// Returns whether the sample was used.
     bool add(double velocity_m_s, double acceleration_m_s2, double motor_force_N);
 
-    [[nodiscard]] LeastSquaresSolution<double, 4> symmetric() const;
-    [[nodiscard]] LeastSquaresSolution<double, 5> directional() const;
+    [[nodiscard]] LeastSquaresSolution<double, 4> symmetric(unsigned held_at_zero = 0) const;
+    [[nodiscard]] LeastSquaresSolution<double, 5> directional(unsigned held_at_zero = 0) const;
 
   private:
     double minimum_speed_m_s_;
@@ -93,11 +97,15 @@ class FeedCurrentFit {
     /// Rows with |w| ≤ `minimum_feed_m_per_min` are left out. Returns whether the row was used.
     bool add(double feed_m_per_min, double current_A, double minimum_feed_m_per_min = 0.0);
 
-    [[nodiscard]] LeastSquaresSolution<double, 6> solve() const;
+    /// `held_at_zero`: as for MechanicalFrictionFit.
+    [[nodiscard]] LeastSquaresSolution<double, 6> solve(unsigned held_at_zero = 0) const;
 
   private:
     LeastSquares<double, 6> fit_;
 };
+
+/// What the parameters of FeedCurrentFit are multiplied with. w ≠ 0.
+[[nodiscard]] Eigen::Matrix<double, 6, 1> feed_current_regressors(double feed_m_per_min);
 
 /// The current by FeedCurrentFit's parameters at feed w ≠ 0.
 [[nodiscard]] double feed_friction_current_A(const Eigen::Matrix<double, 6, 1>& parameters, double feed_m_per_min);

@@ -63,6 +63,7 @@ struct DriveGainFit {
 struct StandardCutRules {
     double least_load_ratio = 1.2;
     double least_feed_ratio = 1.5;
+    bool fits_K_x5 = true;  ///< false: K_x5 is 0
 };
 
 /// K_t1 (gain) and K_t2 (offset) of the spindle. Where all stretches have the same drift, d is 0.

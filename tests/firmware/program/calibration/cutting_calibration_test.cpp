@@ -4,6 +4,8 @@
 #include "files/input_error.hpp"
 #include "firmware/program/files/temporary_folder.hpp"
 
+#include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
+
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
@@ -36,6 +38,24 @@ std::string error_of(std::string_view data) {
     const std::string message = message_of<InputError>([&] { calibrate_cutting(options, out); });
     LONGS_EQUAL(1, folder.file_count());
     return message;
+}
+
+struct Ended {
+    std::string text;
+    toml::table toml;
+
+    double number(const char* key) const { return toml["cutting"][key].value_or(std::nan("")); }
+};
+
+/// A calibration that is done.
+Ended calibrate(std::string_view data) {
+    const TemporaryFolder folder;
+    CuttingCalibrationOptions options;
+    options.data = {folder.write("cuts.csv", data)};
+    options.output = folder.path("out.toml");
+    std::ostringstream out;
+    LONGS_EQUAL(0, calibrate_cutting(options, out));
+    return {out.str(), toml::parse(folder.read("out.toml"))};
 }
 
 const std::string header =
@@ -105,6 +125,7 @@ TEST(CuttingCalibration, finds_that_the_measured_cuts_are_down_milling) {
     std::ostringstream out;
     LONGS_EQUAL(0, calibrate_cutting(options, out));
     CHECK(contains(out.str(), "down milling (up milling would need an edge that pulls)"));
+    CHECK(contains(out.str(), "K_re_N_per_mm is smaller than its standard error"));
     CHECK(contains(folder.read("out.toml"), "cut_side = \"down\""));
     const auto up = fit_cuts(measured(), CuttingLawForm::combined, CutSide::up);
     CHECK(up.parameters(millforce::estimation::cutting_r_1) < -0.5);
@@ -143,6 +164,25 @@ TEST(CuttingCalibration, refuses_cuts_that_cannot_determine_a_parameter_and_name
     CHECK(contains(error_of("tool_diameter_mm,flutes,spindle_rad_s,axial_depth_mm,radial_width_mm,feed_mm_s,"
                             "spindle_torque_Nm\n"),
                    "no column 'normal_force_N', needed for r_1"));
+}
+
+TEST(CuttingCalibration, counts_a_repeated_row_once_and_says_so) {
+    const auto all = [](const CutRow&) { return true; };
+    const std::string rows = measured_rows(all);
+    const Ended once = calibrate(rows);
+    const Ended twice = calibrate(rows + rows.substr(header.size()));
+    DOUBLES_EQUAL(once.number("k_s_N_per_mm2_se"), twice.number("k_s_N_per_mm2_se"), 0.0);
+    CHECK(contains(twice.text,
+                   "27 rows repeat an earlier row exactly and are not counted again: cuts.csv:29, cuts.csv:30"));
+    CHECK(!contains(once.text, "repeat"));
+}
+
+TEST(CuttingCalibration, states_its_doubt_at_a_chip_that_was_cut) {
+    for (const auto form : {CuttingLawForm::combined, CuttingLawForm::linear_edge, CuttingLawForm::power}) {
+        const auto law = fit_cuts(measured(), form, CutSide::down).law;
+        CHECK(law.reference_chip_thickness_mm >= law.minimum_chip_thickness_mm);
+        CHECK(law.reference_chip_thickness_mm <= law.maximum_chip_thickness_mm);
+    }
 }
 
 TEST(CuttingCalibration, refuses_impossible_cuts_by_line_and_column) {

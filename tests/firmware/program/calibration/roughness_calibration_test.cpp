@@ -218,3 +218,11 @@ TEST(RoughnessCalibration, limit_of_R_a_is_refused_where_the_tool_has_no_model_o
     CHECK(contains(error_of(limited + calibrate(published_tests(), "Rz").toml_text), "no model of R_a"));
     STRCMP_EQUAL("", error_of(limited + calibrate(published_tests()).toml_text).c_str());
 }
+
+TEST(RoughnessCalibration, counts_a_repeated_row_once_and_says_so) {
+    const std::string rows = published_tests();
+    const Run once = calibrate(rows);
+    const Run twice = calibrate(rows + rows.substr(header.size()));
+    DOUBLES_EQUAL(once.value("feed_exponent_se"), twice.value("feed_exponent_se"), 0.0);
+    CHECK(contains(twice.text, "36 rows repeat an earlier row exactly"));
+}

@@ -58,6 +58,26 @@ TEST(Signal, derivative_of_a_sine_is_its_cosine_to_fourth_order) {
     LONGS_EQUAL(3, derivative(std::vector<double>{1, 2, 3}, 1.0).size());
 }
 
+TEST(Signal, spikes_are_replaced_and_steps_and_noise_are_not) {
+    std::mt19937 generator(6);
+    std::normal_distribution<double> normal(0.0, 0.1);
+    std::vector<double> clean(2000);
+    for (std::size_t k = 0; k < clean.size(); ++k) {
+        clean[k] = (k < 1000 ? 1.0 : 6.0) + normal(generator);
+    }
+    auto signal = clean;
+    CHECK(replace_spikes(signal).empty());
+    signal[300] = 40.0;
+    signal[301] = -20.0;
+    signal[1999] = 0.0;
+    const auto places = replace_spikes(signal);
+    CHECK(places == (std::vector<std::size_t>{300, 301, 1999}));
+    DOUBLES_EQUAL(1.0, signal[300], 0.3);
+    DOUBLES_EQUAL(1.0, signal[301], 0.3);
+    DOUBLES_EQUAL(6.0, signal[1999], 0.3);
+    DOUBLES_EQUAL(clean[302], signal[302], 0.0);
+}
+
 TEST(Signal, counts_correlated_samples_of_an_autoregressive_sequence) {
     std::mt19937 generator(5);
     std::normal_distribution<double> normal;
