@@ -285,16 +285,8 @@ TEST(EngagementSolver, tells_narrow_up_milling_with_one_axis_by_a_remembered_dep
     const KnownDepth<double> remembered{6.0, 0.06, false};
     for (const double immersion : {0.2, 0.4, 0.6}) {
         const auto forces = measured({.side = CutSide::up, .immersion = immersion}, 8.0);
-        EngagementSolver<double>::Search search;
-        const auto solve = [&](const KnownDepth<double>& depth) {
-            const auto by_law = solver(0.02);
-            by_law.begin(search, forces, 0.05, CutSide::up, depth);
-            while (!by_law.advance(search, 1)) {
-            }
-            return search.estimate();
-        };
-        const auto alone = solve({});
-        const auto with_memory = solve(remembered);
+        const auto alone = solver(0.02).solve(forces, 0.05, CutSide::up);
+        const auto with_memory = solver(0.02).solve(forces, 0.05, CutSide::up, remembered);
         CHECK(!alone.immersion_valid || alone.axial_depth_force_sd_mm > 1.0);
         CHECK(with_memory.immersion_valid);
         CHECK(with_memory.depth_is_remembered);
@@ -304,23 +296,15 @@ TEST(EngagementSolver, tells_narrow_up_milling_with_one_axis_by_a_remembered_dep
 }
 
 TEST(EngagementSolver, leaves_a_remembered_depth_that_the_forces_refute) {
-    const auto by_law = solver(0.02);
     const auto forces = measured({.side = CutSide::up, .immersion = 0.6, .depth_mm = 9.0}, 8.0);
-    EngagementSolver<double>::Search search;
-    by_law.begin(search, forces, 0.05, CutSide::up, {3.0, 0.05, false});
-    while (!by_law.advance(search, 1)) {
-    }
-    CHECK_FALSE(search.estimate().depth_is_remembered);
-    CHECK(search.estimate().radial_immersion_low < 0.6);
-    CHECK(search.estimate().radial_immersion_high > 0.6);
+    const auto e = solver(0.02).solve(forces, 0.05, CutSide::up, {3.0, 0.05, false});
+    CHECK_FALSE(e.depth_is_remembered);
+    CHECK(e.radial_immersion_low < 0.6);
+    CHECK(e.radial_immersion_high > 0.6);
 }
 
 TEST(EngagementSolver, needs_no_memory_where_the_forces_tell_the_depth) {
-    const auto by_law = solver(0.02);
-    EngagementSolver<double>::Search search;
-    by_law.begin(search, measured({.immersion = 0.6}, 5.0), 0.05, CutSide::down, {6.0, 0.08, false});
-    while (!by_law.advance(search, 1)) {
-    }
-    CHECK(search.estimate().immersion_valid);
-    CHECK_FALSE(search.estimate().depth_is_remembered);
+    const auto e = solver(0.02).solve(measured({.immersion = 0.6}, 5.0), 0.05, CutSide::down, {6.0, 0.08, false});
+    CHECK(e.immersion_valid);
+    CHECK_FALSE(e.depth_is_remembered);
 }

@@ -40,4 +40,19 @@ inline std::vector<CsvRow> csv_rows(const std::string& csv) {
     return rows;
 }
 
+/// The header and the first of every n rows.
+inline std::string every_nth_row(const std::string& csv, int n) {
+    std::istringstream text(csv);
+    std::ostringstream kept;
+    std::string line;
+    std::getline(text, line);
+    kept << line << '\n';
+    for (int k = 0; std::getline(text, line); ++k) {
+        if (k % n == 0) {
+            kept << line << '\n';
+        }
+    }
+    return kept.str();
+}
+
 }  // namespace millforce::test

@@ -134,37 +134,17 @@ TEST(Run, replay_without_an_output_file_prints_the_same_rows) {
 
 TEST(Run, replay_gives_a_row_for_each_sample_of_a_recording_at_50_hertz) {
     simulate_and_record();
-    std::istringstream all(inputs.read("log.csv"));
-    std::ostringstream at_50_hertz;
-    std::string line;
-    std::getline(all, line);
-    at_50_hertz << line << '\n';
-    int samples = 0;
-    for (int k = 0; std::getline(all, line); ++k) {
-        if (k % 20 == 0) {
-            at_50_hertz << line << '\n';
-            ++samples;
-        }
-    }
+    const std::string at_50_hertz = every_nth_row(inputs.read("log.csv"), 20);
+    const std::size_t samples = csv_rows(at_50_hertz).size();
     CHECK(samples > 50);
-    inputs.write("log.csv", at_50_hertz.str());
+    inputs.write("log.csv", at_50_hertz);
     check_ran(inputs.replay());
     LONGS_EQUAL(samples, csv_rows(inputs.read("out.csv")).size());
 }
 
 TEST(Run, replay_says_how_many_samples_of_a_slow_recording_have_no_row) {
     simulate_and_record();
-    std::istringstream all(inputs.read("log.csv"));
-    std::ostringstream at_77_hertz;
-    std::string line;
-    std::getline(all, line);
-    at_77_hertz << line << '\n';
-    for (int k = 0; std::getline(all, line); ++k) {
-        if (k % 13 == 0) {
-            at_77_hertz << line << '\n';
-        }
-    }
-    inputs.write("log.csv", at_77_hertz.str());
+    inputs.write("log.csv", every_nth_row(inputs.read("log.csv"), 13));  // 77 Hz
     const Ended ended = inputs.replay();
     LONGS_EQUAL(0, ended.exit_code);
     CHECK(contains(ended.error, "millforce: note: "));

@@ -72,7 +72,8 @@ class EngagementSolver {
     bool advance(Search& search, int steps) const;
 
     [[nodiscard]] EngagementEstimate<Scalar> solve(const AverageForceMeasurement<Scalar>& forces,
-                                                   Scalar feed_per_tooth_mm, CutSide side) const;
+                                                   Scalar feed_per_tooth_mm, CutSide side,
+                                                   const KnownDepth<Scalar>& remembered = {}) const;
 
     /// The forces of a side; unknown is taken for down.
     [[nodiscard]] const Table& table(CutSide side) const { return tables_[side == CutSide::up ? 1 : 0]; }

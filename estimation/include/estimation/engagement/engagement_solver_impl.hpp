@@ -83,9 +83,10 @@ bool EngagementSolver<Scalar, Nodes>::advance(Search& search, int steps) const {
 
 template <typename Scalar, int Nodes>
 EngagementEstimate<Scalar> EngagementSolver<Scalar, Nodes>::solve(const AverageForceMeasurement<Scalar>& forces,
-                                                                  Scalar feed_per_tooth_mm, CutSide side) const {
+                                                                  Scalar feed_per_tooth_mm, CutSide side,
+                                                                  const KnownDepth<Scalar>& remembered) const {
     Search search;
-    begin(search, forces, feed_per_tooth_mm, side);
+    begin(search, forces, feed_per_tooth_mm, side, remembered);
     while (!advance(search, Nodes)) {
     }
     return search.estimate();
