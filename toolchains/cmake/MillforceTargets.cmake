@@ -22,7 +22,7 @@ elseif(MILLFORCE_SANITIZE)
 endif()
 if(MILLFORCE_SANITIZE)
     # Without RTTI an object of the core does not tell its type: vptr is out.
-    add_compile_options(-fsanitize=${sanitizers} -fno-sanitize=vptr -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    add_compile_options(-fsanitize=${sanitizers} -fno-sanitize=vptr,null,object-size -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${sanitizers})
 endif()
 
