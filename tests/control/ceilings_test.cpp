@@ -129,3 +129,21 @@ TEST(Ceilings, monitor_only_watches_the_cut_all_the_same) {
     stale.time_since_sample_s = 1.0F;
     CHECK(controller.step(stale).hold);
 }
+
+TEST(Ceilings, forces_that_contradict_the_law_raise_nothing_and_still_lower) {
+    Controller controller(immediate());
+    bring_into_cut(controller);
+    const float before = repeat(controller, in_contact(), 20).ratio;
+    Input light = in_contact();
+    light.cut.law_is_refuted = true;
+    light.cut.tooth_force_N = 100.0F;
+    const Output held = repeat(controller, light, 200);
+    check_ratio(before, held);
+    CHECK(held.limit == Limit::law_misfit);
+    STRCMP_EQUAL("law_misfit", name(held.limit));
+    Input heavy = light;
+    heavy.cut.tooth_force_N = 5000.0F;
+    CHECK(repeat(controller, heavy, 20).ratio < 0.5F * before);
+    light.cut.law_is_refuted = false;
+    CHECK(repeat(controller, light, 20).ratio > before);
+}

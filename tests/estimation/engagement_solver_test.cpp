@@ -308,3 +308,28 @@ TEST(EngagementSolver, needs_no_memory_where_the_forces_tell_the_depth) {
     CHECK(e.immersion_valid);
     CHECK_FALSE(e.depth_is_remembered);
 }
+
+TEST(EngagementSolver, states_a_deviation_that_reaches_to_the_farther_end_of_a_lopsided_interval) {
+    // Up milling along x: narrow and deep, or wide and shallow; the forces fit both.
+    const auto e = solver(0.02).solve(measured({.side = CutSide::up, .immersion = 0.25}, 8.0), 0.05, CutSide::up);
+    CHECK(e.depth_at_low_mm - e.axial_depth_mm > 1.5 * (e.axial_depth_mm - e.depth_at_high_mm));
+    DOUBLES_EQUAL((e.depth_at_low_mm - e.axial_depth_mm) / 1.96, e.axial_depth_force_sd_mm, 0.15);
+    CHECK(e.radial_immersion_sd >= (e.radial_immersion_high - e.radial_immersion) / 1.961);
+}
+
+TEST(EngagementSolver, counts_that_an_edge_force_is_a_larger_share_where_K_s_is_smaller_than_told) {
+    auto told = linear_edge_law(1650.0, 22.0, 620.0, 28.0);
+    told.K_s_relative_sd = 0.15;
+    const EngagementSolver<double> solver_of_told(told, {});
+    for (const double K_s_ratio : {0.75, 1.3}) {
+        auto truth = told;
+        truth.k_s_N_per_mm2 *= K_s_ratio;
+        const auto forces = average_forces(truth, {0.03, 6.0, engagement_angles(CutSide::up, 0.8), 4.0});
+        AverageForceMeasurement<double> m;
+        m.tangential_N = {true, forces.tangential_N, 4.0};
+        m.x_N = {true, forces.feed_N, 4.0};
+        const auto e = solver_of_told.solve(m, 0.03, CutSide::up);
+        CHECK(e.radial_immersion_low < 0.8);
+        CHECK(e.radial_immersion_high > 0.8);
+    }
+}

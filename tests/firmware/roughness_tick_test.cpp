@@ -187,7 +187,9 @@ TEST(RoughnessTick, does_not_raise_the_feed_under_a_limit_without_a_prediction) 
 }
 
 TEST(RoughnessTick, keeps_the_upper_bound_below_its_limit_in_a_loop_whose_surface_grows_rough) {
-    const Parameters p = with_limit(2.0F);
+    Parameters p = with_limit(2.0F);
+    p.tool.law.K_s_relative_sd = 1.0F;  // these forces stay as they are whatever the feed, and no law explains that
+    p.tool.law.r_1_relative_sd = 1.0F;
     ForceControlTick<float> tick(p);
     float speed_share = 0.5F;  // of the programmed feed; follows the override with a lag of 20 ms
     float slowest = 10.0F;

@@ -180,6 +180,9 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     }
     const bool has_tooth_force = FeedLaw<Scalar>::applies_to(input.cut) && input.cut.tooth_force_valid;
     const bool has_roughness = predicts_a_ceiling(input.surface) && input.surface.in_range;
+    if (input.cut.law_is_refuted) {
+        lowest.lower_to(situation.override_ratio, Limit::law_misfit);
+    }
     if (!has_tooth_force || (asks_for_roughness && !has_roughness)) {
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
     }

@@ -74,12 +74,13 @@ enum class Limit : std::uint8_t {
     operator_limit = 7,
     no_estimate = 8,  ///< held where it was for want of an estimate
     feed_per_tooth = 9,
-    roughness = 10,  ///< the upper bound of the predicted R_a is at its limit
+    roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
+    law_misfit = 11,  ///< held where it was: the forces contradict each other, or the law of the cut
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
 inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::bad_configuration) + 1U;
-inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::roughness) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::law_misfit) + 1U;
 
 constexpr const char* name(CutState state) {
     constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
@@ -95,7 +96,7 @@ constexpr const char* name(Fault fault) {
 constexpr const char* name(Limit limit) {
     constexpr const char* names[limit_count] = {"none",        "force",          "override_max", "override_min",
                                                 "air_feed",    "entry_feed",     "surge",        "operator_limit",
-                                                "no_estimate", "feed_per_tooth", "roughness"};
+                                                "no_estimate", "feed_per_tooth", "roughness",    "law_misfit"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

@@ -60,6 +60,7 @@ struct CutEstimateForControl {
     bool tooth_force_is_bound = false;  ///< it is the most that the force can be: no sign of an overload
     Scalar tooth_force_N{0};            ///< peak force of one tooth; without an immersion, the worst it can be
     Scalar least_tooth_force_N{0};      ///< the least that it can be, whatever the immersion
+    bool law_is_refuted = false;        ///< no cut by the law has these forces: one of them may lie
     Scalar surge_ratio{1};              ///< tooth force after a surge to surge_radial_immersion, per tooth force now
     Scalar cutting_share{1};            ///< c: share of the force that is not edge force
     Scalar surge_cutting_share{1};      ///< the same after a surge

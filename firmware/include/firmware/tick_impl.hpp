@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "estimation/engagement/side_choice.hpp"
 #include "firmware/carried_immersion_impl.hpp"
 #include "firmware/surface_monitor_impl.hpp"
 #include "firmware/tick.hpp"
@@ -202,6 +203,7 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_valid = tooth.valid;
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
+    cut.law_is_refuted = estimation::is_refuted(e.engagement);
     cut.tooth_force_N = tooth.valid ? tooth.value + control_parameters_.caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
     if (e.newest_tangential_N > Scalar(0)) {

@@ -38,7 +38,7 @@ class EngagementPeaks {
         Scalar at_low{1};  ///< at the ends of the immersion's interval
         Scalar at_high{1};
         Scalar by_K_s{0};     ///< change of `now` by one deviation of K_s
-        Scalar bound{1};      ///< of the narrowest cut and the smallest depth that the forces allow
+        Scalar bound{1};      ///< the most that the forces allow
         Scalar narrowest{1};  ///< the same where no force says anything
         Scalar surge{1};      ///< where it is wider than now
         Scalar turn{1};
@@ -66,7 +66,9 @@ class EngagementPeaks {
     [[nodiscard]] Scalar factor(const Place& cut, Scalar depth_mm) const;
     void take_place(const EngagementEstimate<Scalar>& found);
     void read_changes(const Table& table);
-    void read_bounds(const EngagementEstimate<Scalar>& found);
+    void read_bounds(const EngagementEstimate<Scalar>& found, const Table& table, const typename Table::Feed& feed);
+    [[nodiscard]] Scalar largest_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
+                                               const typename Table::Feed& feed) const;
     [[nodiscard]] Scalar change_by_K_s(const Table& table, const typename Table::Feed& feed) const;
 
     ToothPeakTable<Scalar> down_{};

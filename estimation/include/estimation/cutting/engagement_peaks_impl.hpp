@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/cutting/engagement_peaks.hpp"
+#include "estimation/engagement/side_choice.hpp"
 
 #include <cmath>
 
@@ -40,7 +41,7 @@ void EngagementPeaks<Scalar>::take(const EngagementEstimate<Scalar>& found, cons
     factors_.slot = factor(slot_, depth_mm_);
     factors_.by_K_s = change_by_K_s(table, feed);
     read_changes(table);
-    read_bounds(found);
+    read_bounds(found, table, feed);
 }
 
 template <typename Scalar>
@@ -76,18 +77,41 @@ void EngagementPeaks<Scalar>::read_changes(const Table& table) {
 }
 
 template <typename Scalar>
-void EngagementPeaks<Scalar>::read_bounds(const EngagementEstimate<Scalar>& found) {
+void EngagementPeaks<Scalar>::read_bounds(const EngagementEstimate<Scalar>& found, const Table& table,
+                                          const typename Table::Feed& feed) {
     const Place low{found.engagement_low_rad, found.radial_immersion_low};
     if (found.immersion_valid) {
         const bool has_depth = found.axial_depth_mm > Scalar(0);
         const Place high{found.engagement_high_rad, found.radial_immersion_high};
         factors_.at_low = factor(low, has_depth ? found.depth_at_low_mm : depth_mm_);
         factors_.at_high = factor(high, has_depth ? found.depth_at_high_mm : depth_mm_);
+    } else if (is_refuted(found)) {
+        factors_.bound = largest_by_tangential(found, table, feed);
     } else if (found.solved) {
+        // The narrowest cut and the smallest depth that the forces allow.
         factors_.bound = factor(low, found.depth_at_high_mm);
     } else {
         factors_.narrowest = factor(Place{}, Scalar(0));
     }
+}
+
+/// Any immersion of the interval is possible, each with the depth that F_at asks for there. The worst is neither the
+/// narrowest cut, whose long edge comes in bit by bit, nor the widest, whose teeth share the load.
+template <typename Scalar>
+Scalar EngagementPeaks<Scalar>::largest_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
+                                                      const typename Table::Feed& feed) const {
+    using elementary::cos;
+    constexpr int places = 9;
+    const Scalar step_rad = (found.engagement_high_rad - found.engagement_low_rad) / Scalar(places - 1);
+    const Scalar tangential_N = found.depth_at_high_mm * table.at(found.engagement_high_rad, feed).tangential_N;
+    Scalar largest{0};
+    for (int k = 0; k < places; ++k) {
+        const Scalar theta_rad = found.engagement_low_rad + step_rad * Scalar(k);
+        const Scalar depth_mm = tangential_N / table.at(theta_rad, feed).tangential_N;
+        const Scalar here = factor({theta_rad, Scalar(1) - cos(theta_rad)}, depth_mm);
+        largest = here > largest ? here : largest;
+    }
+    return largest;
 }
 
 /// An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.

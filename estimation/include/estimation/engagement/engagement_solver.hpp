@@ -57,11 +57,11 @@ class EngagementSolver {
     EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings,
                      CutSide side = CutSide::unknown);
 
-    /// Begins a solution. A side that is told is tried first, and the other one only where the forces refute it
-    /// (J > 16): then the other one is taken if it fits. With CutSide::unknown both down and up are tried and the one
-    /// that fits better by more than 3.84 is taken; where neither does, the estimate is valid only if both give the
-    /// same immersion. Forces that refute both sides give no estimate, and as the interval all immersions at which the
-    /// flutes are long enough for F_at.
+    /// Begins a solution. A side that is told is tried first, and the other one only where the told one fits badly
+    /// (J > 9): the other one is taken if its J is smaller by as much. With CutSide::unknown both down and up are tried
+    /// and the one that fits better by more than 3.84 is taken; where neither does, the estimate is valid only if both
+    /// give the same immersion. Forces that refute both sides give no estimate, and as the interval all immersions at
+    /// which the flutes are long enough for F_at.
     ///
     /// Where forces that a side explains tell the depth less than half as well as the `remembered` one is known, the
     /// immersion is looked for once more with it; a depth that these forces refute is not used.

@@ -111,7 +111,7 @@ void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
     const CutSide first = first_side(s.asked_);
     const bool is_first = s.side_ == first;
     const bool other_may_fit =
-        s.asked_ == CutSide::unknown || (s.asked_ != CutSide::centred && is_refuted(s.estimate_));
+        s.asked_ == CutSide::unknown || (s.asked_ != CutSide::centred && may_be_the_other_side(s.estimate_));
     if (is_first && other_may_fit) {
         s.first_ = s.estimate_;
         begin_side(s, first == CutSide::down ? CutSide::up : CutSide::down);
@@ -182,7 +182,7 @@ void EngagementSolver<Scalar, Nodes>::withdraw(Search& s) const {
     e.radial_immersion_high = Scalar(2);
     e.radial_immersion_sd = (e.radial_immersion_high - e.radial_immersion_low) / width_of_95_percent<Scalar>;
     e.depth_at_low_mm = s.profile_.depth_by_tangential_mm(forces, narrowest);
-    e.depth_at_high_mm = e.depth_at_low_mm;
+    e.depth_at_high_mm = s.profile_.depth_by_tangential_mm(forces, nodes - 1);
 }
 
 template <typename Scalar, int Nodes>
@@ -401,6 +401,14 @@ std::size_t EngagementSolver<Scalar, Nodes>::last_inside(Search& s, std::size_t 
     return s.is_inside(next) ? next : node;
 }
 
+/// Of a 95 % interval that may be lopsided: by its longer side. At R_r = 2 there is only one.
+template <typename Scalar>
+Scalar sd_of_interval(Scalar low, Scalar value, Scalar high) {
+    const Scalar below = value - low;
+    const Scalar above = high - value;
+    return (below > above ? below : above) / deviations_of_95_percent<Scalar>;
+}
+
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
     using elementary::cos;
@@ -437,7 +445,7 @@ void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
     e.radial_immersion_low = Scalar(1) - cos(e.engagement_low_rad);
     e.radial_immersion_high = Scalar(1) - cos(e.engagement_high_rad);
     const Scalar width = e.radial_immersion_high - e.radial_immersion_low;
-    e.radial_immersion_sd = width / width_of_95_percent<Scalar>;
+    e.radial_immersion_sd = sd_of_interval(e.radial_immersion_low, e.radial_immersion, e.radial_immersion_high);
     e.misfit = s.best_.misfit;
     e.solved = true;
     e.immersion_valid = width <= settings_.widest_interval;
@@ -454,7 +462,7 @@ void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     }
     e.depth_at_low_mm = s.profile_.at(table(s.side_), e.engagement_low_rad).depth_mm;
     e.depth_at_high_mm = s.profile_.at(table(s.side_), e.engagement_high_rad).depth_mm;
-    const Scalar spread_mm = (e.depth_at_high_mm - e.depth_at_low_mm) / width_of_95_percent<Scalar>;
+    const Scalar spread_mm = sd_of_interval(e.depth_at_high_mm, best.depth_mm, e.depth_at_low_mm);
     const Scalar by_K_s = square(best.depth_mm) * s.profile_.doubt_of_K_s().variance_at(best.ln_t_in_references);
     const Scalar flute_mm = settings_.flute_length_mm;
     e.axial_depth_mm = flute_mm > Scalar(0) && best.depth_mm > flute_mm ? flute_mm : best.depth_mm;

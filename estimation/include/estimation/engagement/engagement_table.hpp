@@ -41,7 +41,9 @@ class EngagementTable {
         Scalar feed_per_ln_r_1_N{0};
         Scalar normal_per_ln_r_1_N{0};
         Scalar cutting_tangential_N{0};  ///< of tangential_N: what is not edge force
-        Scalar ln_t_in_references{0};    ///< ln(t_a/t_ref); 0 if there is no t_ref
+        Scalar edge_feed_N{0};           ///< of feed_N: what is edge force
+        Scalar edge_normal_N{0};
+        Scalar ln_t_in_references{0};  ///< ln(t_a/t_ref); 0 if there is no t_ref
     };
 
     /// What the table holds of one engagement, whatever the feed.
@@ -124,8 +126,10 @@ class EngagementTable {
         f.tangential_N = f.cutting_tangential_N + Scalar(n[e_t]);
         f.feed_per_ln_r_1_N = Gr * Scalar(n[b_x]);
         f.normal_per_ln_r_1_N = Gr * Scalar(n[b_y]);
-        f.feed_N = feed.G_N_per_mm * Scalar(n[a_x]) + f.feed_per_ln_r_1_N + Scalar(n[e_x]);
-        f.normal_N = feed.G_N_per_mm * Scalar(n[a_y]) + f.normal_per_ln_r_1_N + Scalar(n[e_y]);
+        f.edge_feed_N = Scalar(n[e_x]);
+        f.edge_normal_N = Scalar(n[e_y]);
+        f.feed_N = feed.G_N_per_mm * Scalar(n[a_x]) + f.feed_per_ln_r_1_N + f.edge_feed_N;
+        f.normal_N = feed.G_N_per_mm * Scalar(n[a_y]) + f.normal_per_ln_r_1_N + f.edge_normal_N;
         f.ln_t_in_references = feed.ln_f_in_references + Scalar(n[ln_sine]);
         return f;
     }

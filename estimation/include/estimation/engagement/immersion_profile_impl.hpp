@@ -33,7 +33,9 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
     return value_of(table.at_node(node, feed_), table.angle_rad(Scalar(static_cast<int>(node))));
 }
 
-/// The doubt in r_1 acts along the feed and across it at once; its size per F_at is known at each immersion.
+/// What the doubts of the law leave open of a force beside a given F_at. That of r_1 acts along the feed and across it
+/// at once. That of K_s acts where there are edge forces, which it does not change: they are another share of F_at
+/// then.
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::along_axis(
     const Measurement<Scalar>& force_N, const typename Table::Forces& model, Scalar direction_x,
@@ -45,8 +47,12 @@ typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::
     const Scalar per_ln_r_1 =
         per_F_at * (direction_x * model.feed_per_ln_r_1_N - direction_y * model.normal_per_ln_r_1_N);
     const Scalar by_r_1 = square(per_ln_r_1) * r_1_.variance_at(model.ln_t_in_references);
-    return {force_N.value, direction_x * model.feed_N - direction_y * model.normal_N,
-            Scalar(1) / (force_N.variance + by_r_1)};
+    const Scalar per_mm = direction_x * model.feed_N - direction_y * model.normal_N;
+    const Scalar edge_per_mm = direction_x * model.edge_feed_N - direction_y * model.edge_normal_N;
+    const Scalar edge_tangential = model.tangential_N - model.cutting_tangential_N;
+    const Scalar per_ln_K_s = per_F_at * (per_mm * edge_tangential / model.tangential_N - edge_per_mm);
+    const Scalar by_K_s = square(per_ln_K_s) * K_s_.variance_at(model.ln_t_in_references);
+    return {force_N.value, per_mm, Scalar(1) / (force_N.variance + by_r_1 + by_K_s)};
 }
 
 /// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the relative variance of

@@ -29,11 +29,22 @@ template <typename Scalar>
     return found.misfit > misfit_of_a_wrong_model<Scalar>;
 }
 
-/// What a side was told to be holds until the forces refute it and fit the other side.
+/// By so much another side than the told one must fit better: three deviations.
+template <typename Scalar>
+inline constexpr Scalar advantage_of_the_other_side{9};
+
+/// The told side fits so badly that the other one is worth a look.
+template <typename Scalar>
+[[nodiscard]] bool may_be_the_other_side(const EngagementEstimate<Scalar>& told) {
+    return told.misfit > advantage_of_the_other_side<Scalar>;
+}
+
+/// A side that was told holds until the forces clearly fit the other one.
 template <typename Scalar>
 [[nodiscard]] EngagementEstimate<Scalar> told_or_other_side(const EngagementEstimate<Scalar>& told,
                                                             const EngagementEstimate<Scalar>& other) {
-    return other.solved && !is_refuted(other) ? other : told;
+    const bool is_clear = told.misfit - other.misfit > advantage_of_the_other_side<Scalar>;
+    return other.solved && !is_refuted(other) && is_clear ? other : told;
 }
 
 /// The side of a tool whose side is not known: the one that fits better by more than 95 %. Where neither does, the

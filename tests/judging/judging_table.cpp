@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "files/parameter_files.hpp"
+#include "judging/judge.hpp"
+
+/// Prints how the estimates of many drawn cuts hold against the truth: judging_table [CUTS] [FIRST_SEED].
+
+namespace {
+
+using namespace millforce;
+using namespace millforce::judging;
+
+Tally tally_of(const firmware::Parameters<float>& files, Wrong wrong, int cuts, std::uint64_t first_seed) {
+    Tally tally;
+    for (int i = 0; i < cuts; ++i) {
+        tally.add(judge(draw_cut(files, wrong, first_seed + static_cast<std::uint64_t>(i))));
+    }
+    return tally;
+}
+
+std::string percent(int part, int whole) {
+    return whole == 0 ? "–" : fmt::format("{:.1f}", 100.0 * part / whole);
+}
+
+void print(Wrong wrong, const Tally& t) {
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} ({:.2f}) | {} |\n", name_of(wrong),
+               percent(t.cuts_with_immersion, t.cuts), percent(t.immersions_cover, t.cuts_with_immersion),
+               percent(t.immersions_beyond, t.immersions), percent(t.cuts_with_depth, t.cuts),
+               percent(t.depths_cover, t.cuts_with_depth), percent(t.depths_beyond, t.depths), t.depths_beyond_flute,
+               percent(t.cuts_too_fast, t.cuts), t.largest_excess, percent(t.faults, t.cuts));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int cuts = argc > 1 ? std::max(1, std::atoi(argv[1])) : 200;
+    const auto first_seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
+    const std::string scenarios = std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/";
+    const auto files = host::read_parameters(scenarios + "machines/vmc.toml", scenarios + "tools/endmill_10mm.toml");
+    std::vector<Tally> tallies(all_wrongs.size());
+    const auto work = [&](std::size_t first) {
+        for (std::size_t i = first; i < all_wrongs.size(); i += 2) {
+            tallies[i] = tally_of(files, all_wrongs[i], cuts, first_seed);
+        }
+    };
+    std::thread other(work, 1);
+    work(0);
+    other.join();
+    fmt::print(
+        "| wrong | R_r, % of cuts | covered | beyond 3 sd | a_p, % of cuts | covered | beyond 3 sd | beyond the "
+        "flute | too fast, % of cuts (worst) | faults, % |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    for (std::size_t i = 0; i < all_wrongs.size(); ++i) {
+        print(all_wrongs[i], tallies[i]);
+    }
+}
