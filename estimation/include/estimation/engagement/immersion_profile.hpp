@@ -64,9 +64,18 @@ class ImmersionProfile {
     };
 
     [[nodiscard]] Value value_of(const typename Table::Forces& model, Scalar theta_rad) const;
+    /// How well the law is known at an immersion, and what it is applied to.
+    struct LawDoubt {
+        Scalar depth_mm{0};    // that F_at alone asks for
+        Scalar edge_share{0};  // of F_at
+        Scalar K_s{0};         // variances of ln K_s and ln r_1
+        Scalar r_1{0};
+    };
+
+    [[nodiscard]] LawDoubt law_doubt(const typename Table::Forces& model) const;
     [[nodiscard]] Term along_axis(const Measurement<Scalar>& force_N, const typename Table::Forces& model,
-                                  Scalar direction_x, Scalar direction_y) const;
-    [[nodiscard]] Term of_known_depth(Scalar ln_t_in_references) const;
+                                  const LawDoubt& doubt, Scalar direction_x, Scalar direction_y) const;
+    [[nodiscard]] Term of_known_depth(const LawDoubt& doubt) const;
 
     AverageForceMeasurement<Scalar> forces_{};  // variances along the axes with the law's misfit
     KnownDepth<Scalar> known_{};

@@ -38,32 +38,37 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
 /// then.
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::along_axis(
-    const Measurement<Scalar>& force_N, const typename Table::Forces& model, Scalar direction_x,
+    const Measurement<Scalar>& force_N, const typename Table::Forces& model, const LawDoubt& doubt, Scalar direction_x,
     Scalar direction_y) const {
     if (!force_N.valid) {
         return {};
     }
-    const Scalar per_F_at = forces_.tangential_N.value / model.tangential_N;
-    const Scalar per_ln_r_1 =
-        per_F_at * (direction_x * model.feed_per_ln_r_1_N - direction_y * model.normal_per_ln_r_1_N);
-    const Scalar by_r_1 = square(per_ln_r_1) * r_1_.variance_at(model.ln_t_in_references);
     const Scalar per_mm = direction_x * model.feed_N - direction_y * model.normal_N;
     const Scalar edge_per_mm = direction_x * model.edge_feed_N - direction_y * model.edge_normal_N;
-    const Scalar edge_tangential = model.tangential_N - model.cutting_tangential_N;
-    const Scalar per_ln_K_s = per_F_at * (per_mm * edge_tangential / model.tangential_N - edge_per_mm);
-    const Scalar by_K_s = square(per_ln_K_s) * K_s_.variance_at(model.ln_t_in_references);
-    return {force_N.value, per_mm, Scalar(1) / (force_N.variance + by_r_1 + by_K_s)};
+    const Scalar per_ln_r_1 = direction_x * model.feed_per_ln_r_1_N - direction_y * model.normal_per_ln_r_1_N;
+    const Scalar per_ln_K_s = per_mm * doubt.edge_share - edge_per_mm;
+    const Scalar by_law =
+        doubt.r_1 * square(doubt.depth_mm * per_ln_r_1) + doubt.K_s * square(doubt.depth_mm * per_ln_K_s);
+    return {force_N.value, per_mm, Scalar(1) / (force_N.variance + by_law)};
+}
+
+template <typename Scalar, int Nodes>
+typename ImmersionProfile<Scalar, Nodes>::LawDoubt ImmersionProfile<Scalar, Nodes>::law_doubt(
+    const typename Table::Forces& model) const {
+    const Scalar mm_per_N = Scalar(1) / model.tangential_N;
+    return {forces_.tangential_N.value * mm_per_N, Scalar(1) - model.cutting_tangential_N * mm_per_N,
+            K_s_.variance_at(model.ln_t_in_references), r_1_.variance_at(model.ln_t_in_references)};
 }
 
 /// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the relative variance of
 /// this term is the sum of both.
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::of_known_depth(
-    Scalar ln_t_in_references) const {
+    const LawDoubt& doubt) const {
     if (!(known_.depth_mm > Scalar(0))) {
         return {};
     }
-    const Scalar by_K_s = known_.K_s_is_in_doubt ? K_s_.variance_at(ln_t_in_references) : Scalar(0);
+    const Scalar by_K_s = known_.K_s_is_in_doubt ? doubt.K_s : Scalar(0);
     const Scalar relative_variance = square(known_.relative_sd) + by_K_s;
     return {known_.depth_mm, Scalar(1), Scalar(1) / (square(known_.depth_mm) * relative_variance)};
 }
@@ -74,10 +79,11 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
     using elementary::cos;
     const Scalar t_x = forces_.feed_direction_x;
     const Scalar t_y = forces_.feed_direction_y;
+    const LawDoubt doubt = law_doubt(model);
     const Term terms[] = {{forces_.tangential_N.value, model.tangential_N, tangential_weight_},
-                          along_axis(forces_.x_N, model, t_x, t_y),
-                          along_axis(forces_.y_N, model, t_y, -t_x),
-                          of_known_depth(model.ln_t_in_references)};
+                          along_axis(forces_.x_N, model, doubt, t_x, t_y),
+                          along_axis(forces_.y_N, model, doubt, t_y, -t_x),
+                          of_known_depth(doubt)};
     Scalar wgg{0};
     Scalar wmg{0};
     for (const Term& term : terms) {
