@@ -142,8 +142,21 @@ TEST(Ceilings, forces_that_contradict_the_law_raise_nothing_and_still_lower) {
     CHECK(held.limit == Limit::law_misfit);
     STRCMP_EQUAL("law_misfit", name(held.limit));
     Input heavy = light;
-    heavy.cut.tooth_force_N = 5000.0F;
+    heavy.cut.tooth_force_N = 1300.0F;
     CHECK(repeat(controller, heavy, 20).ratio < 0.5F * before);
     light.cut.law_is_refuted = false;
     CHECK(repeat(controller, light, 20).ratio > before);
+}
+
+TEST(Ceilings, where_a_surge_may_come_and_the_immersion_is_not_known_the_feed_is_that_of_an_entry) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    bring_into_cut(controller);
+    Input bound = in_contact();
+    bound.cut.tooth_force_is_bound = true;
+    bound.cut.tooth_force_N = 100.0F;
+    const Output output = repeat(controller, bound, 20);
+    check_ratio(ratio_of(p.entry_feed_per_tooth_mm, bound), output);
+    CHECK(output.limit == Limit::surge);
 }

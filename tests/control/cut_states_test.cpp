@@ -184,24 +184,35 @@ TEST(Faults, one_estimate_is_a_revolution_of_overload_however_many_teeth_have_pa
     CHECK(controller.step(heavy).fault == Fault::overload);
 }
 
-TEST(Faults, a_guessed_tooth_force_is_no_overload_and_asks_for_no_less_than_the_entry_feed) {
-    const Parameters p;
+TEST(Faults, a_guessed_tooth_force_is_no_overload_but_lowers_the_feed) {
     for (const bool is_bound : {false, true}) {
         Controller controller;
-        const float before = bring_into_cut(controller).ratio;
+        bring_into_cut(controller);
         Input guessed = in_contact();
         guessed.cut.tooth_force_valid = is_bound;
         guessed.cut.tooth_force_is_bound = is_bound;
-        guessed.cut.tooth_force_N = 5000.0F;
+        guessed.cut.tooth_force_N = 2000.0F;
         const Output output = repeat(controller, guessed, 1000);
         CHECK(output.fault == Fault::none);
-        const float entry = ratio_of(p.entry_feed_per_tooth_mm, guessed);
-        DOUBLES_EQUAL(static_cast<double>(is_bound ? entry : std::fmin(before, entry)),
-                      static_cast<double>(output.ratio), 1e-4);
-        guessed.cut.least_tooth_force_N = 2000.0F;  // that much is certain, and it lowers the feed
         const float law = std::pow(970.0F / 2000.0F, 1.0F / 0.75F);
-        DOUBLES_EQUAL(static_cast<double>(law), static_cast<double>(repeat(controller, guessed, 100).ratio), 1e-5);
+        DOUBLES_EQUAL(static_cast<double>(law), static_cast<double>(output.ratio), 1e-5);
     }
+}
+
+TEST(Faults, a_cutter_that_enters_goes_no_slower_than_the_entry_feed_but_for_a_force_that_is_certain) {
+    Parameters p;
+    p.entry_travel_mm = 1000.0F;
+    Controller controller(p);
+    Input guessed = in_contact();
+    guessed.cut.tooth_force_is_bound = true;
+    guessed.cut.tooth_force_N = 2000.0F;
+    const Output output = repeat(controller, guessed, 1000);
+    CHECK(output.state == CutState::entry);
+    DOUBLES_EQUAL(static_cast<double>(ratio_of(p.entry_feed_per_tooth_mm, guessed)), static_cast<double>(output.ratio),
+                  1e-4);
+    guessed.cut.least_tooth_force_N = 2000.0F;
+    const float law = std::pow(970.0F / 2000.0F, 1.0F / 0.75F);
+    DOUBLES_EQUAL(static_cast<double>(law), static_cast<double>(repeat(controller, guessed, 100).ratio), 1e-5);
 }
 
 TEST(Faults, stale_input_latches_in_every_state) {

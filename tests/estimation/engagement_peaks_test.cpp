@@ -47,7 +47,7 @@ TEST(EngagementPeaks, bound_the_tooth_of_any_cut_that_has_the_tangential_force_w
         solver.begin(search, m, feed_per_tooth_mm, CutSide::down);
         while (!solver.advance(search, 10)) {
         }
-        peaks.take(search.estimate(), solver, search.feed());
+        peaks.take(search.estimate(), solver, F_at_N, feed_per_tooth_mm);
         float worst = 0.0F;
         for (float immersion = search.estimate().radial_immersion_low; immersion < 2.0F; immersion += 0.1F) {
             const float depth_mm = depth_for(F_at_N, immersion);

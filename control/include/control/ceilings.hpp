@@ -18,8 +18,9 @@
 ///   feed per tooth   f_z,max z n/F: what edge and chip space allow
 ///   force      the demand of the law (feed_law.hpp)
 ///   surge      the override at which a surge to surge_radial_immersion would reach surge_share of the limit, by the
-///              law with F · surge_ratio. While the cut grows, the surge is under way: then also the override at the
-///              last estimate before the growth, until it is over (cut_trend.hpp).
+///              law with F · surge_ratio; the entry feed where the immersion is not known. While the cut grows, the
+///              surge is under way: then also the override at the last estimate before the growth, until it is over
+///              (cut_trend.hpp).
 ///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way
@@ -89,6 +90,7 @@ class Ceilings {
                         const Situation& situation) const;
     void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
                       const Situation& situation) const;
+    [[nodiscard]] static Scalar ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 
     Scalar highest_programmed_feed_mm_s_{0};

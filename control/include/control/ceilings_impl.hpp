@@ -57,12 +57,7 @@ void Ceilings<Scalar>::follow_surge(const Parameters& parameters, const ControlI
         return;
     }
     if (FeedLaw<Scalar>::applies_to(cut)) {
-        const bool may_surge = parameters.surge_radial_immersion > Scalar(0) && cut.surge_ratio > Scalar(1);
-        surge_ceiling_ =
-            may_surge ? FeedLaw<Scalar>::override_for(
-                            parameters, input,
-                            {parameters.surge_share, cut.tooth_force_N * cut.surge_ratio, cut.surge_cutting_share})
-                      : parameters.override_max;
+        surge_ceiling_ = ceiling_of_surge(parameters, input);
         trend_.update(cut.section_mm2, cut.section_noise_mm2, travel_since_estimate_mm_);
         travel_since_estimate_mm_ = Scalar(0);
         if (situation.state != CutState::in_cut) {
@@ -72,6 +67,23 @@ void Ceilings<Scalar>::follow_surge(const Parameters& parameters, const ControlI
     if (!surge_is_under_way(parameters)) {
         override_before_growth_ = situation.override_ratio;
     }
+}
+
+/// From an immersion that is not known a surge may be of any size: then the feed is that of an entry.
+template <typename Scalar>
+Scalar Ceilings<Scalar>::ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input) {
+    const CutEstimateForControl<Scalar>& cut = input.cut;
+    if (!(parameters.surge_radial_immersion > Scalar(0))) {
+        return parameters.override_max;
+    }
+    if (cut.tooth_force_is_bound) {
+        return override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
+    }
+    return cut.surge_ratio > Scalar(1)
+               ? FeedLaw<Scalar>::override_for(
+                     parameters, input,
+                     {parameters.surge_share, cut.tooth_force_N * cut.surge_ratio, cut.surge_cutting_share})
+               : parameters.override_max;
 }
 
 template <typename Scalar>

@@ -33,13 +33,6 @@ Scalar FeedLaw<Scalar>::override_for(const Parameters& parameters, const Control
     return input.cut.feed_mm_s * exp(log(growth) / input.cut.feed_exponent) / input.programmed_feed_mm_s;
 }
 
-/// The immersion that the force was worked out with is not known: the arc of a cutter that enters follows no law, or
-/// the force is a bound alone.
-template <typename Scalar>
-static bool immersion_is_uncertain(const CutEstimateForControl<Scalar>& cut, CutState state) {
-    return state == CutState::entry || cut.tooth_force_is_bound || !cut.tooth_force_valid;
-}
-
 template <typename Scalar>
 void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state) {
     const Estimate& cut = input.cut;
@@ -51,13 +44,13 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
         return;
     }
     demand_ = override_for(parameters, input, {parameters.setpoint_share, cut.tooth_force_N, cut.cutting_share});
-    if (immersion_is_uncertain(cut, state)) {
+    if (state == CutState::entry) {
         demand_ = not_below_entry_feed(parameters, input, demand_);
     }
 }
 
-/// Uncertainty alone never pushes the demand below the entry feed, which is safe whatever the tool meets; only the
-/// smallest force that must be present can.
+/// The arc of a cutter that enters follows no law. What the law says of it never pushes the demand below the entry
+/// feed, which is safe at contact; only the smallest force that must be present can.
 template <typename Scalar>
 Scalar FeedLaw<Scalar>::not_below_entry_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
                                              Scalar demand) {

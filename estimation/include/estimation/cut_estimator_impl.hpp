@@ -87,7 +87,7 @@ bool CutEstimator<Scalar>::work(int solver_steps) {
             }
             return false;
         case Stage::peaks:
-            peaks_.take(search_.estimate(), solver_, search_.feed());
+            peaks_.take(search_.estimate(), solver_, in_work_.tangential_N.value, in_work_.feed_per_tooth_mm);
             in_work_.engagement = search_.estimate();
             tooth_force_.fill(in_work_, peaks_, solver_.table(peaks_.side()));
             publish();

@@ -124,6 +124,20 @@ TEST(ClosedLoop, holds_the_limit_in_up_milling_although_the_tool_file_says_down)
     holds_the_limit("width_step_up");
 }
 
+TEST(ClosedLoop, holds_the_limit_on_a_machine_whose_spindle_alone_is_measured) {
+    for (const char* name : {"depth_ramp", "width_step", "slot_entry", "interrupted", "zigzag"}) {
+        for (const Conditions& conditions : {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}}) {
+            Scenario scenario = scenario_named(name, conditions);
+            for (auto& axis : scenario.parameters.machine.axes) {
+                axis.K_x4_N_per_A = 0.0F;
+            }
+            const RunFigures figures = controlled(scenario);
+            CHECK(bounds_hold(figures));
+            STRCMP_EQUAL("none", figures.fault.c_str());
+        }
+    }
+}
+
 TEST(ClosedLoop, holds_the_limit_in_a_pocket_of_harder_steel) {
     CHECK(bounds_hold(controlled(scenario_named("pocket", {1.3, 0.8, 2}))));
 }

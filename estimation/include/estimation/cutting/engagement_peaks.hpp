@@ -37,19 +37,19 @@ class EngagementPeaks {
         Scalar slot{1};    ///< the widest cut at the same depth
         Scalar at_low{1};  ///< at the ends of the immersion's interval
         Scalar at_high{1};
-        Scalar by_K_s{0};     ///< change of `now` by one deviation of K_s
-        Scalar bound{1};      ///< the most that the forces allow
-        Scalar narrowest{1};  ///< the same where no force says anything
-        Scalar surge{1};      ///< where it is wider than now
+        Scalar by_K_s{0};  ///< change of `now` by one deviation of K_s
+        Scalar bound{1};   ///< without an immersion: the most that F_at allows
+        Scalar surge{1};   ///< where it is wider than now
         Scalar turn{1};
     };
 
     EngagementPeaks() = default;
     EngagementPeaks(const CuttingLaw<Scalar>& law, const Settings& settings);
 
-    /// A solution of the engagement, and the feed that it was solved for. Without an immersion the last one stays.
-    void take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver,
-              const typename Table::Feed& feed);
+    /// A solution of the engagement, and the force and the feed that it was solved for. Without an immersion the last
+    /// one stays.
+    void take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver, Scalar tangential_N,
+              Scalar feed_per_tooth_mm);
 
     [[nodiscard]] const Factors& factors() const { return factors_; }
     [[nodiscard]] const Place& now() const { return now_; }
@@ -66,9 +66,9 @@ class EngagementPeaks {
     [[nodiscard]] Scalar factor(const Place& cut, Scalar depth_mm) const;
     void take_place(const EngagementEstimate<Scalar>& found);
     void read_changes(const Table& table);
-    void read_bounds(const EngagementEstimate<Scalar>& found, const Table& table, const typename Table::Feed& feed);
-    [[nodiscard]] Scalar largest_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
-                                               const typename Table::Feed& feed) const;
+    void read_ends(const EngagementEstimate<Scalar>& found);
+    [[nodiscard]] Scalar bound_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
+                                             Scalar tangential_N, const typename Table::Feed& feed) const;
     [[nodiscard]] Scalar change_by_K_s(const Table& table, const typename Table::Feed& feed) const;
 
     ToothPeakTable<Scalar> down_{};

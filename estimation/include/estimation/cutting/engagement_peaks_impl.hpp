@@ -2,7 +2,6 @@
 #pragma once
 
 #include "estimation/cutting/engagement_peaks.hpp"
-#include "estimation/engagement/side_choice.hpp"
 
 #include <cmath>
 
@@ -33,15 +32,20 @@ typename EngagementPeaks<Scalar>::Place EngagementPeaks<Scalar>::place_of(Scalar
 
 template <typename Scalar>
 void EngagementPeaks<Scalar>::take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver,
-                                   const typename Table::Feed& feed) {
+                                   Scalar tangential_N, Scalar feed_per_tooth_mm) {
     take_place(found);
     const Table& table = solver.table(side_);
+    const typename Table::Feed feed = table.feed(feed_per_tooth_mm);
     here_node_ = table.between(now_.theta_rad);
     factors_.now = factor(now_, depth_mm_);
     factors_.slot = factor(slot_, depth_mm_);
     factors_.by_K_s = change_by_K_s(table, feed);
     read_changes(table);
-    read_bounds(found, table, feed);
+    if (found.immersion_valid) {
+        read_ends(found);
+    } else {
+        factors_.bound = bound_by_tangential(found, table, tangential_N, feed);
+    }
 }
 
 template <typename Scalar>
@@ -77,39 +81,34 @@ void EngagementPeaks<Scalar>::read_changes(const Table& table) {
 }
 
 template <typename Scalar>
-void EngagementPeaks<Scalar>::read_bounds(const EngagementEstimate<Scalar>& found, const Table& table,
-                                          const typename Table::Feed& feed) {
+void EngagementPeaks<Scalar>::read_ends(const EngagementEstimate<Scalar>& found) {
+    const bool has_depth = found.axial_depth_mm > Scalar(0);
     const Place low{found.engagement_low_rad, found.radial_immersion_low};
-    if (found.immersion_valid) {
-        const bool has_depth = found.axial_depth_mm > Scalar(0);
-        const Place high{found.engagement_high_rad, found.radial_immersion_high};
-        factors_.at_low = factor(low, has_depth ? found.depth_at_low_mm : depth_mm_);
-        factors_.at_high = factor(high, has_depth ? found.depth_at_high_mm : depth_mm_);
-    } else if (is_refuted(found)) {
-        factors_.bound = largest_by_tangential(found, table, feed);
-    } else if (found.solved) {
-        // The narrowest cut and the smallest depth that the forces allow.
-        factors_.bound = factor(low, found.depth_at_high_mm);
-    } else {
-        factors_.narrowest = factor(Place{}, Scalar(0));
-    }
+    const Place high{found.engagement_high_rad, found.radial_immersion_high};
+    factors_.at_low = factor(low, has_depth ? found.depth_at_low_mm : depth_mm_);
+    factors_.at_high = factor(high, has_depth ? found.depth_at_high_mm : depth_mm_);
 }
 
-/// Any immersion of the interval is possible, each with the depth that F_at asks for there. The worst is neither the
-/// narrowest cut, whose long edge comes in bit by bit, nor the widest, whose teeth share the load.
+/// Any immersion of the interval is possible, each with the depth that F_at asks for there, as far as the flutes reach.
+/// The worst is neither the narrowest cut, whose long edge comes in bit by bit, nor the widest, whose teeth share the
+/// load.
 template <typename Scalar>
-Scalar EngagementPeaks<Scalar>::largest_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
-                                                      const typename Table::Feed& feed) const {
+Scalar EngagementPeaks<Scalar>::bound_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
+                                                    Scalar tangential_N, const typename Table::Feed& feed) const {
     using elementary::cos;
     constexpr int places = 9;
-    const Scalar step_rad = (found.engagement_high_rad - found.engagement_low_rad) / Scalar(places - 1);
-    const Scalar tangential_N = found.depth_at_high_mm * table.at(found.engagement_high_rad, feed).tangential_N;
-    Scalar largest{0};
+    const Scalar low_rad =
+        found.solved && found.engagement_low_rad > Table::first_rad ? found.engagement_low_rad : Table::first_rad;
+    const Scalar high_rad = found.solved ? found.engagement_high_rad : table.last_rad();
+    const Scalar step_rad = (high_rad - low_rad) / Scalar(places - 1);
+    Scalar largest = factors_.slot;
     for (int k = 0; k < places; ++k) {
-        const Scalar theta_rad = found.engagement_low_rad + step_rad * Scalar(k);
+        const Scalar theta_rad = low_rad + step_rad * Scalar(k);
         const Scalar depth_mm = tangential_N / table.at(theta_rad, feed).tangential_N;
-        const Scalar here = factor({theta_rad, Scalar(1) - cos(theta_rad)}, depth_mm);
-        largest = here > largest ? here : largest;
+        if (depth_mm > Scalar(0) && depth_mm < largest_depth_mm_) {
+            const Scalar here = factor({theta_rad, Scalar(1) - cos(theta_rad)}, depth_mm);
+            largest = here > largest ? here : largest;
+        }
     }
     return largest;
 }

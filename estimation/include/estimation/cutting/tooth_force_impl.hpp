@@ -86,13 +86,10 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
         const Scalar by_factor = square(newest_N) * (square(factor_sd) + square(factors.by_K_s));
         e.tooth_force_N = {true, e.worst_tooth_force_N,
                            square(runout) * (square(factors.now) * window.variance + by_factor), Scalar(0)};
-    } else if (cut.solved && cut.depth_at_high_mm > Scalar(0)) {
-        // No estimate of the immersion, but a bound: the narrowest cut and the smallest depth that the forces allow
-        // load one tooth most. Where even that is far from the limit, the force is known well enough.
+    } else if (cut.solved || (!e.x_N.valid && !e.y_N.valid)) {
+        // No estimate of the immersion, but a bound. Where even that is far from the limit, the force is known well
+        // enough.
         bound_by(factors.bound);
-    } else if (!cut.solved && !e.x_N.valid && !e.y_N.valid) {
-        // Without a bound, axes too slow to show a force would never speed up; assume the narrowest, shallowest cut.
-        bound_by(factors.narrowest);
     }
 }
 

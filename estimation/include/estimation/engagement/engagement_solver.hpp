@@ -120,8 +120,6 @@ class EngagementSolver<Scalar, Nodes>::Search {
   public:
     [[nodiscard]] bool done() const { return phase_ == Phase::done; }
     [[nodiscard]] const EngagementEstimate<Scalar>& estimate() const { return estimate_; }
-    /// The feed of the last forces that could be solved for.
-    [[nodiscard]] const typename Table::Feed& feed() const { return profile_.feed(); }
     /// Gives it up: no estimate.
     void cancel() {
         estimate_ = {};
