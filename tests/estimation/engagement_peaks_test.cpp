@@ -48,6 +48,9 @@ TEST(EngagementPeaks, bound_the_tooth_of_any_cut_that_has_the_tangential_force_w
         while (!solver.advance(search, 10)) {
         }
         peaks.take(search.estimate(), solver, F_at_N, feed_per_tooth_mm);
+        while (peaks.search_due()) {
+            peaks.search(solver);
+        }
         float worst = 0.0F;
         for (float immersion = search.estimate().radial_immersion_low; immersion < 2.0F; immersion += 0.1F) {
             const float depth_mm = depth_for(F_at_N, immersion);

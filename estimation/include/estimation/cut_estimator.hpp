@@ -90,7 +90,7 @@ class CutEstimator {
     using Window = typename Averager::Window;
 
     /// What the next slice does.
-    enum class Stage : unsigned char { idle, engagement, peaks };
+    enum class Stage : unsigned char { idle, engagement, peaks, bound };
 
     [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average(const Window& window) const;
     [[nodiscard]] typename SpindleDrive<Scalar>::Average spindle_average_of_tooth(const Window& window) const;

@@ -89,11 +89,18 @@ bool CutEstimator<Scalar>::work(int solver_steps) {
         case Stage::peaks:
             peaks_.take(search_.estimate(), solver_, in_work_.tangential_N.value, in_work_.feed_per_tooth_mm);
             in_work_.engagement = search_.estimate();
-            tooth_force_.fill(in_work_, peaks_, solver_.table(peaks_.side()));
-            publish();
-            return true;
+            break;
+        case Stage::bound:
+            peaks_.search(solver_);
+            break;
     }
-    return false;
+    if (peaks_.search_due()) {
+        stage_ = Stage::bound;
+        return false;
+    }
+    tooth_force_.fill(in_work_, peaks_, solver_.table(peaks_.side()));
+    publish();
+    return true;
 }
 
 template <typename Scalar>

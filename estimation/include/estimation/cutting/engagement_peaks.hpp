@@ -47,9 +47,12 @@ class EngagementPeaks {
     EngagementPeaks(const CuttingLaw<Scalar>& law, const Settings& settings);
 
     /// A solution of the engagement, and the force and the feed that it was solved for. Without an immersion the last
-    /// one stays.
+    /// one stays, and a search for factors().bound is due.
     void take(const EngagementEstimate<Scalar>& found, const EngagementSolver<Scalar>& solver, Scalar tangential_N,
               Scalar feed_per_tooth_mm);
+    [[nodiscard]] bool search_due() const { return places_left_ > 0; }
+    /// One more part of that search.
+    void search(const EngagementSolver<Scalar>& solver);
 
     [[nodiscard]] const Factors& factors() const { return factors_; }
     [[nodiscard]] const Place& now() const { return now_; }
@@ -67,9 +70,8 @@ class EngagementPeaks {
     void take_place(const EngagementEstimate<Scalar>& found);
     void read_changes(const Table& table);
     void read_ends(const EngagementEstimate<Scalar>& found);
-    [[nodiscard]] Scalar bound_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
-                                             Scalar tangential_N, const typename Table::Feed& feed) const;
-    [[nodiscard]] Scalar change_by_K_s(const Table& table, const typename Table::Feed& feed) const;
+    void begin_search(const EngagementEstimate<Scalar>& found, const Table& table, Scalar tangential_N);
+    [[nodiscard]] Scalar change_by_K_s(const Table& table) const;
 
     ToothPeakTable<Scalar> down_{};
     ToothPeakTable<Scalar> up_{};
@@ -82,6 +84,11 @@ class EngagementPeaks {
     Scalar last_depth_mm_{0};
     Scalar depth_mm_{0};
     Factors factors_{};
+    typename Table::Feed feed_{};
+    Scalar tangential_N_{0};
+    Scalar place_rad_{0};  // that the search looks at next
+    Scalar step_rad_{0};
+    int places_left_ = 0;
     typename Table::Node here_node_{};
     typename Table::Node surge_node_{};
     typename Table::Node turn_node_{};

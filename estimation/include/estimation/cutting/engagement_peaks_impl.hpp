@@ -35,16 +35,17 @@ void EngagementPeaks<Scalar>::take(const EngagementEstimate<Scalar>& found, cons
                                    Scalar tangential_N, Scalar feed_per_tooth_mm) {
     take_place(found);
     const Table& table = solver.table(side_);
-    const typename Table::Feed feed = table.feed(feed_per_tooth_mm);
+    feed_ = table.feed(feed_per_tooth_mm);
     here_node_ = table.between(now_.theta_rad);
     factors_.now = factor(now_, depth_mm_);
     factors_.slot = factor(slot_, depth_mm_);
-    factors_.by_K_s = change_by_K_s(table, feed);
+    factors_.by_K_s = change_by_K_s(table);
     read_changes(table);
+    places_left_ = 0;
     if (found.immersion_valid) {
         read_ends(found);
     } else {
-        factors_.bound = bound_by_tangential(found, table, tangential_N, feed);
+        begin_search(found, table, tangential_N);
     }
 }
 
@@ -93,34 +94,42 @@ void EngagementPeaks<Scalar>::read_ends(const EngagementEstimate<Scalar>& found)
 /// The worst is neither the narrowest cut, whose long edge comes in bit by bit, nor the widest, whose teeth share the
 /// load.
 template <typename Scalar>
-Scalar EngagementPeaks<Scalar>::bound_by_tangential(const EngagementEstimate<Scalar>& found, const Table& table,
-                                                    Scalar tangential_N, const typename Table::Feed& feed) const {
-    using elementary::cos;
+void EngagementPeaks<Scalar>::begin_search(const EngagementEstimate<Scalar>& found, const Table& table,
+                                           Scalar tangential_N) {
     constexpr int places = 9;
-    const Scalar low_rad =
-        found.solved && found.engagement_low_rad > Table::first_rad ? found.engagement_low_rad : Table::first_rad;
+    const bool has_low = found.solved && found.engagement_low_rad > Table::first_rad;
     const Scalar high_rad = found.solved ? found.engagement_high_rad : table.last_rad();
-    const Scalar step_rad = (high_rad - low_rad) / Scalar(places - 1);
-    Scalar largest = factors_.slot;
-    for (int k = 0; k < places; ++k) {
-        const Scalar theta_rad = low_rad + step_rad * Scalar(k);
-        const Scalar depth_mm = tangential_N / table.at(theta_rad, feed).tangential_N;
+    place_rad_ = has_low ? found.engagement_low_rad : Table::first_rad;
+    step_rad_ = (high_rad - place_rad_) / Scalar(places - 1);
+    tangential_N_ = tangential_N;
+    places_left_ = places;
+    factors_.bound = factors_.slot;
+}
+
+template <typename Scalar>
+void EngagementPeaks<Scalar>::search(const EngagementSolver<Scalar>& solver) {
+    using elementary::cos;
+    constexpr int places_at_once = 3;
+    const Table& table = solver.table(side_);
+    for (int k = 0; k < places_at_once && places_left_ > 0; ++k) {
+        const Scalar depth_mm = tangential_N_ / table.at(place_rad_, feed_).tangential_N;
         if (depth_mm > Scalar(0) && depth_mm < largest_depth_mm_) {
-            const Scalar here = factor({theta_rad, Scalar(1) - cos(theta_rad)}, depth_mm);
-            largest = here > largest ? here : largest;
+            const Scalar here = factor({place_rad_, Scalar(1) - cos(place_rad_)}, depth_mm);
+            factors_.bound = here > factors_.bound ? here : factors_.bound;
         }
+        place_rad_ += step_rad_;
+        --places_left_;
     }
-    return largest;
 }
 
 /// An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
 template <typename Scalar>
-Scalar EngagementPeaks<Scalar>::change_by_K_s(const Table& table, const typename Table::Feed& feed) const {
+Scalar EngagementPeaks<Scalar>::change_by_K_s(const Table& table) const {
     using std::sqrt;
-    if (!(feed.G_N_per_mm > Scalar(0))) {
+    if (!(feed_.G_N_per_mm > Scalar(0))) {
         return Scalar(0);
     }
-    const Scalar variance = table.doubt_of_K_s().variance_at(Table::ln_t_in_references(here_node_, feed));
+    const Scalar variance = table.doubt_of_K_s().variance_at(Table::ln_t_in_references(here_node_, feed_));
     const Scalar shallower_mm = depth_mm_ * (Scalar(1) - sqrt(variance));
     return factor(now_, shallower_mm) - factors_.now;
 }
