@@ -307,37 +307,56 @@ TEST(Tick, takes_what_is_not_finite_for_what_is_not_present) {
     }
 }
 
-TEST(Tick, without_the_spindles_current_has_no_force_and_does_not_raise_the_feed_in_cut) {
-    ForceControlTick<float> tick = fresh_tick();
-    for (int k = 0; k < 600; ++k) {
-        step_and_work(tick, sample_of(k), program());
+TEST(Tick, holds_the_feed_where_encoder_or_spindle_current_are_missing_for_longer_than_a_sample_may_be_late) {
+    for (const hal::Present missing : {hal::Present::spindle_count, hal::Present::spindle_current}) {
+        for (const bool in_cut : {false, true}) {
+            ForceControlTick<float> tick = fresh_tick();
+            const int first = in_cut ? 600 : 100;
+            for (int k = 0; k < first; ++k) {
+                step_and_work(tick, sample_of(k), program());
+            }
+            float before = tick.control().ratio;
+            for (int k = first; k < first + 100; ++k) {
+                hal::DriveSample sample = sample_of(k);
+                sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(missing));
+                const auto output = step_and_work(tick, sample, program());
+                CHECK(is_sound(output));
+                CHECK(output.ratio <= before || !in_cut);
+                before = output.ratio;
+                CHECK_EQUAL(k - first >= 50, output.hold);
+            }
+            CHECK(tick.control().fault == Fault::stale_input);
+        }
     }
-    CHECK(tick.control().state == CutState::in_cut);
-    float before = tick.control().ratio;
-    for (int k = 600; k < 1500; ++k) {
+}
+
+TEST(Tick, waits_for_the_first_whole_sample_without_a_fault) {
+    ForceControlTick<float> tick = fresh_tick();
+    const float at_rest = tick.control().ratio;
+    for (int k = 0; k < 500; ++k) {
         hal::DriveSample sample = sample_of(k);
         sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(hal::Present::spindle_current));
         const auto output = step_and_work(tick, sample, program());
-        if (k > 700) {
-            CHECK_FALSE(tick.estimate().tangential_N.valid);
-            CHECK(output.ratio <= before);
-        }
-        CHECK(is_sound(output));
-        before = output.ratio;
+        CHECK(output.fault == 0);
+        CHECK(output.ratio <= std::fmax(at_rest, 0.1F));
     }
-    CHECK(tick.control().state == CutState::hold);
 }
 
-TEST(Tick, without_the_spindles_encoder_has_no_estimate_and_does_not_raise_the_feed) {
-    ForceControlTick<float> tick = fresh_tick();
-    float before = 0.1F;
-    for (int k = 0; k < 500; ++k) {
-        hal::DriveSample sample = sample_of(k);
-        sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(hal::Present::spindle_count));
-        const auto output = step_and_work(tick, sample, program());
-        CHECK_FALSE(tick.estimate().tangential_N.valid);
-        CHECK(output.ratio <= before);
-        before = output.ratio;
+TEST(Tick, faults_where_the_encoder_stands_in_air_and_the_current_says_that_the_tool_cuts) {
+    for (const bool is_cutting : {false, true}) {
+        ForceControlTick<float> tick = fresh_tick();
+        for (int k = 0; k < 150; ++k) {
+            step_and_work(tick, sample_of(k), program());
+        }
+        CHECK(tick.control().state == CutState::air);
+        const std::uint32_t last_count = sample_of(150).spindle_count;
+        for (int k = 150; k < 400; ++k) {
+            hal::DriveSample sample = sample_of(is_cutting ? k + 400 : 150);
+            sample.time_us = sample_of(k).time_us;
+            sample.spindle_count = last_count;
+            step_and_work(tick, sample, program());
+        }
+        CHECK(tick.control().fault == (is_cutting ? Fault::spindle_stopped : Fault::none));
     }
 }
 

@@ -26,10 +26,10 @@
 ///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way
 ///   operator   the operator's override below 1; NaN or infinite counts as 0
 ///
-/// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed or speed is not known, in a
-/// cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the forces
-/// contradict the law (limit law_misfit), since a drive that lies may show any force. In a cut that fades it
-/// is one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
+/// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
+/// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the
+/// forces contradict the law (limit law_misfit), since a drive that lies may show any force. In a cut that fades it is
+/// one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
 ///
 /// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. State kept until the next estimate
 /// has its own named member, override_before_growth_ for instance: the override at that moment.

@@ -148,6 +148,9 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, c
     lower_by_state(lowest, parameters, input, situation);
     lowest.lower_to(override_of_feed_per_tooth(parameters.max_feed_per_tooth_mm, parameters.teeth, input),
                     Limit::feed_per_tooth);
+    if (!input.cut.force_valid) {
+        lowest.lower_to(situation.override_ratio, Limit::no_estimate);
+    }
     if (!is_out_of_cut(situation.state)) {
         lower_in_cut(lowest, parameters, input, situation);
     }

@@ -32,7 +32,7 @@ enum class CutState : std::uint8_t {
     /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air.
     exit = 3,
 
-    /// There is nothing to judge by, or the feed is held: the override is not raised.
+    /// There is nothing to judge by, or the feed is held: the override is not raised, and the feed is to be held.
     /// Entered: from any state but fault while the feed is held, from entry or in_cut for want of an estimate.
     /// Left: by the next estimate once the feed is free, with contact → entry, without → exit.
     hold = 4,
@@ -57,8 +57,8 @@ enum class CutState : std::uint8_t {
 enum class Fault : std::uint8_t {
     none = 0,
     overload = 1,         ///< the tooth's force stayed above the stop level: the feed is held before the tooth breaks
-    stale_input = 2,      ///< no drive sample within the time limit
-    spindle_stopped = 3,  ///< the spindle stopped turning while the tool was in cut
+    stale_input = 2,      ///< no drive sample with encoder and spindle current within the time limit
+    spindle_stopped = 3,  ///< the spindle, or its encoder, stands while the tool is in cut
     bad_configuration = 4,
 };
 

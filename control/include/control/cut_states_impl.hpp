@@ -126,7 +126,8 @@ void CutStates<Scalar>::watch_input(const Parameters& parameters, const ControlI
 template <typename Scalar>
 void CutStates<Scalar>::watch_spindle(const Parameters& parameters, const ControlInput<Scalar>& input,
                                       const StepMotion<Scalar>& motion) {
-    const bool rubs = is_cutting(state_) && !input.cut.spindle_turning && motion.path_speed_mm_s > Scalar(0);
+    const bool cuts = is_cutting(state_) || input.cut.spindle_loaded_at_rest;
+    const bool rubs = cuts && !input.cut.spindle_turning && motion.path_speed_mm_s > Scalar(0);
     spindle_at_rest_s_ = rubs ? spindle_at_rest_s_ + motion.dt_s : Scalar(0);
     if (spindle_at_rest_s_ > parameters.stale_s) {
         enter_fault(Fault::spindle_stopped);

@@ -72,6 +72,7 @@ struct CutEstimateForControl {
     Scalar feed_mm_s{0};          ///< path speed over the same window
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
+    bool spindle_loaded_at_rest = false;  ///< its encoder stands, and its current says that it cuts
 };
 
 /// What the roughness model says, for Ra_limit_um. It may hold the feed down; without it the feed is not raised.

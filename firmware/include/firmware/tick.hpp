@@ -79,6 +79,9 @@ class ForceControlTick {
 
     void take_silence(float silent_s, float dt_s);
     Scalar elapsed_s(std::uint32_t time_us);
+    using Signals = estimation::DriveSignals<Scalar>;
+    void watch_sample(const hal::DriveSample& sample, const Signals& signals, Scalar dt_s);
+    void watch_encoder(std::uint32_t count, Scalar spindle_current_A, Scalar dt_s);
     [[nodiscard]] bool is_in_cut() const;
     void follow_wide_band(Scalar dt_s, const hal::DriveSample& sample);
     void work_on_wide_band();
@@ -97,6 +100,8 @@ class ForceControlTick {
     control::FeedController<Scalar> controller_;
     control::FeedControllerParameters<Scalar> control_parameters_;
     Scalar reaction_s_;  // of the CNC
+    Scalar K_t1_Nm_per_A_;
+    Scalar contact_current_A_;  // of the spindle: torque beyond the idle one by contact_force_N
 
     control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};
@@ -106,6 +111,10 @@ class ForceControlTick {
     int air_periods_ = 0;
     bool has_time_ = false;
     std::uint32_t last_time_us_ = 0;
+    bool has_begun_ = false;  // a whole sample came
+    Scalar since_whole_sample_s_{0};
+    std::uint32_t last_count_ = 0;
+    Scalar encoder_stands_s_{0};
     std::uint32_t heartbeat_ = 0;
 };
 

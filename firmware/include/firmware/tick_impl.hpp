@@ -11,6 +11,16 @@
 
 namespace millforce::firmware {
 
+/// The spindle's current that counts as contact: the idle one, and contact_force_N at the cutter's radius.
+template <typename Scalar>
+static Scalar contact_current_A(const Parameters<Scalar>& p) {
+    constexpr Scalar m_per_mm = estimation::literal<Scalar>(0.001L);
+    const estimation::SpindleDriveParameters<Scalar>& spindle = p.machine.spindle;
+    const Scalar radius_m = estimation::halved(p.tool.diameter_mm) * m_per_mm;
+    const Scalar torque_Nm = p.tool.control.contact_force_N * radius_m - spindle.K_t2_Nm;
+    return spindle.K_t1_Nm_per_A > Scalar(0) ? torque_Nm / spindle.K_t1_Nm_per_A : Scalar(0);
+}
+
 template <typename Scalar, typename WideBand>
 ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
     : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
@@ -19,7 +29,9 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
       surface_(parameters.tool),
       controller_(controller_parameters(parameters)),
       control_parameters_(controller_parameters(parameters)),
-      reaction_s_(parameters.machine.cnc.override_latency_s) {}
+      reaction_s_(parameters.machine.cnc.override_latency_s),
+      K_t1_Nm_per_A_(parameters.machine.spindle.K_t1_Nm_per_A),
+      contact_current_A_(contact_current_A(parameters)) {}
 
 // Each sample
 
@@ -35,7 +47,33 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     }
     set_motion(signals.velocity());
     input_.dt_s = dt_s;
-    input_.time_since_sample_s = dt_s;
+    watch_sample(sample, signals, dt_s);
+}
+
+/// Without encoder or spindle current there is no force: such a sample is none. The first whole one is waited for.
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::watch_sample(const hal::DriveSample& sample, const Signals& signals,
+                                                      Scalar dt_s) {
+    const bool has_count = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
+    const bool has_current = (signals.present & Signals::spindle_present) != 0 || !(K_t1_Nm_per_A_ > Scalar(0));
+    const bool is_whole = has_count && has_current;
+    has_begun_ = has_begun_ || is_whole;
+    since_whole_sample_s_ = is_whole || !has_begun_ ? Scalar(0) : since_whole_sample_s_ + dt_s;
+    input_.time_since_sample_s = is_whole ? dt_s : since_whole_sample_s_;
+    if (is_whole) {
+        watch_encoder(sample.spindle_count, signals.values[Signals::spindle_current], dt_s);
+    }
+}
+
+/// A spindle that stands carries no cut. One that runs up turns at once.
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::watch_encoder(std::uint32_t count, Scalar spindle_current_A, Scalar dt_s) {
+    constexpr Scalar surely_stands_s = estimation::literal<Scalar>(0.02L);
+    constexpr Scalar longest_s{1};
+    const Scalar stands_s = encoder_stands_s_ < longest_s ? encoder_stands_s_ + dt_s : longest_s;
+    encoder_stands_s_ = count == last_count_ ? stands_s : Scalar(0);
+    last_count_ = count;
+    input_.cut.spindle_loaded_at_rest = encoder_stands_s_ > surely_stands_s && spindle_current_A > contact_current_A_;
 }
 
 template <typename Scalar, typename WideBand>

@@ -53,11 +53,11 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
 TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
     RunResult run = synthetic::pocket_run("millforce");
     for (TracePoint& point : run.trace) {
-        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::roughness);
+        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::law_misfit);
     }
     const std::string data = report_data_json(info, std::span(&run, 1));
-    CHECK(data.find("\"limits\":\"aaaa") != std::string::npos);
-    CHECK(data.find("\"feed_per_tooth\",\"roughness\"]") != std::string::npos);
+    CHECK(data.find("\"limits\":\"bbbb") != std::string::npos);
+    CHECK(data.find("\"roughness\",\"law_misfit\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {
