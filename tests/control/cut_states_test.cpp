@@ -73,7 +73,9 @@ TEST(CutStates, leaves_entry_and_in_cut_to_exit_where_contact_is_lost) {
 }
 
 TEST(CutStates, keeps_the_state_between_half_and_the_whole_contact_force) {
-    Controller controller;
+    Parameters p;
+    p.contact_force_N = 40.0F;
+    Controller controller(p);
     bring_into_cut(controller);
     Input faint = in_contact();
     faint.cut.tangential_N = 21.0F;

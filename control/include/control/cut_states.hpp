@@ -8,8 +8,8 @@
 /// The state machine: where the tool stands, from the mean tangential force F_at, and the watches that end in a fault.
 /// Who may enter each state and how it is left stands at the enumerators (cut_state.hpp).
 ///
-///   contact:       F_at > contact_force_N and F_at > contact_significance · σ(F_at)
-///   lost contact:  F_at < contact_force_N/2; between the two the state stays (hysteresis)
+///   contact:       F_at above the contact level, the larger of contact_force_N and contact_significance · σ(F_at)
+///   lost contact:  F_at below half of it; between the two the state stays (hysteresis)
 ///
 /// Only a fresh estimate moves between air, entry, in_cut and exit. Without a valid force nothing counts as contact and
 /// nothing as lost contact: the state stays, and after no_estimate_hold_s the tool counts as held.

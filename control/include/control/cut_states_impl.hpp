@@ -11,15 +11,14 @@ namespace millforce::control {
 template <typename Scalar>
 static bool is_in_contact(const FeedControllerParameters<Scalar>& parameters,
                           const CutEstimateForControl<Scalar>& cut) {
-    return cut.force_valid && cut.tangential_N > parameters.contact_force_N &&
-           cut.tangential_N > parameters.contact_significance * cut.tangential_sd_N;
+    return cut.force_valid && cut.tangential_N > contact_level_N(parameters, cut.tangential_sd_N);
 }
 
 template <typename Scalar>
 static bool has_lost_contact(const FeedControllerParameters<Scalar>& parameters,
                              const CutEstimateForControl<Scalar>& cut) {
     constexpr Scalar hysteresis = Scalar(0.5F);  // a force at the contact level must not toggle the state
-    return cut.force_valid && cut.tangential_N < hysteresis * parameters.contact_force_N;
+    return cut.force_valid && cut.tangential_N < hysteresis * contact_level_N(parameters, cut.tangential_sd_N);
 }
 
 template <typename Scalar>

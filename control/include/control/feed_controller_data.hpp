@@ -33,8 +33,8 @@ struct FeedControllerParameters {
     Scalar entry_revolutions{2};
     Scalar entry_travel_mm{5};         ///< … and this travel: until then the engagement still grows (cutter radius)
     Scalar exit_travel_mm{2};          ///< without contact before `exit` becomes `air`
-    Scalar contact_force_N{40};        ///< F_at that counts as contact, in addition to its noise
-    Scalar contact_significance{4};    ///< … and this many standard deviations
+    Scalar contact_force_N{10};        ///< smallest F_at that counts as contact
+    Scalar contact_significance{4};    ///< … and it must be so many of its standard deviations
     Scalar surge_radial_immersion{0};  ///< largest immersion that may come without warning; 0: none does
     Scalar surge_share{literal<Scalar>(1.03L)};     ///< of the limit that such a surge may reach
     Scalar turn_radial_immersion{2};                ///< … after a sharp turn of the path; 0: a turn changes nothing
@@ -147,6 +147,13 @@ template <typename Scalar>
     const Scalar feed_mm_s =
         feed_per_tooth_mm * teeth * input.cut.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
     return feed_mm_s / input.programmed_feed_mm_s;
+}
+
+/// F_at from which on the tool counts as in contact: what the noise makes unlikely, and not less than contact_force_N.
+template <typename Scalar>
+[[nodiscard]] Scalar contact_level_N(const FeedControllerParameters<Scalar>& parameters, Scalar tangential_sd_N) {
+    const Scalar significant_N = parameters.contact_significance * tangential_sd_N;
+    return significant_N > parameters.contact_force_N ? significant_N : parameters.contact_force_N;
 }
 
 }  // namespace millforce::control

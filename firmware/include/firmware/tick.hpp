@@ -88,6 +88,7 @@ class ForceControlTick {
     void take_estimate();
     void forget_estimate();
     void rezero_in_air();
+    [[nodiscard]] bool is_idle(const estimation::Measurement<Scalar>& tangential_N) const;
     void set_cut();
     void set_motion(Velocity velocity);
     void run_law(const hal::ProgramStatus& program);

@@ -207,13 +207,21 @@ void ForceControlTick<Scalar, WideBand>::work_on_wide_band() {
     }
 }
 
+/// Within half the contact level of nothing, above it or below: a choice of one side would be learnt as drift.
+template <typename Scalar, typename WideBand>
+bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::Measurement<Scalar>& tangential_N) const {
+    using std::sqrt;
+    const Scalar level_N = control::contact_level_N(control_parameters_, sqrt(tangential_N.variance));
+    const Scalar half_N = estimation::halved(level_N);
+    const Scalar force_N = tangential_N.value;
+    return tangential_N.valid && force_N < half_N && force_N > -half_N;
+}
+
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
     const bool in_air = controller_.state() == control::CutState::air;
-    const Scalar half_contact_N = estimation::halved(control_parameters_.contact_force_N);
-    const bool looks_idle = was_rezeroed_ ? estimate.tangential_N.valid && estimate.tangential_N.value < half_contact_N
-                                          : estimator_.axes_rest();
+    const bool looks_idle = was_rezeroed_ ? is_idle(estimate.tangential_N) : estimator_.axes_rest();
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = is_rapid_ || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
     // The first windows after a change hold a mixture of air and cut.

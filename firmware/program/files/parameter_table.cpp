@@ -226,7 +226,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"control", "entry_revolutions", "1", "Revolutions after contact before the estimate is trusted to raise the feed."},
     {"control", "entry_travel_mm", "mm", "Travel after contact before the estimate is trusted to raise the feed: while the cutter enters, the engagement grows. About the cutter's radius."},
     {"control", "exit_travel_mm", "mm", "Travel without contact before the tool counts as in air."},
-    {"control", "contact_force_N", "N", "Mean tangential force that counts as contact."},
+    {"control", "contact_force_N", "N", "Smallest mean tangential force that counts as contact; its noise may ask for more."},
     {"control", "contact_significance", "1", "Standard deviations by which the force must also differ from zero to count as contact."},
     {"control", "declared_axial_depth_mm", "mm", "Axial depth given by the program, to 5 %; 0: not known, estimated from the forces alone."},
     {"control", "surge_radial_immersion", "1", "Largest immersion that may come without warning; 0: none does."},
