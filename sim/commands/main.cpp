@@ -6,6 +6,7 @@
 #include "commands/machine_commands.hpp"
 #include "commands/plant_commands.hpp"
 #include "files/atomic_file.hpp"
+#include "files/console.hpp"
 
 namespace {
 
@@ -37,7 +38,12 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     millforce::host::remove_unfinished_files_on_interrupt();
     try {
-        return run(argc, argv);
+        const int exit_code = run(argc, argv);
+        if (!millforce::host::flush_standard_output()) {
+            std::fprintf(stderr, "millforce: standard output cannot be written\n");
+            return 2;
+        }
+        return exit_code;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "millforce: %s\n", error.what());
         return 2;

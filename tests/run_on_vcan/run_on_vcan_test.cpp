@@ -3,6 +3,9 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <chrono>
+#include <thread>
+
 using namespace millforce;
 using namespace millforce::vcan;
 
@@ -46,6 +49,31 @@ void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::st
     for (std::size_t k = 0; k < run.size(); ++k) {
         STRCMP_EQUAL(run[k].c_str(), again[k].c_str());
     }
+}
+
+void ends_with_hold_and_complete_files(int signal) {
+    const LiveFolder folder;
+    const Candump candump("vcan0");
+    test::Program controller(folder.run_words());
+    test::Program plant(folder.plant_words());
+    CHECK(folder.logged("\"type\":\"estimate\""));
+    controller.interrupt(signal);
+    controller.wait();
+    LONGS_EQUAL(0, controller.exit_code());
+    plant.interrupt(SIGTERM);
+    plant.wait();
+    CHECK(candump.has(stopped_heartbeat));
+    const std::vector<std::string> frames = candump.frames();
+    std::string last_override;
+    std::string last_heartbeat;
+    for (const std::string& frame : frames) {
+        last_override = frame.starts_with("1FE#") ? frame : last_override;
+        last_heartbeat = frame.starts_with("77E#") ? frame : last_heartbeat;
+    }
+    STRCMP_EQUAL(stopped_heartbeat, last_heartbeat.c_str());
+    STRCMP_EQUAL("01", last_override.substr(8, 2).c_str());  // hold
+    CHECK(folder.text("run.jsonl").ends_with("}\n"));
+    CHECK(folder.text("run.log").ends_with("\n"));
 }
 
 }  // namespace
@@ -98,29 +126,11 @@ TEST(RunOnVcan, in_lock_step_a_part_at_1_kHz_has_the_figures_of_one_process_and_
     replays_every_tick_of_the_run(folder, folder.file("candump.log"), lock_step);
 }
 
-TEST(RunOnVcan, sigterm_ends_with_hold_a_stopped_heartbeat_and_complete_files) {
-    const LiveFolder folder;
-    const Candump candump("vcan0");
-    test::Program controller(folder.run_words());
-    test::Program plant(folder.plant_words());
-    CHECK(folder.logged("\"type\":\"estimate\""));
-    controller.interrupt(SIGTERM);
-    controller.wait();
-    LONGS_EQUAL(0, controller.exit_code());
-    plant.interrupt(SIGTERM);
-    plant.wait();
-    CHECK(candump.has(stopped_heartbeat));
-    const std::vector<std::string> frames = candump.frames();
-    std::string last_override;
-    std::string last_heartbeat;
-    for (const std::string& frame : frames) {
-        last_override = frame.starts_with("1FE#") ? frame : last_override;
-        last_heartbeat = frame.starts_with("77E#") ? frame : last_heartbeat;
+/// SIGHUP: the terminal or the session behind it is gone.
+TEST(RunOnVcan, sigterm_and_sighup_end_with_hold_a_stopped_heartbeat_and_complete_files) {
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        ends_with_hold_and_complete_files(signal);
     }
-    STRCMP_EQUAL(stopped_heartbeat, last_heartbeat.c_str());
-    STRCMP_EQUAL("01", last_override.substr(8, 2).c_str());  // hold
-    CHECK(folder.text("run.jsonl").ends_with("}\n"));
-    CHECK(folder.text("run.log").ends_with("\n"));
 }
 
 TEST(RunOnVcan, a_plant_that_vanishes_is_stale_input_and_lost_by_name_and_comes_back) {
@@ -173,4 +183,30 @@ TEST(RunOnVcan, an_interface_that_is_not_there_is_told_and_waited_for) {
     controller.interrupt(SIGTERM);
     controller.wait();
     LONGS_EQUAL(0, controller.exit_code());
+}
+
+TEST(RunOnVcan, a_status_that_nobody_can_read_ends_nothing) {
+    const LiveFolder folder;
+    const std::string run = std::string("timeout --preserve-status -s TERM 2 ") + MILLFORCE_PROGRAM +
+                            " run nocan0 --machine " + folder.file("machine.toml") + " --tool " +
+                            folder.file("tool.toml");
+    for (const std::string& unread : {run + " >/dev/full 2>/dev/full; ended=$?", "{ " + run + " 2>&1; ended=$?; }"}) {
+        shell("{ " + unread + "; echo $ended > " + folder.file("ended") + "; } | true");
+        CHECK(wait_until([&] { return has(folder.text("ended"), "\n"); }));
+        CHECK(has("0\n2\n", folder.text("ended")));  // 2: its summary could not be written
+        folder.write("ended", "");
+    }
+}
+
+TEST(RunOnVcan, a_log_that_cannot_be_written_is_told_by_its_name) {
+    const LiveFolder folder;
+    Words words = folder.run_words();
+    words[1] = "nocan0";
+    words[7] = "/dev/full";
+    test::Program controller(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    controller.interrupt(SIGTERM);
+    controller.wait();
+    LONGS_EQUAL(1, controller.exit_code());
+    CHECK(has(controller.error(), "/dev/full: a write failed"));
 }

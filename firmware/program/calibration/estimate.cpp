@@ -173,6 +173,9 @@ int estimate(const EstimateOptions& options, std::ostream& out) {
             table.clear();
         }
     }
+    if (summary.rows == 0) {
+        throw InputError(fmt::format("{}: no rows after the header, expected cuts", reader.csv().file_name()));
+    }
     if (!file) {
         out << table;
         return exit_done;

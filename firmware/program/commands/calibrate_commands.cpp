@@ -17,6 +17,7 @@
 #include "calibration/warm_up_calibration.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "files/overwriting.hpp"
 #include "files/parameter_files.hpp"
 
 namespace millforce::host {
@@ -38,9 +39,19 @@ void add_data_and_output(Command& command, Options& options) {
     command.option("-o,--output", options.output, "The fitted parameters").required().value_name("FILE.toml");
 }
 
+using Files = std::vector<std::filesystem::path>;
+
+Files files_of(const std::filesystem::path& file) {
+    return {file};
+}
+const Files& files_of(const Files& files) {
+    return files;
+}
+
 /// A refusal is one line on standard error alone: the report goes out when all is done.
 template <typename Calibration, typename Options>
 int report_when_done(Calibration calibration, const Options& options) {
+    refuse_overwriting(options.output, files_of(options.data));
     std::ostringstream report;
     const int exit_code = calibration(options, report);
     std::cout << report.str();
@@ -232,7 +243,10 @@ void add_estimate(Command& program) {
     command.option("-o,--output", options->output, "The rows with estimates; default: standard output")
         .value_name("OUT.csv");
     add_side(command, options->side, "down, up or unknown: the tool's");
-    command.on_run([options] { return estimate(*options, std::cout); });
+    command.on_run([options] {
+        refuse_overwriting(options->output, {options->conditions, options->tool});
+        return estimate(*options, std::cout);
+    });
 }
 
 }  // namespace millforce::host

@@ -7,6 +7,7 @@
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "import/import_recording.hpp"
 
 namespace millforce::host {
@@ -25,6 +26,9 @@ int import_files(const ImportOptions& options) {
     } else if (settings.output.empty()) {
         throw InputError("--output: missing, expected a file to write, or --dry-run (see 'millforce import --help')");
     }
+    std::vector<std::filesystem::path> inputs(settings.files.begin(), settings.files.end());
+    inputs.emplace_back(settings.map);
+    refuse_overwriting(settings.output, inputs);
     const ImportedRecording recording = import_recording(settings);
     if (!options.dry_run) {
         fmt::print("{}: {} rows\n", settings.output, recording.steps.rows());

@@ -15,6 +15,7 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "files/parameter_files.hpp"
 #include "files/progress.hpp"
 #include "firmware/tick.hpp"
@@ -227,6 +228,7 @@ int replay_table(const ReplayOptions& options) {
 }
 
 int replay(const ReplayOptions& options) {
+    refuse_overwriting(options.output, {options.log, options.machine, options.tool, options.run_log});
     if (!is_candump_log(options.log)) {
         if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
             throw InputError(fmt::format(

@@ -11,6 +11,7 @@
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
 #include "daemon/service.hpp"
+#include "files/console.hpp"
 #include "files/input_error.hpp"
 #include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
@@ -80,6 +81,9 @@ int run_on_bus(const RunOptions& options) {
     }
     const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
+    if (!options.log.empty() && options.log == options.record) {
+        throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
+    }
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(JournalSettings{
         options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, firmware::total_force(parameters)});
@@ -87,7 +91,7 @@ int run_on_bus(const RunOptions& options) {
                                                     CanDaemonSettings{!options.record.empty(), time});
     if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
         for (const std::string& note : become_real_time()) {
-            fmt::print(stderr, "millforce: note: {}\n", note);
+            print_line(stderr, fmt::format("millforce: note: {}", note));
         }
     }
     notify_service_manager("READY=1");
@@ -95,9 +99,13 @@ int run_on_bus(const RunOptions& options) {
     notify_service_manager("STOPPING=1");
     journal->finish();
     print_summary(options, *daemon, *journal);
-    if (journal->lost() > 0 || journal->write_failed()) {
-        fmt::print(stderr, "millforce: the files are incomplete: {} entries were lost{}\n", journal->lost(),
-                   journal->write_failed() ? ", and a write failed" : "");
+    if (!journal->failed_file().empty()) {
+        print_line(stderr,
+                   fmt::format("millforce: {}: a write failed; the file is incomplete", journal->failed_file()));
+        return 1;
+    }
+    if (journal->lost() > 0) {
+        print_line(stderr, fmt::format("millforce: the files are incomplete: {} entries were lost", journal->lost()));
         return 1;
     }
     return 0;
@@ -109,7 +117,8 @@ void add_run(Command& program) {
     auto options = std::make_shared<RunOptions>();
     Command command = program.subcommand("run", "Run the live controller on a CAN interface");
     command.footer(
-        "Runs until SIGINT or SIGTERM; then the override says hold and the heartbeat 'stopped'. An interface that is "
+        "Runs until SIGINT, SIGTERM or SIGHUP; then the override says hold and the heartbeat 'stopped'. An interface "
+        "that is "
         "not\n"
         "there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"

@@ -9,6 +9,7 @@
 #include "control/cut_state.hpp"
 #include "daemon/service.hpp"
 #include "daemon/unix_socket.hpp"
+#include "files/console.hpp"
 #include "files/parameter_files.hpp"
 #include "firmware_link/link_controller.hpp"
 
@@ -29,7 +30,7 @@ class FaultTeller {
     void follow(const hal::FeedOverride& output) {
         if (output.fault != fault_) {
             fault_ = output.fault;
-            fmt::print(stderr, "millforce: fault: {}\n", control::name(static_cast<control::Fault>(fault_)));
+            print_line(stderr, fmt::format("millforce: fault: {}", control::name(static_cast<control::Fault>(fault_))));
         }
     }
 
@@ -47,8 +48,8 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
         local_link::OverrideBytes answer{};
         const local_link::MessageError error = controller.on_message(bytes, answer);
         if (error != local_link::MessageError::none) {
-            fmt::print(stderr, "millforce: invalid message of {} bytes ({}): connection closed\n", bytes.size(),
-                       name(error));
+            print_line(stderr, fmt::format("millforce: invalid message of {} bytes ({}): connection closed",
+                                           bytes.size(), name(error)));
             server.drop_peer();
             return;
         }
@@ -60,19 +61,20 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
 
 int serve(const ServeOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
+    ignore_closed_pipes();
     UnixServer server(options.socket);
     for (const std::string& note : become_real_time()) {
-        fmt::print(stderr, "millforce: note: {}\n", note);
+        print_line(stderr, fmt::format("millforce: note: {}", note));
     }
     notify_service_manager("READY=1");
-    fmt::print(stderr, "millforce: {}: waiting\n", options.socket);
+    print_line(stderr, fmt::format("millforce: {}: waiting", options.socket));
     while (server.wait_for_peer()) {
-        fmt::print(stderr, "millforce: connected\n");
+        print_line(stderr, "millforce: connected");
         auto controller =
             std::make_unique<firmware::LinkController>(parameters, static_cast<float>(options.override_max));
         serve_peer(server, *controller);
         server.drop_peer();
-        fmt::print(stderr, "millforce: disconnected after {} samples\n", controller->output().heartbeat);
+        print_line(stderr, fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
     return 0;
 }

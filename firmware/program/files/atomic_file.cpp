@@ -173,8 +173,9 @@ static void clean_up_and_end(int signal) {
 }
 
 void remove_unfinished_files_on_interrupt() {
-    std::signal(SIGINT, clean_up_and_end);
-    std::signal(SIGTERM, clean_up_and_end);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        std::signal(signal, clean_up_and_end);
+    }
 }
 
 }  // namespace millforce::host

@@ -58,8 +58,8 @@ class AtomicFile {
     bool open_ = true;
 };
 
-/// Makes SIGINT (Ctrl-C) and SIGTERM remove the temporary files of all open AtomicFiles before they end the program as
-/// usual. Call once, at the start of main().
+/// Makes SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGPIPE remove the temporary files of all open AtomicFiles before they
+/// end the program as usual. Call once, at the start of main().
 void remove_unfinished_files_on_interrupt();
 
 /// What the signal handler does; async-signal-safe.

@@ -15,6 +15,7 @@ namespace millforce::host {
 namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 20U;
+constexpr double largest_number = 1e18;  // far beyond a time since 1970 in nanoseconds
 
 std::string_view trimmed(std::string_view text) {
     const auto is_space = [](char letter) { return letter == ' ' || letter == '\t'; };
@@ -227,6 +228,10 @@ double CsvReader::number(CsvColumn column) const {
     if (!std::isfinite(value)) {
         fail(column,
              fmt::format("'{}' is not finite; expected a finite number, or an empty cell for none", shown(whole)));
+    }
+    if (std::abs(value) > largest_number) {
+        fail(column,
+             fmt::format("'{}' is beyond anything measured; expected at most {:g}", shown(whole), largest_number));
     }
     return value;
 }

@@ -11,6 +11,7 @@
 
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
+#include "files/toml_limits.hpp"
 
 namespace millforce::host {
 
@@ -51,6 +52,9 @@ std::string after_number(std::string_view unit) {
 
 TomlFile TomlFile::open(const std::string& path) {
     std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        throw InputError(fmt::format("{}: is a folder, expected a TOML file of parameters", path));
+    }
     if (!std::filesystem::is_regular_file(path, error)) {
         throw InputError(fmt::format("{}: no such file", path));
     }
@@ -67,6 +71,7 @@ TomlFile TomlFile::open(const std::string& path) {
 }
 
 TomlFile TomlFile::from_text(const std::string& text, const std::string& name) {
+    check_toml_limits(text, name);
     try {
         return {toml::parse(text, name), name};
     } catch (const toml::parse_error& error) {

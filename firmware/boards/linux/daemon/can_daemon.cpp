@@ -49,8 +49,13 @@ socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSett
 }
 
 void CanDaemon::run(const std::atomic<bool>& stop) {
-    while (!stop.load(std::memory_order_relaxed)) {
-        step();
+    try {
+        while (!stop.load(std::memory_order_relaxed)) {
+            step();
+        }
+    } catch (...) {
+        end(farewell_us);  // whatever happened, the machine is told to hold
+        throw;
     }
     end(farewell_us);
 }

@@ -10,6 +10,7 @@
 #include "daemon/candump_line.hpp"
 #include "daemon/json_lines.hpp"
 #include "daemon/local_line.hpp"
+#include "files/console.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::host {
@@ -85,12 +86,20 @@ void Journal::write_all() {
     for (StatusEntry entry; statuses_.pop(entry);) {
         write_status(entry);
     }
-    if (record_ != nullptr) {
-        std::fflush(record_.get());
+    flush_all();
+}
+
+/// Where a disk is full it shows here.
+void Journal::flush_all() {
+    for (const File* file : {&record_, &log_}) {
+        if (*file != nullptr && std::fflush(file->get()) != 0) {
+            note_failure(*file);
+        }
     }
-    if (log_ != nullptr) {
-        std::fflush(log_.get());
-    }
+}
+
+void Journal::note_failure(const File& file) {
+    failed_file_ = &file == &record_ ? settings_.record_file : settings_.log_file;
 }
 
 void Journal::write_record() {
@@ -113,16 +122,15 @@ void Journal::write_status(const StatusEntry& entry) {
     put(log_, json_line(entry));
     if (!entry.is_periodic) {
         const std::string list = condition_list(entry);
-        fmt::print(stderr, "millforce: {}: {}\n", settings_.interface, list.empty() ? "all is well" : list);
+        print_line(stderr, fmt::format("millforce: {}: {}", settings_.interface, list.empty() ? "all is well" : list));
     } else if (settings_.status_line) {
-        fmt::print("{} {}\n", settings_.interface, status_line(entry));
-        std::fflush(stdout);
+        print_line(stdout, fmt::format("{} {}", settings_.interface, status_line(entry)));
     }
 }
 
 void Journal::put(const File& file, const std::string& text) {
     if (file != nullptr && std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) {
-        write_failed_ = true;
+        note_failure(file);
     }
 }
 
@@ -135,9 +143,7 @@ void Journal::finish() {
     if (const std::uint64_t unheard = lost_records_ - told_lost_; unheard > 0) {
         put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n", unheard));
     }
-    for (const File* file : {&record_, &log_}) {
-        write_failed_ = write_failed_ || (*file != nullptr && std::fflush(file->get()) != 0);
-    }
+    flush_all();
 }
 
 }  // namespace millforce::host

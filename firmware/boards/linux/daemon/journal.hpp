@@ -65,7 +65,8 @@ class Journal {
     /// Frames and entries that did not fit, or could not be written; after finish().
     [[nodiscard]] std::uint64_t lost() const { return lost_records_ + lost_entries_; }
     [[nodiscard]] std::uint64_t recorded() const { return recorded_; }
-    [[nodiscard]] bool write_failed() const { return write_failed_; }
+    /// The file that could not be written, if one could not; after finish().
+    [[nodiscard]] const std::string& failed_file() const { return failed_file_; }
     [[nodiscard]] bool has_log() const { return log_ != nullptr; }
 
   private:
@@ -86,6 +87,8 @@ class Journal {
     void write_record();
     void write_status(const StatusEntry& entry);
     void put(const File& file, const std::string& text);
+    void flush_all();
+    void note_failure(const File& file);
 
     JournalSettings settings_;
     File record_;
@@ -97,7 +100,7 @@ class Journal {
     std::atomic<std::uint64_t> lost_entries_{0};
     std::uint64_t told_lost_ = 0;
     std::uint64_t recorded_ = 0;
-    bool write_failed_ = false;
+    std::string failed_file_;
     std::atomic<bool> ended_{false};
     std::thread writer_{};
 };

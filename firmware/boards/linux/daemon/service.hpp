@@ -14,8 +14,12 @@ std::vector<std::string> become_real_time();
 /// Back to the usual scheduler.
 void leave_real_time();
 
-/// From now on SIGINT and SIGTERM set the flag instead of ending the program.
+/// From now on SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program, and a closed pipe does not end
+/// it.
 const std::atomic<bool>& stop_on_signal();
+
+/// Who reads the status may go; the controller stays.
+void ignore_closed_pipes();
 
 /// Notifies a service manager (systemd, Type=notify) if there is one, e.g. "READY=1".
 void notify_service_manager(const char* state);
