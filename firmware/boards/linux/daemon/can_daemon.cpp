@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "daemon/service.hpp"
+
 namespace millforce::host {
 
 namespace {
@@ -191,6 +193,9 @@ void CanDaemon::report(std::uint64_t now_us) {
     const bool is_news = !has_told_ || !(now == told_);
     if (!is_periodic && !is_news) {
         return;
+    }
+    if (is_periodic) {
+        notify_service_manager("WATCHDOG=1");
     }
     has_told_ = true;
     told_ = now;

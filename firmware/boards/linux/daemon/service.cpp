@@ -78,8 +78,8 @@ void notify_service_manager(const char* state) {
     }
     const int descriptor = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (descriptor >= 0) {
-        sendto(descriptor, state, std::strlen(state), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),
-               length);
+        sendto(descriptor, state, std::strlen(state), MSG_NOSIGNAL | MSG_DONTWAIT,
+               reinterpret_cast<const sockaddr*>(&address), length);
         close(descriptor);
     }
 }

@@ -21,7 +21,7 @@ const std::atomic<bool>& stop_on_signal();
 /// Who reads the status may go; the controller stays.
 void ignore_closed_pipes();
 
-/// Notifies a service manager (systemd, Type=notify) if there is one, e.g. "READY=1".
+/// Notifies a service manager (systemd, Type=notify) if there is one, e.g. "READY=1". Never waits for it.
 void notify_service_manager(const char* state);
 
 }  // namespace millforce::host
