@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "cnc/drilling_cycle.hpp"
 #include "cnc/gcode_words.hpp"
 #include "files/input_error.hpp"
 
@@ -26,7 +27,7 @@ constexpr double longest_dwell_s = 3600.0;
 constexpr double mm_per_inch = 25.4;
 constexpr std::size_t largest_text_bytes = std::size_t{256} << 20U;
 
-constexpr std::string_view known_g_codes = "one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 G80 G90 G91 G94";
+constexpr std::string_view known_g_codes = "a code of the table in sim/cnc/README.md";
 
 /// Codes of one group exclude each other within a block.
 enum ModalGroup : std::size_t {
@@ -39,11 +40,17 @@ enum ModalGroup : std::size_t {
     tool_length,
     coordinate_system,
     canned_cycle,
+    return_level,
+    arc_centre,
+    retreat,
     feed_mode,
     spindle,
     stopping,
     path_mode,
     adaptive_feed,
+    tool_change,
+    coolant,
+    pause,
     group_count,
 };
 
@@ -74,7 +81,10 @@ long tenths(const GcodeWord& word) {
 class Interpreter {
   public:
     Interpreter(std::string_view file_name, const GcodeSettings& settings)
-        : file_name_(file_name), max_moves_(settings.max_moves), position_mm_(settings.start_mm) {}
+        : file_name_(file_name),
+          max_moves_(settings.max_moves),
+          position_mm_(settings.start_mm),
+          start_height_mm_(settings.start_mm.z()) {}
 
     void run(const GcodeBlock& block) {
         line_ = block.line;
@@ -87,15 +97,29 @@ class Interpreter {
             return;
         }
         block_seen_ = true;
+        if (is_program_number(block)) {
+            return;
+        }
         const SortedBlock sorted = sort(block);
         set_modes(sorted);
+        follow_tool(sorted);
         run_dwell(sorted);
-        run_motion(sorted);
+        if (sorted.code(retreat) != nullptr) {
+            run_retreat(sorted);
+        } else if (cycle_.has_value()) {
+            run_cycle(sorted);
+        } else {
+            run_motion(sorted);
+        }
         ended_ = sorted.code(stopping) != nullptr;
     }
 
     bool ended() const { return ended_; }
+    /// A file that began with % and is cut off before the closing one is no program.
+    bool may_end_here() const { return block_seen_ && !percent_seen_; }
+    void note_end() { note("the program ends with its file: no M2 or M30"); }
     std::vector<Move> take_moves() { return std::move(moves_); }
+    std::vector<std::string> take_notes() { return std::move(notes_); }
 
   private:
     [[noreturn]] void fail(const GcodeWord& word, std::string_view expected) const {
@@ -112,14 +136,17 @@ class Interpreter {
             case 10:
             case 20:
             case 30:
+            case 730:
+            case 810:
+            case 820:
+            case 830:
                 return motion;
             case 40:
                 return dwell;
             case 170:
-                return plane;
             case 180:
             case 190:
-                fail(word, "G17: arcs lie in the xy plane only");
+                return plane;
             case 200:
             case 210:
                 return units;
@@ -128,10 +155,35 @@ class Interpreter {
                 return distance;
             case 400:
                 return cutter_compensation;
+            case 430:
             case 490:
                 return tool_length;
             case 540:
+            case 550:
+            case 560:
+            case 570:
+            case 580:
+            case 590:
                 return coordinate_system;
+            case 280:
+            case 300:
+            case 530:
+                return retreat;
+            case 911:
+                return arc_centre;
+            case 980:
+            case 990:
+                return return_level;
+            case 410:
+            case 420:
+                fail(word, "G40: let the CAM system compensate the cutter's radius");
+            case 901:
+                fail(word, "G91.1: arc centres relative to the start");
+            case 920:
+                fail(word, "no shift of coordinates: let the CAM system post them");
+            case 930:
+            case 950:
+                fail(word, "G94: a feed in mm or inches per minute");
             case 610:
             case 640:
                 return path_mode;
@@ -157,21 +209,33 @@ class Interpreter {
         if (word.value == 4.0) {
             fail(word, "M3: the cutter is right-handed and cuts clockwise only");
         }
-        fail(word, "one of M2 M3 M5 M30 M52");
+        if (word.value == 0.0 || word.value == 1.0) {
+            return pause;
+        }
+        if (word.value == 6.0) {
+            return tool_change;
+        }
+        if (word.value == 7.0 || word.value == 8.0 || word.value == 9.0) {
+            return coolant;
+        }
+        if (word.value == 98.0 || word.value == 99.0) {
+            fail(word, "a program without subprograms: let the CAM system post it whole");
+        }
+        fail(word, "one of M0 M1 M2 M3 M5 M6 M7 M8 M9 M30 M52");
     }
 
     SortedBlock sort(const GcodeBlock& block) const {
         SortedBlock sorted;
         for (const GcodeWord& word : block.words) {
             const bool is_code = word.letter == 'G' || word.letter == 'M';
-            if (!is_code && std::string_view("FIJNPRSXYZ").find(word.letter) == std::string_view::npos) {
-                fail(word, "one of the words F G I J M N P R S X Y Z");
+            if (!is_code && std::string_view("FHIJLNPQRSTXYZ").find(word.letter) == std::string_view::npos) {
+                fail(word, "one of the words F G H I J L M N P Q R S T X Y Z");
             }
             const GcodeWord*& slot = word.letter == 'G' ? sorted.codes[group_of_g(word)]
                                      : word.letter == 'M'
                                          ? sorted.codes[group_of_m(word)]
                                          : sorted.addresses[static_cast<std::size_t>(word.letter - 'A')];
-            if (slot != nullptr) {
+            if (slot != nullptr && !(word.letter == 'M' && group_of_m(word) == coolant)) {
                 fail(word, fmt::format("no second word of the group of '{}' in one block", slot->text));
             }
             slot = &word;
@@ -216,9 +280,190 @@ class Interpreter {
         if (const GcodeWord* word = block.code(spindle)) {
             spindle_on_ = word->value == 3.0;
         }
+        if (const GcodeWord* word = block.code(return_level)) {
+            returns_to_retract_ = tenths(*word) == 990;
+        }
+        if (const GcodeWord* word = block.code(plane)) {
+            is_xy_plane_ = tenths(*word) == 170;
+        }
+        if (const GcodeWord* word = block.code(coordinate_system)) {
+            choose_coordinates(*word);
+        }
+        if (block.code(coolant) != nullptr) {
+            note("M7, M8, M9: coolant is not simulated");
+        }
+        if (block.code(pause) != nullptr) {
+            note("M0, M1: the program goes on at once");
+        }
+        if (const GcodeWord* word = block.code(tool_length); word != nullptr && tenths(*word) == 430) {
+            note("G43: coordinates are those of the tool's tip");
+        }
+        if (block.code(canned_cycle) != nullptr && cycle_.has_value()) {
+            cycle_.reset();
+            motion_.reset();
+        }
         if (const GcodeWord* word = block.code(motion)) {
-            constexpr std::array kinds{MoveKind::rapid, MoveKind::feed_line, MoveKind::arc_cw, MoveKind::arc_ccw};
-            motion_ = kinds[static_cast<std::size_t>(tenths(*word) / 10)];
+            set_motion(tenths(*word) / 10);
+        }
+    }
+
+    /// O1001 alone: the number of a program.
+    bool is_program_number(const GcodeBlock& block) const {
+        const GcodeWord& first = block.words.front();
+        if (first.letter != 'O') {
+            return false;
+        }
+        if (block.words.size() > 1) {
+            fail(first, "a program without O-words: let the CAM system post it whole");
+        }
+        return true;
+    }
+
+    void set_motion(long code) {
+        constexpr std::array kinds{MoveKind::rapid, MoveKind::feed_line, MoveKind::arc_cw, MoveKind::arc_ccw};
+        const bool is_line_or_arc = code < static_cast<long>(kinds.size());
+        motion_ = is_line_or_arc ? std::optional(kinds[static_cast<std::size_t>(code)]) : std::nullopt;
+        if (is_line_or_arc) {
+            cycle_.reset();
+            return;
+        }
+        if (!cycle_.has_value()) {
+            height_before_cycle_mm_ = position_mm_.z();
+            cycle_.emplace();
+            has_bottom_ = false;
+            has_retract_ = false;
+        }
+        cycle_->code = static_cast<int>(code);
+    }
+
+    /// One of G54 to G59, whichever the program uses: another one would lie elsewhere on the machine.
+    void choose_coordinates(const GcodeWord& word) {
+        if (coordinates_ != 0 && coordinates_ != tenths(word)) {
+            fail(word, fmt::format("G{}: one system of coordinates in a program", coordinates_ / 10));
+        }
+        coordinates_ = tenths(word);
+    }
+
+    void follow_tool(const SortedBlock& block) {
+        if (const GcodeWord* word = block.address('T')) {
+            if (!(word->value >= 0.0) || word->value != std::floor(word->value)) {
+                fail(*word, "a tool number");
+            }
+            selected_tool_ = word->value;
+        }
+        const GcodeWord* change = block.code(tool_change);
+        if (change == nullptr) {
+            return;
+        }
+        if (has_cut_ && selected_tool_ != tool_) {
+            fail(*change,
+                 fmt::format("no other tool than T{}: a scenario has one; split the program at the change", tool_));
+        }
+        tool_ = selected_tool_;
+        note("M6: the tool is the scenario's");
+    }
+
+    /// The machine's own positions are not known here: what matters is that the tool leaves the part.
+    void run_retreat(const SortedBlock& block) {
+        const GcodeWord& code = *block.code(retreat);
+        note(
+            "G28, G30, G53: a rapid straight up to the height of the start; the machine's own positions are not known");
+        if (const GcodeWord* word = block.first_of("IJR")) {
+            fail(*word, "no arc with G28, G30 or G53");
+        }
+        if (motion_.has_value() && *motion_ != MoveKind::rapid && tenths(code) == 530) {
+            fail(code, "G53 with G0 only");
+        }
+        if (position_mm_.z() < start_height_mm_) {
+            Move move = next_move(MoveKind::rapid, {position_mm_.x(), position_mm_.y(), start_height_mm_});
+            position_mm_ = move.end_mm;
+            append(move, code);
+        }
+    }
+
+    /// One hole at the block's X and Y. Z, R, Q and P stay until G80.
+    void run_cycle(const SortedBlock& block) {
+        const GcodeWord* word = block.first_of("XYZR");
+        if (const GcodeWord* stray = block.first_of("IJ")) {
+            fail(*stray, "I, J with an arc (G2, G3) only");
+        }
+        if (const GcodeWord* repeats = block.address('L'); repeats != nullptr && repeats->value != 1.0) {
+            fail(*repeats, "L1: one hole for each block");
+        }
+        if (word == nullptr) {
+            return;
+        }
+        take_cycle_levels(block);
+        if (!has_bottom_ || !has_retract_) {
+            fail(*word, "Z and R with the first hole of a cycle");
+        }
+        if (!(cycle_->bottom_mm < cycle_->retract_mm)) {
+            fail(*word, "R above Z");
+        }
+        if ((cycle_->code == 83 || cycle_->code == 73) && !(cycle_->peck_mm > 0.0)) {
+            fail(*word, "a peck Q above 0 with G73 and G83");
+        }
+        require_cutting_conditions(*word);
+        drill(block, *word);
+    }
+
+    void take_cycle_levels(const SortedBlock& block) {
+        const double from_mm = relative_ ? position_mm_.z() : 0.0;
+        if (const GcodeWord* word = block.address('R')) {
+            cycle_->retract_mm = from_mm + offset_mm(word);
+            has_retract_ = true;
+        }
+        if (const GcodeWord* word = block.address('Z')) {
+            cycle_->bottom_mm = (relative_ ? cycle_->retract_mm : 0.0) + offset_mm(word);
+            has_bottom_ = true;
+        }
+        if (const GcodeWord* word = block.address('Q')) {
+            cycle_->peck_mm = offset_mm(word);
+        }
+        if (const GcodeWord* word = block.address('P'); word != nullptr && block.code(dwell) == nullptr) {
+            if (!(word->value >= 0.0 && word->value <= longest_dwell_s)) {
+                fail(*word, "a dwell from 0 to 3600 s");
+            }
+            cycle_->dwell_s = word->value;
+        }
+        cycle_->clear_mm =
+            returns_to_retract_ ? cycle_->retract_mm : std::max(cycle_->retract_mm, height_before_cycle_mm_);
+    }
+
+    void drill(const SortedBlock& block, const GcodeWord& subject) {
+        Eigen::Vector3d above = target(block);
+        above.z() = std::max(position_mm_.z(), cycle_->retract_mm);
+        go(MoveKind::rapid, {position_mm_.x(), position_mm_.y(), above.z()}, subject);
+        go(MoveKind::rapid, above, subject);
+        go(MoveKind::rapid, {above.x(), above.y(), cycle_->retract_mm}, subject);
+        for (const DrillingCycle::Step& step : cycle_->steps()) {
+            if (step.kind == MoveKind::dwell) {
+                Move move = next_move(MoveKind::dwell, position_mm_);
+                move.dwell_s = step.dwell_s;
+                append(move, subject);
+            } else {
+                go(step.kind, {above.x(), above.y(), step.z_mm}, subject);
+            }
+        }
+    }
+
+    void go(MoveKind kind, const Eigen::Vector3d& target_mm, const GcodeWord& subject) {
+        Move move = next_move(kind, target_mm);
+        if (kind != MoveKind::rapid) {
+            move.feed_mm_s = feed_mm_s_;
+            has_cut_ = true;
+        }
+        position_mm_ = target_mm;
+        if (length_mm(move) > 0.0) {
+            append(move, subject);
+        }
+    }
+
+    /// Once for each, with the line of the first.
+    void note(std::string_view what) {
+        const auto is_same = [&](const std::string& told) { return told.ends_with(what); };
+        if (std::none_of(notes_.begin(), notes_.end(), is_same)) {
+            notes_.push_back(fmt::format("{}:{}: {}", file_name_, line_, what));
         }
     }
 
@@ -227,6 +472,9 @@ class Interpreter {
         const GcodeWord* value = block.address('P');
         const GcodeWord* switched = block.code(adaptive_feed);
         const bool blends = block.code(path_mode) != nullptr && tenths(*block.code(path_mode)) == 640;
+        if (cycle_.has_value()) {
+            return;  // it is the cycle's
+        }
         if (value != nullptr && switched == nullptr && !blends) {
             fail(*value, "P in a block with G4, G64 or M52 only");
         }
@@ -273,6 +521,9 @@ class Interpreter {
         const Eigen::Vector3d target_mm = target(block);
         Move move = next_move(*motion_, target_mm);
         if (is_arc(move)) {
+            if (!is_xy_plane_) {
+                fail(subject, "G17: arcs lie in the xy plane only");
+            }
             set_centre(move, block, subject);
         } else if (const GcodeWord* stray = block.first_of("IJR")) {
             fail(*stray, "I, J and R with an arc (G2, G3) only");
@@ -280,6 +531,7 @@ class Interpreter {
         if (move.kind != MoveKind::rapid) {
             require_cutting_conditions(subject);
             move.feed_mm_s = feed_mm_s_;
+            has_cut_ = true;
         }
         position_mm_ = move.end_mm;
         if (length_mm(move) > 0.0) {
@@ -394,12 +646,24 @@ class Interpreter {
     std::string_view file_name_;
     std::size_t max_moves_;
     std::vector<Move> moves_;
+    std::vector<std::string> notes_;
     Eigen::Vector3d position_mm_;
+    double start_height_mm_;
+    std::optional<DrillingCycle> cycle_;
+    double height_before_cycle_mm_ = 0.0;
+    long coordinates_ = 0;  // in tenths; 0: not told
+    double tool_ = 0.0;
+    double selected_tool_ = 0.0;
     std::size_t line_ = 0;
     double mm_per_unit_ = 1.0;
     double feed_mm_s_ = 0.0;
     double spindle_speed_rad_s_ = 0.0;
     std::optional<MoveKind> motion_;
+    bool has_bottom_ = false;
+    bool has_retract_ = false;
+    bool returns_to_retract_ = false;
+    bool is_xy_plane_ = true;
+    bool has_cut_ = false;
     bool relative_ = false;
     bool spindle_on_ = false;
     bool percent_seen_ = false;
@@ -409,7 +673,7 @@ class Interpreter {
 
 }  // namespace
 
-std::vector<Move> parse_gcode(std::string_view text, std::string_view file_name, const GcodeSettings& settings) {
+GcodeProgram read_gcode(std::string_view text, std::string_view file_name, const GcodeSettings& settings) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark)) {
         text.remove_prefix(byte_order_mark.size());
@@ -420,14 +684,18 @@ std::vector<Move> parse_gcode(std::string_view text, std::string_view file_name,
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         interpreter.run(split_block(text.substr(begin, end - begin), file_name, line));
         if (interpreter.ended()) {
-            return interpreter.take_moves();
+            return {interpreter.take_moves(), interpreter.take_notes()};
         }
         begin = end + 1;
     }
-    reject({file_name, line, 1}, "", "M2, M30 or a closing % at the end of the program");
+    if (interpreter.may_end_here()) {
+        interpreter.note_end();
+        return {interpreter.take_moves(), interpreter.take_notes()};
+    }
+    reject({file_name, line, 1}, "", "the closing % of the program");
 }
 
-std::vector<Move> parse_gcode(std::istream& stream, std::string_view file_name, const GcodeSettings& settings) {
+GcodeProgram read_gcode(std::istream& stream, std::string_view file_name, const GcodeSettings& settings) {
     std::string text;
     std::array<char, 65536> chunk{};
     while (stream.read(chunk.data(), chunk.size()) || stream.gcount() > 0) {
@@ -441,7 +709,11 @@ std::vector<Move> parse_gcode(std::istream& stream, std::string_view file_name, 
     if (stream.bad()) {
         throw host::InputError(fmt::format("{}: found a read error, expected a readable part program", file_name));
     }
-    return parse_gcode(text, file_name, settings);
+    return read_gcode(text, file_name, settings);
+}
+
+std::vector<Move> parse_gcode(std::string_view text, std::string_view file_name, const GcodeSettings& settings) {
+    return read_gcode(text, file_name, settings).moves;
 }
 
 }  // namespace millforce::sim

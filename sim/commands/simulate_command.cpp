@@ -13,6 +13,7 @@
 #include "commands/results_folder.hpp"
 #include "commands/scenario_info.hpp"
 #include "daemon/service.hpp"
+#include "files/console.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
 #include "loop/bounds.hpp"
@@ -44,6 +45,9 @@ constexpr const char* baseline = "constant";
 
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
+    for (const std::string& note : program_of(scenario).notes) {
+        host::print_line(stderr, "millforce: note: " + note);
+    }
     scenario.seed = options.seed.value_or(scenario.seed);
     PlantDeviation& deviation = scenario.deviation;
     deviation.cutting_force_scale = options.cutting_force_scale.value_or(deviation.cutting_force_scale);

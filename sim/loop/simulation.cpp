@@ -142,9 +142,9 @@ class Loop {
 
 }  // namespace
 
-std::vector<Move> moves_of(const Scenario& scenario) {
+GcodeProgram program_of(const Scenario& scenario) {
     if (!scenario.has_program()) {
-        return profile_moves(scenario);
+        return {profile_moves(scenario), {}};
     }
     std::ifstream file(scenario.program_file);
     if (!file) {
@@ -152,7 +152,11 @@ std::vector<Move> moves_of(const Scenario& scenario) {
     }
     GcodeSettings settings;
     settings.start_mm = {scenario.stock.start_x_mm, scenario.stock.start_y_mm, scenario.stock.start_z_mm};
-    return parse_gcode(file, scenario.program_file, settings);
+    return read_gcode(file, scenario.program_file, settings);
+}
+
+std::vector<Move> moves_of(const Scenario& scenario) {
+    return program_of(scenario).moves;
 }
 
 Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "cnc/move.hpp"
+#include "cnc/gcode.hpp"
 #include "loop/milling_plant.hpp"
 #include "loop/override_source.hpp"
 #include "loop/scenario.hpp"
@@ -26,7 +26,8 @@ struct Simulated {
     bool interrupted = false;
 };
 
-/// The moves of the scenario's part program, or the one straight move of a profile. Throws InputError.
+/// The scenario's part program with what was left out of it, or the one straight move of a profile. Throws InputError.
+GcodeProgram program_of(const Scenario& scenario);
 std::vector<Move> moves_of(const Scenario& scenario);
 
 /// Runs a scenario against a controller, in closed loop: CNC → drives → tool and workpiece → cutting force → drives →

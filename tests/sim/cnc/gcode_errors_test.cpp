@@ -24,21 +24,28 @@ void check_refusal(const char* body, const char* expected) {
 TEST_GROUP(GcodeErrors){};
 
 TEST(GcodeErrors, unknown_words_and_codes) {
-    check_refusal("G1 X1 Q2", "part.ngc:2:7: found 'Q2', expected one of the words F G I J M N P R S X Y Z");
-    check_refusal("G5 X1",
-                  "part.ngc:2:1: found 'G5', expected one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 "
-                  "G80 G90 G91 G94");
-    check_refusal("G1.5 X1",
-                  "part.ngc:2:1: found 'G1.5', expected one of G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 "
-                  "G80 G90 G91 G94");
+    check_refusal("G1 X1 K2", "part.ngc:2:7: found 'K2', expected one of the words F G H I J L M N P Q R S T X Y Z");
+    check_refusal("G5 X1", "part.ngc:2:1: found 'G5', expected a code of the table in sim/cnc/README.md");
+    check_refusal("G1.5 X1", "part.ngc:2:1: found 'G1.5', expected a code of the table in sim/cnc/README.md");
     CHECK(!refusal_of_body("G-1 X1").empty());
     CHECK(!refusal_of_body("G1.04 X1").empty());
     CHECK(!refusal_of_body("G99999999999999999999 X1").empty());
-    check_refusal("G18", "part.ngc:2:1: found 'G18', expected G17: arcs lie in the xy plane only");
-    check_refusal("G19", "part.ngc:2:1: found 'G19', expected G17: arcs lie in the xy plane only");
+    check_refusal("G18\nG2 X2 I1", "part.ngc:3:1: found 'G2', expected G17: arcs lie in the xy plane only");
+    check_refusal("G41", "part.ngc:2:1: found 'G41', expected G40: let the CAM system compensate the cutter's radius");
+    check_refusal("G93", "part.ngc:2:1: found 'G93', expected G94: a feed in mm or inches per minute");
+    check_refusal(
+        "M98 P2",
+        "part.ngc:2:1: found 'M98', expected a program without subprograms: let the CAM system post it whole");
+    check_refusal("G54 G0 X1\nG55 X2",
+                  "part.ngc:3:1: found 'G55', expected G54: one system of coordinates in a program");
+    check_refusal("T1 M6\nG1 X1\nT2 M6",
+                  "part.ngc:4:4: found 'M6', expected no other tool than T1: a scenario has one; split the program at "
+                  "the change");
     check_refusal("M4", "part.ngc:2:1: found 'M4', expected M3: the cutter is right-handed and cuts clockwise only");
-    check_refusal("M8", "part.ngc:2:1: found 'M8', expected one of M2 M3 M5 M30 M52");
-    check_refusal("M3.5", "part.ngc:2:1: found 'M3.5', expected one of M2 M3 M5 M30 M52");
+    check_refusal("M48", "part.ngc:2:1: found 'M48', expected one of M0 M1 M2 M3 M5 M6 M7 M8 M9 M30 M52");
+    check_refusal("M3.5", "part.ngc:2:1: found 'M3.5', expected one of M0 M1 M2 M3 M5 M6 M7 M8 M9 M30 M52");
+    check_refusal("O100 G1",
+                  "part.ngc:2:1: found 'O100', expected a program without O-words: let the CAM system post it whole");
 }
 
 TEST(GcodeErrors, two_words_of_one_group) {
@@ -54,7 +61,7 @@ TEST(GcodeErrors, words_that_are_none) {
     check_refusal("G1 X-.", "part.ngc:2:4: found 'X-.', expected a decimal number after X");
     check_refusal("G1 X1 = 2", "part.ngc:2:7: found '=', expected a word: a letter followed by a number");
     check_refusal("G1 X1 \xC3\xA4", "part.ngc:2:7: found '\\xC3', expected a word: a letter followed by a number");
-    check_refusal("G1 X1e5", "part.ngc:2:6: found 'e5', expected one of the words F G I J M N P R S X Y Z");
+    check_refusal("G1 X1e5", "part.ngc:2:6: found 'e5', expected one of the words F G H I J L M N P Q R S T X Y Z");
     check_refusal("G1 Xnan", "part.ngc:2:4: found 'Xn', expected a decimal number after X");
     check_refusal("G1 X111111111111111111111111111111111",
                   "part.ngc:2:4: found 'X111111111111111111111111111111111', expected a number of at most 32 "
@@ -127,15 +134,14 @@ TEST(GcodeErrors, a_program_that_switches_the_override_off_or_gives_no_tolerance
 }
 
 TEST(GcodeErrors, a_truncated_file_is_told_from_a_finished_one) {
-    STRCMP_EQUAL("part.ngc:3:1: found '', expected M2, M30 or a closing % at the end of the program",
-                 refusal_of("%\nG0 X1\n").c_str());
-    STRCMP_EQUAL("part.ngc:1:1: found '', expected M2, M30 or a closing % at the end of the program",
-                 refusal_of("").c_str());
+    STRCMP_EQUAL("part.ngc:3:1: found '', expected the closing % of the program", refusal_of("%\nG0 X1\n").c_str());
+    STRCMP_EQUAL("part.ngc:1:1: found '', expected the closing % of the program", refusal_of("").c_str());
     const std::string whole = "%\r\nM3 S600 F600\r\nG1 X1 Y2\r\nG2 X3 Y2 I1\r\nG0 Z5\r\nM30\r\n";
     const std::size_t end = whole.find("30\r\n");
     for (std::size_t length = 0; length < end + 1; ++length) {
         CHECK(!refusal_of(whole.substr(0, length)).empty());
     }
+    CHECK(read_gcode("G0 X1", "part.ngc").notes.at(0).ends_with("no M2 or M30"));  // no %: none is awaited
     STRCMP_EQUAL("", refusal_of(whole.substr(0, end + 2)).c_str());
 }
 
@@ -157,9 +163,17 @@ TEST(GcodeErrors, a_stream_that_breaks_is_refused) {
     std::istringstream stream("G0 X1\nM2\n");
     stream.setstate(std::ios::badbit);
     try {
-        parse_gcode(stream, "part.ngc");
+        read_gcode(stream, "part.ngc");
         FAIL("expected a refusal");
     } catch (const InputError& error) {
         STRCMP_EQUAL("part.ngc: found a read error, expected a readable part program", error.what());
     }
+}
+
+TEST(GcodeErrors, drilling_cycles_that_are_none) {
+    check_refusal("G81 X1 Z-2", "part.ngc:2:5: found 'X1', expected Z and R with the first hole of a cycle");
+    check_refusal("G81 X1 Z2 R1", "part.ngc:2:5: found 'X1', expected R above Z");
+    check_refusal("G83 X1 Z-2 R1", "part.ngc:2:5: found 'X1', expected a peck Q above 0 with G73 and G83");
+    check_refusal("G81 X1 Z-2 R1 L3", "part.ngc:2:15: found 'L3', expected L1: one hole for each block");
+    check_refusal("G81 X1 Z-2 R1\nG80\nX2", "part.ngc:4:1: found 'X2', expected G0, G1, G2 or G3 before it");
 }
