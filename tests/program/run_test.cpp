@@ -51,6 +51,26 @@ std::string axis_motion(double growth) {
     return text.str();
 }
 
+/// A recording whose column is in another unit.
+std::string with_column_times(const std::string& csv, const std::string& column, double factor) {
+    std::istringstream in(csv);
+    std::ostringstream out;
+    std::string line;
+    std::getline(in, line);
+    out << line << '\n';
+    const auto place = std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find(column)), ',');
+    while (std::getline(in, line)) {
+        std::istringstream cells(line);
+        std::string cell;
+        for (std::ptrdiff_t k = 0; std::getline(cells, cell, ','); ++k) {
+            out << (k > 0 ? "," : "")
+                << (k == place && !cell.empty() ? std::to_string(std::stod(cell) * factor) : cell);
+        }
+        out << (line.ends_with(',') ? "," : "") << '\n';
+    }
+    return out.str();
+}
+
 }  // namespace
 
 TEST_GROUP(Run) {
@@ -138,7 +158,10 @@ TEST(Run, replay_gives_a_row_for_each_sample_of_a_recording_at_50_hertz) {
     const std::size_t samples = csv_rows(at_50_hertz).size();
     CHECK(samples > 50);
     inputs.write("log.csv", at_50_hertz);
-    check_ran(inputs.replay());
+    const Ended ended = inputs.replay();
+    LONGS_EQUAL(0, ended.exit_code);
+    // And says why they hold no force: 4000 rpm are 1.3 revolutions in 20 ms.
+    CHECK(contains(ended.error, "samples: the spindle turns by 0.45 revolutions or more between two samples"));
     LONGS_EQUAL(samples, csv_rows(inputs.read("out.csv")).size());
 }
 
@@ -149,7 +172,19 @@ TEST(Run, replay_says_how_many_samples_of_a_slow_recording_have_no_row) {
     LONGS_EQUAL(0, ended.exit_code);
     CHECK(contains(ended.error, "millforce: note: "));
     CHECK(contains(ended.error, "--interval 0 gives a row for each"));
-    STRCMP_EQUAL("", inputs.replay({"--interval", "0"}).error.c_str());
+    CHECK_FALSE(contains(inputs.replay({"--interval", "0"}).error, "gives a row for each"));
+}
+
+TEST(Run, replay_says_in_words_why_its_rows_say_nothing) {
+    simulate_and_record();
+    const std::string good = inputs.read("log.csv");
+    const auto note_for = [&](const std::string& column, double factor) {
+        inputs.write("log.csv", with_column_times(good, column, factor));
+        return inputs.replay().error;
+    };
+    CHECK(contains(note_for("spindle_angle_rad", -1.0), "the spindle turns backwards"));
+    CHECK(contains(note_for("spindle_angle_rad", 0.0), "the spindle does not turn"));
+    CHECK(contains(note_for("spindle_angle_rad", 57.3), "0.45 revolutions or more"));
 }
 
 TEST(Run, ctrl_c_in_a_long_simulation_leaves_no_file_and_a_pipe_sees_no_progress) {
@@ -204,4 +239,16 @@ TEST(Run, a_bound_that_does_not_hold_is_exit_code_1_with_the_result_written) {
     LONGS_EQUAL(1, ended.exit_code);
     CHECK(contains(ended.out, "BROKEN"));
     CHECK(contains(inputs.read("f.toml"), "mass_kg"));
+}
+
+TEST(Run, replay_says_that_a_spindles_current_in_air_is_not_the_machines) {
+    const std::string scenario = std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/";
+    check_ran(run_millforce({"simulate", scenario + "slot_entry.toml", "--record", "--out", inputs.name("slot")}));
+    const std::string milliamperes =
+        with_column_times(text_of(inputs.path("slot") / "recording.csv"), "spindle_current_A", 1000.0);
+    inputs.write("log.csv", milliamperes);
+    const Ended ended = run_millforce({"replay", inputs.name("log.csv"), "--machine", scenario + "machines/vmc.toml",
+                                       "--tool", scenario + "tools/endmill_10mm.toml", "-o", inputs.name("out.csv")});
+    LONGS_EQUAL(0, ended.exit_code);
+    CHECK(contains(ended.error, "in air the spindle's current is not that of the machine's file; expected amperes"));
 }

@@ -24,6 +24,7 @@
 #include "recording/recording.hpp"
 #include "replay/estimate_rows.hpp"
 #include "replay/replay_candump.hpp"
+#include "replay/replay_findings.hpp"
 
 namespace millforce::host {
 
@@ -195,12 +196,15 @@ int replay_table(const ReplayOptions& options) {
     out << '\n';
     Progress progress("replaying");
     RowTimes row_times(options.interval_s);
+    ReplayFindings findings(parameters.machine.encoder_counts_per_rev);
     while (recording.next()) {
         progress.update(recording.fraction_read());
         const hal::FeedOverride output =
             firmware::step_and_work(tick, recording.sample(), program_of(recording, options));
+        const firmware::TickRecord record = firmware::tick_record(tick, output, 0);
+        findings.follow(recording.sample(), record);
         if (row_times.is_due(recording.time_s())) {
-            write_estimate_row(out, recording.time_s(), firmware::tick_record(tick, output, 0), total);
+            write_estimate_row(out, recording.time_s(), record, total);
             roughness.write(out, tick.roughness());
             wide_band.write(out, tick.wide_band());
             out << '\n';
@@ -211,6 +215,9 @@ int replay_table(const ReplayOptions& options) {
         throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
     }
     wide_band.tell_what_is_missing();
+    for (const std::string& finding : recording.has_force_sensor() ? std::vector<std::string>() : findings.notes()) {
+        fmt::print(stderr, "millforce: note: {}: {}\n", options.log, finding);
+    }
     if (const std::string left_out = row_times.left_out(); !left_out.empty()) {
         fmt::print(stderr, "millforce: note: {}: {}\n", options.log, left_out);
     }
