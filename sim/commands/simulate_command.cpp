@@ -15,6 +15,7 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_notes.hpp"
 #include "files/progress.hpp"
 #include "loop/bounds.hpp"
 #include "loop/recorder.hpp"
@@ -45,6 +46,7 @@ constexpr const char* baseline = "constant";
 
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
+    host::tell_parameter_notes(scenario.parameters);
     for (const std::string& note : program_of(scenario).notes) {
         host::print_line(stderr, "millforce: note: " + note);
     }

@@ -252,3 +252,10 @@ TEST(Run, replay_says_that_a_spindles_current_in_air_is_not_the_machines) {
     LONGS_EQUAL(0, ended.exit_code);
     CHECK(contains(ended.error, "in air the spindle's current is not that of the machine's file; expected amperes"));
 }
+
+TEST(Run, a_machine_that_measures_its_spindle_alone_is_told_what_follows_from_it) {
+    inputs.write("machine.toml", with(machine_text, "K_x4_N_per_A = 120.0", "K_x4_N_per_A = 0.0"));
+    const Ended ended = simulated();
+    LONGS_EQUAL(0, ended.exit_code);
+    CHECK(contains(ended.error, "millforce: note: neither x nor y tells a force (K_x4_N_per_A)"));
+}

@@ -17,6 +17,7 @@
 #include "files/input_error.hpp"
 #include "files/overwriting.hpp"
 #include "files/parameter_files.hpp"
+#include "files/parameter_notes.hpp"
 #include "files/progress.hpp"
 #include "firmware/tick.hpp"
 #include "firmware/tick_record.hpp"
@@ -179,6 +180,9 @@ hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOpti
 int replay_table(const ReplayOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     RecordingReader recording(options.log, parameters.machine.encoder_counts_per_rev);
+    if (!recording.has_force_sensor()) {
+        tell_parameter_notes(parameters);
+    }
     firmware::ForceControlTick<float> tick(parameters);
     const estimation::TotalForce<float> total = firmware::total_force(parameters);
     std::optional<AtomicFile> file;

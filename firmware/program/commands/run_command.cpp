@@ -15,6 +15,7 @@
 #include "files/input_error.hpp"
 #include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
+#include "files/parameter_notes.hpp"
 
 namespace millforce::host {
 
@@ -69,6 +70,7 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 int run_on_bus(const RunOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     const MachineBus bus = bus_of(options.machine);
+    tell_parameter_notes(parameters);
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(

@@ -11,6 +11,7 @@
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
 #include "files/parameter_files.hpp"
+#include "files/parameter_notes.hpp"
 #include "firmware_link/link_controller.hpp"
 
 namespace millforce::host {
@@ -61,6 +62,7 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
 
 int serve(const ServeOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
+    tell_parameter_notes(parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);
     for (const std::string& note : become_real_time()) {
