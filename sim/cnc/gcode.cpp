@@ -20,11 +20,9 @@ namespace {
 
 constexpr double arc_tolerance_mm = 0.005;
 constexpr double coincident_mm = 1e-7;
-constexpr double largest_coordinate_mm = 1e5;
 constexpr double largest_feed_mm_min = 1e6;
 constexpr double largest_spindle_speed_rpm = 1e6;
 constexpr double longest_dwell_s = 3600.0;
-constexpr double mm_per_inch = 25.4;
 constexpr std::size_t largest_text_bytes = std::size_t{256} << 20U;
 
 constexpr std::string_view known_g_codes = "a code of the table in sim/cnc/README.md";

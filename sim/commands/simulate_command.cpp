@@ -38,6 +38,7 @@ struct SimulateOptions {
     std::optional<double> friction_scale;
     std::optional<double> current_noise_share;
     double hardest = hardest_material;
+    Interpreter interpreter = Interpreter::automatic;
     std::string interface;
     host::BusPace pace{};
 };
@@ -46,6 +47,7 @@ constexpr const char* baseline = "constant";
 
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
+    scenario.interpreter = options.interpreter;
     host::tell_parameter_notes(scenario.parameters);
     for (const std::string& note : program_of(scenario).notes) {
         host::print_line(stderr, "millforce: note: " + note);
@@ -193,6 +195,10 @@ void add_simulate(host::Command& program) {
                 "Margin of the baseline: K_s of the hardest material relative to the scenario's; 1: best in hindsight")
         .within(1.0, 10.0)
         .shows_default();
+    command.choice<Interpreter>(
+        "--interpreter", options->interpreter,
+        "Who reads the part program: our reader, LinuxCNC's rs274, or rs274 where ours refuses",
+        {{"auto", Interpreter::automatic}, {"own", Interpreter::own}, {"rs274", Interpreter::rs274}});
     command
         .option("--bus", options->interface,
                 "Put drives and CNC on this CAN interface, in real time, for 'millforce run' as another process")

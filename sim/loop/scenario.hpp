@@ -66,6 +66,10 @@ struct PlantDeviation {
     double axis_gain_scale = 1.0;       ///< force constant true / believed
 };
 
+/// Who reads the part program: this project's reader, LinuxCNC's rs274, or the former and, where it refuses, the
+/// latter.
+enum class Interpreter { automatic, own, rs274 };
+
 struct Scenario {
     std::string name;
     std::string title;
@@ -78,6 +82,7 @@ struct Scenario {
     double spindle_speed_rad_s = 0.0;  ///< profile scenarios; a part program has its own S words
     double feed_mm_s = 0.0;            ///< programmed feed of profile scenarios
     std::string program_file;          ///< part program; empty: profile
+    Interpreter interpreter = Interpreter::automatic;
     StockSettings stock{};
     ProfileSettings profile{};
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
 #include "cnc/cnc.hpp"
 #include "cnc/gcode.hpp"
+#include "cnc/rs274.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
@@ -142,17 +144,51 @@ class Loop {
 
 }  // namespace
 
+namespace {
+
+GcodeProgram read_by_ourselves(const std::string& name, const GcodeSettings& settings) {
+    std::ifstream file(name);
+    if (!file) {
+        throw host::InputError(fmt::format("{}: no such file", name));
+    }
+    return read_gcode(file, name, settings);
+}
+
+/// What our reader refuses LinuxCNC's may know.
+GcodeProgram read_by_either(const std::string& name, const GcodeSettings& settings) {
+    try {
+        return read_by_ourselves(name, settings);
+    } catch (const host::InputError& ours) {
+        if (!std::filesystem::exists(name) || !has_rs274()) {
+            throw;
+        }
+        try {
+            GcodeProgram program = read_by_rs274(name, settings);
+            program.notes.push_back(ours.what());
+            return program;
+        } catch (const host::InputError& theirs) {
+            throw host::InputError(fmt::format("{}; and {}", ours.what(), theirs.what()));
+        }
+    }
+}
+
+}  // namespace
+
 GcodeProgram program_of(const Scenario& scenario) {
     if (!scenario.has_program()) {
         return {profile_moves(scenario), {}};
     }
-    std::ifstream file(scenario.program_file);
-    if (!file) {
-        throw host::InputError(fmt::format("{}: no such file", scenario.program_file));
-    }
     GcodeSettings settings;
     settings.start_mm = {scenario.stock.start_x_mm, scenario.stock.start_y_mm, scenario.stock.start_z_mm};
-    return read_gcode(file, scenario.program_file, settings);
+    switch (scenario.interpreter) {
+        case Interpreter::own:
+            return read_by_ourselves(scenario.program_file, settings);
+        case Interpreter::rs274:
+            return read_by_rs274(scenario.program_file, settings);
+        case Interpreter::automatic:
+            break;
+    }
+    return read_by_either(scenario.program_file, settings);
 }
 
 std::vector<Move> moves_of(const Scenario& scenario) {
