@@ -125,6 +125,9 @@ TEST(Ceilings, monitor_only_watches_the_cut_all_the_same) {
     p.monitor_only = true;
     Controller controller(p);
     CHECK(bring_into_cut(controller).state == CutState::in_cut);
+    const Output blind = repeat(controller, without_force(in_contact()), 1000);
+    CHECK(blind.state == CutState::hold);
+    CHECK_FALSE(blind.hold);  // it is not asked
     Input stale = in_contact();
     stale.time_since_sample_s = 1.0F;
     CHECK(controller.step(stale).hold);

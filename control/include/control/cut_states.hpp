@@ -16,7 +16,8 @@
 ///
 /// Watches, each latched as a fault:
 ///   stale_input      no drive sample for longer than stale_s, or of unknown age (NaN), in any state
-///   spindle_stopped  in entry or in_cut, the axes moving, the spindle at rest for longer than stale_s
+///   spindle_stopped  in entry or in_cut, or where the current shows a cut, the axes moving, and the spindle or its
+///                    encoder at rest for longer than stale_s
 ///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions, judged on estimates
 ///                    only; bounds and guesses do not count. Not in monitor_only.
 ///
