@@ -146,6 +146,33 @@ TEST(CutStates, holds_in_cut_once_the_force_is_missing_for_longer_than_stated) {
     CHECK_FALSE(seeing.hold);
 }
 
+TEST(CutStates, a_cut_that_was_given_up_is_over_once_spindle_and_axes_have_stood_for_two_seconds) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input blind = without_force(in_contact());
+    CHECK(repeat(controller, blind, 600).hold);
+    blind.rapid = true;  // nothing is in the way, says the program
+    CHECK_FALSE(controller.step(blind).hold);
+    blind.rapid = false;
+    blind.path_speed_mm_s = 0.0F;
+    CHECK(repeat(controller, blind, 3000).hold);  // the spindle turns
+    blind.cut.spindle_turning = false;
+    CHECK(repeat(controller, blind, 1900).hold);
+    const Output over = repeat(controller, blind, 200);
+    CHECK(over.state == CutState::air);
+    CHECK_FALSE(over.hold);
+}
+
+TEST(CutStates, a_hold_of_the_operator_does_not_outlast_itself_where_the_spindle_stands) {
+    Controller controller;
+    Input held = without_force(in_air());
+    held.cut.spindle_turning = false;
+    held.feed_hold = true;
+    CHECK(repeat(controller, held, 100).hold);
+    held.feed_hold = false;
+    CHECK_FALSE(controller.step(held).hold);
+}
+
 TEST_GROUP(Faults){};
 
 TEST(Faults, overload_latches_after_more_than_the_stated_revolutions) {

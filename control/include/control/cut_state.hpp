@@ -32,9 +32,13 @@ enum class CutState : std::uint8_t {
     /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air.
     exit = 3,
 
-    /// There is nothing to judge by, or the feed is held: the override is not raised, and the feed is to be held.
+    /// There is nothing to judge by, or the feed is held: the override is not raised. For want of an estimate in a cut
+    /// the feed
+    /// is held as well.
     /// Entered: from any state but fault while the feed is held, from entry or in_cut for want of an estimate.
-    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit.
+    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air where spindle and
+    /// axes
+    /// have stood for 2 s.
     hold = 4,
 
     /// The controller has given up: lowest override, feed held.

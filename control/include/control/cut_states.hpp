@@ -40,6 +40,8 @@ class CutStates {
     [[nodiscard]] Fault fault() const { return fault_; }
     /// The tool has been in_cut since it was last in air, so it has already survived a cut at this feed.
     [[nodiscard]] bool has_cut() const { return has_cut_; }
+    /// In `hold` for want of an estimate in a cut.
+    [[nodiscard]] bool is_blind() const { return is_blind_; }
 
   private:
     using Estimate = CutEstimateForControl<Scalar>;
@@ -51,16 +53,19 @@ class CutStates {
     void watch_input(const Parameters& parameters, const ControlInput<Scalar>& input);
     void watch_spindle(const Parameters& parameters, const ControlInput<Scalar>& input,
                        const StepMotion<Scalar>& motion);
+    void watch_rest(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion);
     void watch_overload(const Parameters& parameters, const Estimate& cut);
 
     CutState state_ = CutState::air;
     Fault fault_ = Fault::none;
     bool has_cut_ = false;
     bool was_in_contact_ = false;
+    bool is_blind_ = false;
     Scalar travel_in_state_mm_{0};
     Scalar tooth_periods_in_state_{0};  // counted: a sum of shares of a revolution would round
     Scalar without_force_s_{0};
     Scalar spindle_at_rest_s_{0};
+    Scalar at_rest_s_{0};  // spindle and axes
     Scalar overload_tooth_periods_{0};
 };
 

@@ -35,9 +35,13 @@ void CutStates<Scalar>::step(const Parameters& parameters, const ControlInput<Sc
     if (input.cut.fresh) {
         follow_contact(parameters, input);
     }
-    if (lacks_estimate(parameters) || input.feed_hold) {
+    if (lacks_estimate(parameters)) {
+        go_to(CutState::hold);
+        is_blind_ = true;
+    } else if (input.feed_hold) {
         go_to(CutState::hold);
     }
+    watch_rest(input, motion);
     if (motion.turned && state_ == CutState::exit) {
         go_to(CutState::air);  // what was cut before the turn says nothing about what lies ahead now
     }
@@ -101,6 +105,7 @@ void CutStates<Scalar>::go_to(CutState state) {
     if (state == state_) {
         return;
     }
+    is_blind_ = false;
     has_cut_ = state == CutState::in_cut || (has_cut_ && state != CutState::air);
     state_ = state;
     travel_in_state_mm_ = Scalar(0);
@@ -130,6 +135,17 @@ void CutStates<Scalar>::watch_spindle(const Parameters& parameters, const Contro
     spindle_at_rest_s_ = rubs ? spindle_at_rest_s_ + motion.dt_s : Scalar(0);
     if (spindle_at_rest_s_ > parameters.stale_s) {
         enter_fault(Fault::spindle_stopped);
+    }
+}
+
+/// Spindle and axes have stood for so long that the cut is over: what comes next may be a move without the spindle.
+template <typename Scalar>
+void CutStates<Scalar>::watch_rest(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion) {
+    constexpr Scalar cut_is_over_s = Scalar(2);
+    const bool rests = !input.cut.spindle_turning && !(motion.path_speed_mm_s > Scalar(0));
+    at_rest_s_ = rests ? at_rest_s_ + motion.dt_s : Scalar(0);
+    if (state_ == CutState::hold && !input.feed_hold && !(at_rest_s_ < cut_is_over_s)) {
+        go_to(CutState::air);
     }
 }
 

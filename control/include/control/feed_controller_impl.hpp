@@ -105,8 +105,7 @@ ControlOutput<Scalar> FeedController<Scalar>::output_of(const ControlInput<Scala
     output.fault = states_.fault();
     output.limit = limit_;
     output.fading = ceilings_.is_fading();
-    const bool is_blind = states_.state() == CutState::hold && !parameters_.monitor_only;
-    output.hold = has_failed || input.feed_hold || is_blind;
+    output.hold = has_failed || input.feed_hold || (states_.is_blind() && !input.rapid && !parameters_.monitor_only);
     output.ratio =
         parameters_.monitor_only && !has_failed ? bounded(parameters_, input.operator_override) : law_.override_ratio();
     return output;
