@@ -24,8 +24,6 @@
 
 #include "files/input_error.hpp"
 
-extern "C" char** environ;
-
 namespace millforce::sim {
 
 namespace {
