@@ -53,9 +53,8 @@ double field_weakening_gain(double base_speed_rad_s, double speed_rad_s) {
 }
 
 SpindleFit fit_spindle(std::span<const SpindleSample> samples, SpindleFitTerms terms, double significance) {
-    constexpr int scan_steps = 48;             // over the speeds of the samples
-    constexpr double at_slowest_speed = 1e-3;  // of the range of speeds: the search cannot go lower
-    constexpr int always_fitted = 2;           // K_t1, ω_b
+    constexpr int scan_steps = 48;    // over the speeds of the samples
+    constexpr int always_fitted = 2;  // K_t1, ω_b
 
     SpindleFit result;
     const SpindleSquares constant = squares_at(samples, terms, 0.0, 0.0);
@@ -64,20 +63,25 @@ SpindleFit fit_spindle(std::span<const SpindleSample> samples, SpindleFitTerms t
         return result;
     }
     const auto [slowest, fastest] = std::ranges::minmax(samples, {}, &SpindleSample::speed_rad_s);
-    const double range_rad_s = fastest.speed_rad_s - slowest.speed_rad_s;
-    const double base_speed =
-        place_of_minimum([&](double rad_s) { return squares_at(samples, terms, rad_s, 0.0).residual_sum_of_squares(); },
-                         slowest.speed_rad_s, fastest.speed_rad_s, scan_steps);
-    const SpindleSquares weakened = squares_at(samples, terms, base_speed, 0.0);
+    const auto squares_of = [&](double rad_s) { return squares_at(samples, terms, rad_s, 0.0); };
+    const double best_rad_s =
+        place_of_minimum([&](double rad_s) { return squares_of(rad_s).residual_sum_of_squares(); }, slowest.speed_rad_s,
+                         fastest.speed_rad_s, scan_steps);
+    const SpindleSquares weakened = squares_of(best_rad_s);
     const int free_rows = weakened.rows() - always_fitted - static_cast<int>(terms.idle_torque) -
                           static_cast<int>(terms.idle_slope) - static_cast<int>(terms.inertia);
-    const double gain = constant.residual_sum_of_squares() - weakened.residual_sum_of_squares();
-    if (free_rows < 1 || !(gain * free_rows > significance * weakened.residual_sum_of_squares())) {
+    const auto is_beaten = [&](const SpindleSquares& other) {
+        const double gain = other.residual_sum_of_squares() - weakened.residual_sum_of_squares();
+        return free_rows >= 1 && gain * free_rows > significance * weakened.residual_sum_of_squares();
+    };
+    if (!is_beaten(constant)) {
         return result;
     }
-    result.nothing_below_base_speed = base_speed < slowest.speed_rad_s + range_rad_s * at_slowest_speed;
-    const double K_t1 = weakened.solve().parameters(spindle_K_t1);
-    result.solution = squares_at(samples, terms, base_speed, result.nothing_below_base_speed ? 0.0 : K_t1).solve();
+    const SpindleSquares from_slowest = squares_of(slowest.speed_rad_s);
+    result.nothing_below_base_speed = !is_beaten(from_slowest);
+    const double base_speed = result.nothing_below_base_speed ? slowest.speed_rad_s : best_rad_s;
+    const double K_t1_for_step = result.nothing_below_base_speed ? 0.0 : weakened.solve().parameters(spindle_K_t1);
+    result.solution = squares_at(samples, terms, base_speed, K_t1_for_step).solve();
     result.solution.parameters(spindle_base_speed) = base_speed;
     return result;
 }

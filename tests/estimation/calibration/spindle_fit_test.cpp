@@ -74,11 +74,14 @@ TEST(SpindleFit, sees_no_field_weakening_where_there_is_none) {
 TEST(SpindleFit, above_the_base_speed_alone_knows_power_and_says_that_nothing_is_known_below) {
     const Drive drive;
     Noise noise(23);
-    const auto samples = cuts(drive, {200, 300, 400}, noise, 0.02);
-    const auto fit = fit_spindle(samples, {true, true, true});
-    CHECK(fit.nothing_below_base_speed);
-    const double power = fit.solution.parameters(spindle_K_t1) * fit.solution.parameters(spindle_base_speed);
-    DOUBLES_EQUAL(1.4 * 157.0, power, 0.02 * 1.4 * 157.0);
+    int said = 0;
+    for (int repetition = 0; repetition < 200; ++repetition) {
+        const auto fit = fit_spindle(cuts(drive, {200, 300, 400}, noise, 0.02), {true, true, true});
+        said += fit.nothing_below_base_speed ? 1 : 0;
+        const double power = fit.solution.parameters(spindle_K_t1) * fit.solution.parameters(spindle_base_speed);
+        DOUBLES_EQUAL(1.4 * 157.0, power, 0.03 * 1.4 * 157.0);
+    }
+    CHECK(said >= 196);  // one in a thousand per candidate speed
 }
 
 TEST(SpindleFit, without_load_cannot_tell_the_torque_constant) {
