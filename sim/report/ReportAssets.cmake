@@ -10,6 +10,8 @@ if(NOT DYGRAPHS_SCRIPT OR NOT DYGRAPHS_STYLE)
         "libjs-dygraphs (Debian, Ubuntu), or set DYGRAPHS_SCRIPT and DYGRAPHS_STYLE to the two files.")
 endif()
 
+add_custom_target(embedded_assets)
+
 # millforce_embed_assets(<target> <header> <namespace> <name> <file> …): functions of these names give the files' text
 function(millforce_embed_assets target header namespace)
     set(assets ${ARGN})
@@ -25,6 +27,8 @@ function(millforce_embed_assets target header namespace)
         COMMENT "Embedding the templates, styles and scripts of ${target}"
         VERBATIM)
     target_sources(${target} PRIVATE ${output})
+    add_custom_target(embedded_assets_of_${target} DEPENDS ${output})
+    add_dependencies(embedded_assets embedded_assets_of_${target})
 endfunction()
 
 set(REPORT_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/report)

@@ -26,11 +26,6 @@ if(MILLFORCE_SANITIZE)
     add_link_options(-fsanitize=${sanitizers})
 endif()
 
-if(MILLFORCE_TIDY)
-    find_program(CLANG_TIDY_EXECUTABLE NAMES clang-tidy REQUIRED)
-    set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY_EXECUTABLE} --quiet)
-endif()
-
 add_custom_target(core_rules ALL
     COMMAND ${CMAKE_COMMAND}
             -DSOURCE_DIR=${CMAKE_SOURCE_DIR}
