@@ -20,6 +20,7 @@
 #include "loop/bounds.hpp"
 #include "loop/recorder.hpp"
 #include "loop/simulation.hpp"
+#include "preview/preview.hpp"
 #include "recording/recording.hpp"
 #include "report/report.hpp"
 #include "report/summary.hpp"
@@ -34,6 +35,7 @@ struct SimulateOptions {
     std::optional<std::uint64_t> seed;
     std::string out = "out";
     bool record = false;
+    bool preview = false;
     std::optional<double> cutting_force_scale;
     std::optional<double> friction_scale;
     std::optional<double> current_noise_share;
@@ -139,6 +141,9 @@ int simulate_scenario(const SimulateOptions& options) {
         }
         results.push_back(run(scenario, "millforce", *controller, recording));
         host::leave_real_time();
+    } else if (options.preview) {
+        MappedController controller(scenario.parameters, preview(scenario));
+        results.push_back(run(scenario, "millforce", controller, recording));
     } else if (!is_baseline) {
         results.push_back(
             run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
@@ -182,7 +187,13 @@ void add_simulate(host::Command& program) {
     command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
         .value_name("DIR")
         .shows_default();
-    command.flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
+    host::Option record =
+        command.flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
+    command
+        .flag("--preview", options->preview,
+              "Let the controller see what lies ahead: a part map of program, stock and tool")
+        .excludes(controller)
+        .excludes(record);
     command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s relative to the scenario's")
         .within(0.1, 10.0);
     command.option("--friction-scale", options->friction_scale, "True friction relative to the machine file's")

@@ -8,19 +8,6 @@
 
 namespace millforce::sim {
 
-namespace {
-
-std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
-    if (scenario.has_program()) {
-        return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
-    }
-    const auto& tool = scenario.parameters.tool;
-    return std::make_unique<ProfileWorkpiece>(scenario.profile, scenario.cutter, tool.side,
-                                              static_cast<double>(tool.centre_offset_mm));
-}
-
-}  // namespace
-
 MillingPlant::MillingPlant(const Scenario& scenario)
     : scenario_(deviated(scenario, scenario.deviation, scenario.seed)),
       machine_(scenario_.machine),

@@ -17,7 +17,11 @@ firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
 
 template <typename Scalar>
 hal::FeedOverride TickController<Scalar>::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    output_ = firmware::step_and_work(tick_, sample, program);
+    tick_.take(sample);
+    firmware::finish_estimate(tick_);
+    look_ahead(tick_, program);
+    output_ = tick_.answer(program);
+    firmware::finish_work(tick_);
     return output_;
 }
 

@@ -11,6 +11,7 @@
 #include "firmware/tick_record.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
+#include "part_map/map_follower.hpp"
 #include "report/run_result.hpp"
 
 namespace millforce::sim {
@@ -51,6 +52,10 @@ class TickController : public OverrideSource {
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return tick_.roughness(); }
     [[nodiscard]] const firmware::WideBandEstimate<Scalar>& wide_band() const { return tick_.wide_band(); }
 
+  protected:
+    /// Between the tick's estimate and its answer.
+    virtual void look_ahead(firmware::ForceControlTick<Scalar>&, const hal::ProgramStatus&) {}
+
   private:
     firmware::ForceControlTick<Scalar> tick_;
     estimation::TotalForce<Scalar> total_force_;
@@ -58,6 +63,23 @@ class TickController : public OverrideSource {
 };
 using MillforceController = TickController<float>;
 using FixedPointController = TickController<estimation::Fixed>;
+
+/// The tick with a part map.
+class MappedController : public MillforceController {
+  public:
+    MappedController(const firmware::Parameters<float>& parameters, const host::PartMap& map)
+        : MillforceController(parameters), follower_(parameters, map) {}
+
+    [[nodiscard]] const control::FeedAhead<float>& ahead() const { return follower_.ahead(); }
+
+  protected:
+    void look_ahead(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) override {
+        follower_.follow(tick, program);
+    }
+
+  private:
+    host::MapFollower follower_;
+};
 
 /// The feed as programmed, times a constant: what is done today, with a feed that is safe everywhere. It estimates all
 /// the same, in monitor mode, so that its report shows what it met.

@@ -116,4 +116,13 @@ bool ProfileWorkpiece::move_to(const Eigen::Vector3d&, const Eigen::Vector3d&, d
     return true;
 }
 
+std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario) {
+    if (scenario.has_program()) {
+        return std::make_unique<StockWorkpiece>(scenario.stock, scenario.cutter);
+    }
+    const auto& tool = scenario.parameters.tool;
+    return std::make_unique<ProfileWorkpiece>(scenario.profile, scenario.cutter, tool.side,
+                                              static_cast<double>(tool.centre_offset_mm));
+}
+
 }  // namespace millforce::sim

@@ -64,4 +64,7 @@ class ProfileWorkpiece : public Workpiece {
     double last_path_mm_ = -1.0;
 };
 
+/// The scenario's: stock where it has a part program, else its profile.
+std::unique_ptr<Workpiece> workpiece_of(const Scenario& scenario);
+
 }  // namespace millforce::sim

@@ -161,33 +161,70 @@ float thickest_mm(const EngagementMap& map) {
     return thickest;
 }
 
+/// A bin's material but for the skin.
+struct EngagedPart {
+    double low_rad;
+    double high_rad;
+    double width;  // in radii
+    double height_mm;
+    bool follows;  // the bin before is engaged as well
+};
+
+template <typename Visit>
+void for_each_engaged(const EngagementMap& map, const Visit& visit) {
+    bool follows = false;
+    const float skin_mm = skin_share * thickest_mm(map);
+    for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
+        const EngagementMap::Bin& bin = map.bins[k];
+        if (!holds_material(bin) || bin.top_mm - bin.bottom_mm < skin_mm) {
+            follows = false;
+            continue;
+        }
+        const CoveredPart part = covered_part(map, k);
+        visit(EngagedPart{.low_rad = (static_cast<double>(k) + part.low) * EngagementMap::bin_rad,
+                          .high_rad = (static_cast<double>(k) + part.high) * EngagementMap::bin_rad,
+                          .width = width_in_radii(map, k),
+                          .height_mm = static_cast<double>(bin.top_mm - bin.bottom_mm),
+                          .follows = follows});
+        follows = true;
+    }
+}
+
 }  // namespace
 
 TrueEngagement summarise(const EngagementMap& map) {
     TrueEngagement truth;
     double weighted_depth = 0.0;
-    bool inside = false;
-    const float skin_mm = skin_share * thickest_mm(map);
-    for (std::size_t k = 0; k < EngagementMap::bin_count / 2; ++k) {
-        const EngagementMap::Bin& bin = map.bins[k];
-        if (!holds_material(bin) || bin.top_mm - bin.bottom_mm < skin_mm) {
-            inside = false;
-            continue;
-        }
-        const CoveredPart part = covered_part(map, k);
-        const double low = (static_cast<double>(k) + part.low) * EngagementMap::bin_rad;
-        const double high = (static_cast<double>(k) + part.high) * EngagementMap::bin_rad;
-        const double width = width_in_radii(map, k);
-        truth.entry_rad = truth.cutting ? truth.entry_rad : low;
-        truth.exit_rad = high;
+    for_each_engaged(map, [&](const EngagedPart& part) {
+        truth.entry_rad = truth.cutting ? truth.entry_rad : part.low_rad;
+        truth.exit_rad = part.high_rad;
         truth.cutting = true;
-        truth.intervals += inside ? 0 : 1;
-        inside = true;
-        truth.radial_immersion += width;
-        weighted_depth += width * static_cast<double>(bin.top_mm - bin.bottom_mm);
-    }
+        truth.intervals += part.follows ? 0 : 1;
+        truth.radial_immersion += part.width;
+        weighted_depth += part.width * part.height_mm;
+    });
     truth.axial_depth_mm = truth.radial_immersion > 0.0 ? weighted_depth / truth.radial_immersion : 0.0;
     return truth;
+}
+
+std::vector<UniformArc> uniform_arcs(const EngagementMap& map) {
+    constexpr double same_height = 0.1;
+    std::vector<UniformArc> arcs;
+    double width = 0.0;
+    for_each_engaged(map, [&](const EngagedPart& part) {
+        const bool goes_on =
+            part.follows && std::abs(part.height_mm - arcs.back().height_mm) <= same_height * arcs.back().height_mm;
+        if (!goes_on) {
+            arcs.push_back({part.low_rad, part.high_rad, part.height_mm});
+            width = part.width;
+            return;
+        }
+        UniformArc& arc = arcs.back();
+        arc.exit_rad = part.high_rad;
+        arc.height_mm = (arc.height_mm * width + part.height_mm * part.width) / (width + part.width);
+        width += part.width;
+    });
+    return arcs;
 }
 
 }  // namespace millforce::sim

@@ -61,4 +61,15 @@ struct TrueEngagement {
 
 TrueEngagement summarise(const EngagementMap& map);
 
+/// A stretch of engagement of one height.
+struct UniformArc {
+    double entry_rad = 0.0;
+    double exit_rad = 0.0;
+    double height_mm = 0.0;  ///< weighted with sin φ as the chip is
+};
+
+/// What is engaged as arcs, the same material as in summarise(): another arc begins at a gap, and where the height
+/// differs by a tenth from that of the arc so far. In the order of φ.
+std::vector<UniformArc> uniform_arcs(const EngagementMap& map);
+
 }  // namespace millforce::sim

@@ -77,6 +77,53 @@ TEST(Ceilings, a_plunge_goes_no_faster_than_the_air_feed_nor_the_program) {
     check_ratio(1.0F, repeat(roomy, above, 2000));
 }
 
+// ---- The way ahead
+// ---------------------------------------------------------------------------------------------------
+
+namespace {
+
+Input with_way(Input input, float feed_mm_s) {
+    input.way.known = true;
+    input.way.feed_mm_s = feed_mm_s;
+    return input;
+}
+
+}  // namespace
+
+TEST(Ceilings, where_the_way_ahead_is_known_air_is_passed_at_its_feed) {
+    Controller controller;
+    const Output output = repeat(controller, with_way(in_air(), 18.0F), 2000);
+    check_ratio(0.9F, output);
+    CHECK(output.limit == Limit::way_ahead);
+    CHECK_COMPARE(ratio_of(0.05F, in_air()), <, 0.9F);
+}
+
+TEST(Ceilings, where_the_way_ahead_is_known_no_surge_is_feared) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 2.0F;
+    Input input = in_contact();
+    input.cut.surge_ratio = 5.0F;
+    Controller blind(p);
+    CHECK(repeat(blind, input, 2000).limit == Limit::surge);
+    Controller controller(p);
+    const Output output = repeat(controller, with_way(input, 100.0F), 2000);
+    CHECK(output.limit == Limit::force);
+}
+
+TEST(Ceilings, the_way_ahead_raises_nothing_above_the_force_nor_without_an_estimate) {
+    Parameters p = immediate();
+    Controller controller(p);
+    const float by_force = repeat(controller, with_way(in_contact(), 1000.0F), 2000).ratio;
+    Controller blind(p);
+    check_ratio(repeat(blind, in_contact(), 2000).ratio, controller.step(with_way(in_contact(), 1000.0F)));
+    CHECK_COMPARE(repeat(controller, with_way(without_force(in_contact()), 1000.0F), 200).ratio, <=, by_force);
+}
+
+TEST(Ceilings, a_feed_of_the_way_ahead_that_is_not_a_number_is_no_feed) {
+    Controller controller;
+    check_ratio(Parameters{}.override_min, repeat(controller, with_way(in_contact(), not_a_number), 2000));
+}
+
 TEST(Ceilings, a_rapid_gives_1) {
     for (const bool from_cut : {false, true}) {
         Controller controller;

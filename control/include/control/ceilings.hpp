@@ -22,6 +22,8 @@
 ///              surge is under way: then also the override at the last estimate before the growth, until it is over
 ///              (cut_trend.hpp).
 ///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
+///   way ahead  where a part map is known: its feed (feed_ahead.hpp). It stands in place of air, entry, exit, surge,
+///              turn and fading, which guard a tool that does not see. The force, which is measured, stays.
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way
 ///   operator   the operator's override below 1; NaN or infinite counts as 0
@@ -90,6 +92,7 @@ class Ceilings {
                         const Situation& situation) const;
     void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
                       const Situation& situation) const;
+    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters, const Situation& situation) const;
     [[nodiscard]] static Scalar ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 

@@ -145,6 +145,9 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, c
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
         return lowest;
     }
+    if (input.way.known) {
+        lowest.lower_to(input.way.feed_mm_s / input.programmed_feed_mm_s, Limit::way_ahead);
+    }
     lower_by_state(lowest, parameters, input, situation);
     lowest.lower_to(override_of_feed_per_tooth(parameters.max_feed_per_tooth_mm, parameters.teeth, input),
                     Limit::feed_per_tooth);
@@ -164,11 +167,14 @@ void Ceilings<Scalar>::lower_by_state(Ceiling<Scalar>& lowest, const Parameters&
     const Scalar of_highest_feed = is_slower ? input.programmed_feed_mm_s / highest_programmed_feed_mm_s_ : Scalar(1);
     const Scalar air =
         of_highest_feed * override_of_feed_per_tooth(parameters.air_feed_per_tooth_mm, parameters.teeth, input);
-    if (situation.state == CutState::air) {
-        lowest.lower_to(air, Limit::air_feed);
-    }
     if (input.plunging) {
         lowest.lower_to(air < Scalar(1) ? air : Scalar(1), Limit::entry_feed);
+    }
+    if (input.way.known) {
+        return;
+    }
+    if (situation.state == CutState::air) {
+        lowest.lower_to(air, Limit::air_feed);
     }
     if (situation.state == CutState::entry) {
         const Scalar entry = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
@@ -183,12 +189,10 @@ void Ceilings<Scalar>::lower_by_state(Ceiling<Scalar>& lowest, const Parameters&
 template <typename Scalar>
 void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters,
                                     const ControlInput<Scalar>& input, const Situation& situation) const {
-    if (surge_is_under_way(parameters)) {
-        lowest.lower_to(override_before_growth_, Limit::surge);
-    }
     lowest.lower_to(situation.force_demand, Limit::force);
-    lowest.lower_to(surge_ceiling_, Limit::surge);
-    lowest.lower_to(turn_ceiling_, Limit::surge);
+    if (!input.way.known) {
+        lower_by_surge(lowest, parameters, situation);
+    }
     const bool asks_for_roughness = parameters.Ra_limit_um > Scalar(0);
     if (asks_for_roughness) {
         lowest.lower_to(surface_ceiling_, Limit::roughness);
@@ -201,6 +205,17 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     if (!has_tooth_force || (asks_for_roughness && !has_roughness)) {
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
     }
+}
+
+/// What may come without warning.
+template <typename Scalar>
+void Ceilings<Scalar>::lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters,
+                                      const Situation& situation) const {
+    if (surge_is_under_way(parameters)) {
+        lowest.lower_to(override_before_growth_, Limit::surge);
+    }
+    lowest.lower_to(surge_ceiling_, Limit::surge);
+    lowest.lower_to(turn_ceiling_, Limit::surge);
     if (trend_.fading()) {
         lowest.lower_to(situation.override_ratio, Limit::surge);
     }

@@ -80,11 +80,12 @@ enum class Limit : std::uint8_t {
     feed_per_tooth = 9,
     roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
     law_misfit = 11,  ///< held where it was: the forces contradict each other, or the law of the cut
+    way_ahead = 12,   ///< the part map knows a place ahead that the machine must be slow enough for
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
 inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::bad_configuration) + 1U;
-inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::law_misfit) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::way_ahead) + 1U;
 
 constexpr const char* name(CutState state) {
     constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
@@ -98,9 +99,9 @@ constexpr const char* name(Fault fault) {
 }
 
 constexpr const char* name(Limit limit) {
-    constexpr const char* names[limit_count] = {"none",        "force",          "override_max", "override_min",
-                                                "air_feed",    "entry_feed",     "surge",        "operator_limit",
-                                                "no_estimate", "feed_per_tooth", "roughness",    "law_misfit"};
+    constexpr const char* names[limit_count] = {
+        "none",           "force",       "override_max",   "override_min", "air_feed",   "entry_feed", "surge",
+        "operator_limit", "no_estimate", "feed_per_tooth", "roughness",    "law_misfit", "way_ahead"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

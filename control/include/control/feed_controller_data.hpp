@@ -2,6 +2,7 @@
 #pragma once
 
 #include "control/cut_state.hpp"
+#include "control/way_ahead.hpp"
 #include "estimation/cutting/cut_geometry.hpp"
 #include "estimation/number/finite.hpp"
 #include "estimation/number/literal.hpp"
@@ -97,6 +98,7 @@ struct ControlInput {
     bool feed_hold = false;
     CutEstimateForControl<Scalar> cut{};
     SurfaceForControl<Scalar> surface{};
+    WayAhead<Scalar> way{};
 };
 
 /// What has passed since the last step, worked out once for all parts of the controller. Finite whatever comes in.

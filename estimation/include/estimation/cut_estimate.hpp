@@ -75,6 +75,7 @@ struct CutEstimate {
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
     bool tooth_force_is_bound = false;    ///< tooth_force_N is the most that it can be, and may be far above it
     Scalar least_tooth_force_N{0};        ///< the least that it can be: F_at shared by the widest cut
+    Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one
     Scalar worst_tooth_force_N{0};        ///< tooth force at the known immersion, or at the last or assumed one
     Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher

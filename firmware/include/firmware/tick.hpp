@@ -48,6 +48,11 @@ class ForceControlTick {
     void take(const hal::DriveSample& sample);
     /// The override, by the newest estimate. Once for each sample.
     hal::FeedOverride answer(const hal::ProgramStatus& program);
+
+    /// What a part map says of the way ahead, before answer(); stays until the next call. None by default.
+    void set_way_ahead(const control::WayAhead<Scalar>& way) { input_.way = way; }
+    /// There is an estimate that no answer has seen yet.
+    [[nodiscard]] bool has_new_estimate() const { return has_new_estimate_; }
     /// Both at once.
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program);
 
@@ -92,6 +97,7 @@ class ForceControlTick {
     void set_cut();
     void set_motion(Velocity velocity);
     void run_law(const hal::ProgramStatus& program);
+    void use_tooth_force_of_map();
     hal::FeedOverride output();
 
     estimation::CutEstimator<Scalar> estimator_;

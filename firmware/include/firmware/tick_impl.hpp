@@ -148,9 +148,36 @@ void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& progr
     input_.cut.fresh = has_new_estimate_;
     input_.cut.spindle_turning = estimator_.spindle_turns();
     input_.cut.force_valid = estimator_.estimate().tangential_N.valid && input_.cut.spindle_turning;
+    use_tooth_force_of_map();
     has_new_estimate_ = false;
     is_rapid_ = program.rapid;
     control_ = controller_.step(input_);
+}
+
+/// The map knows the arc, and with it the tooth's share of F_at, better than the forces tell it. What their band says
+/// stays the least that the tooth carries.
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
+    using std::sqrt;
+    control::CutEstimateForControl<Scalar>& cut = input_.cut;
+    if (!input_.way.known || !(input_.way.tooth_per_tangential > Scalar(0)) || !has_new_estimate_ || !cut.force_valid) {
+        return;
+    }
+    const estimation::Measurement<Scalar>& tooth = estimator_.estimate().tooth_force_N;
+    const bool is_told_by_forces = tooth.valid && !cut.tooth_force_is_bound;
+    const Scalar least_N = is_told_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
+    const Scalar sd_N = cut.tangential_sd_N;
+    const Scalar caution_N = control_parameters_.caution_sd * sd_N;
+    // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
+    const Scalar tangential_N =
+        input_.way.tangential_N > Scalar(0)
+            ? estimation::clamp(input_.way.tangential_N, cut.tangential_N - sd_N, cut.tangential_N + sd_N) +
+                  estimation::halved(caution_N)
+            : cut.tangential_N + caution_N;
+    const Scalar by_map_N = input_.way.tooth_per_tangential * tangential_N * estimator_.estimate().runout_factor;
+    cut.tooth_force_valid = true;
+    cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < least_N);
+    cut.tooth_force_N = by_map_N > least_N ? by_map_N : least_N;
 }
 
 template <typename Scalar, typename WideBand>

@@ -53,11 +53,11 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
 TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
     RunResult run = synthetic::pocket_run("millforce");
     for (TracePoint& point : run.trace) {
-        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::law_misfit);
+        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::way_ahead);
     }
     const std::string data = report_data_json(info, std::span(&run, 1));
-    CHECK(data.find("\"limits\":\"bbbb") != std::string::npos);
-    CHECK(data.find("\"roughness\",\"law_misfit\"]") != std::string::npos);
+    CHECK(data.find("\"limits\":\"cccc") != std::string::npos);
+    CHECK(data.find("\"law_misfit\",\"way_ahead\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {

@@ -69,6 +69,7 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
     const EngagementEstimate<Scalar>& cut = e.engagement;
     const Measurement<Scalar>& window = e.tangential_N;
     const Scalar runout = runout_factor(e.feed_per_tooth_mm);
+    e.runout_factor = runout;
     e.worst_tooth_force_N = newest_N * factors.now * runout;
     e.least_tooth_force_N = newest_N * factors.slot;
     const auto bound_by = [&](Scalar bound) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "control/feed_controller_data.hpp"
+#include "control/way_ahead.hpp"
+#include "estimation/number/fixed_point.hpp"
+
+/// The feed by what lies ahead: from a map of the cut along the program's path.
+///
+/// The map is a row of stretches. For each it names, for the cutting law as the tool's file has it, the feed f_i at
+/// which a tooth reaches its set point, the mean tangential force F_i at that feed, and per tangential force the
+/// largest force τ_i of a mean tooth and the mean force along the feed χ_i = F_ax/F_at. Edge forces stay while the feed falls: h_i is
+/// the share of F_i that falls with it, and e_i says by how much the feed must fall where the material is harder:
+///
+///   F(f) = κ F_i [1 − h_i (1 − f/f_i)]
+///   v_i  = f_i [1 − e_i (1 − 1/κ)]
+///
+/// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
+/// stands for it. In each cut that stays the same over the window of an estimate it is measured, κ = F_at/F(f)|κ=1, and
+/// averaged over some revolutions. At every place the feed may then be v_i,
+/// and now the override asks for the largest v from which the machine brakes to each of them, d_i ahead. On its way
+/// there it goes at √(v_i² + 2 a d), a: acceleration; what is asked for at d_i is done a reaction time T later, when
+/// the feed has fallen by a T more:
+///
+///   v = max(v_i, √(v_i² + 2 a d_i) − a T)    the lowest of all i
+///
+/// So it brakes a T²/2 earlier than it must from a feed that was steady.
+///
+/// Each stretch counts from farthest_off_mm before its begin to as far behind its end.
+///
+/// The map is believed as far as it has proved itself. `known` becomes true once measured forces have agreed over
+/// agreement_mm of cut: F_at within what the stretches around the tool may give, with κ between lowest_hardness
+/// and highest_hardness, and within hardness_band of κ once that is measured; and F_ax within direction_band·F_at of
+/// χ F_at, where it is measured: the direction of the force tells the arc, whatever the depth and the material. Both
+/// with four standard deviations of the measurement beside. What disagrees over more than disagreement_mm refutes the
+/// map: `known` is false from then on, until restart(). So does contact, two estimates in a row, where the map has air.
+///
+/// Use: restart() with each program, add() stretches in the order of the path while room() lasts, step() at each tick.
+/// Where the window runs dry the way is as good as unknown: the feed is down to blind_feed_mm_s by then.
+///
+/// Units mm, mm/s, N. Positions along the path from the program's begin; for Fixed up to 2·10⁹. Anything not finite, or
+/// a position that is not known, gives `known` false. Cost: some 10 operations for each stretch of the window and one
+/// root. No heap. Not thread-safe.
+
+namespace millforce::control {
+
+/// A part of the path over which the cut stays much the same, to the next one's begin.
+template <typename Scalar>
+struct Stretch {
+    Scalar begin_mm{0};
+    Scalar feed_mm_s{0};             ///< f_i; in air the highest that makes sense
+    Scalar tangential_N{0};          ///< F_i; 0: air
+    Scalar tooth_per_tangential{0};  ///< τ_i
+    Scalar feed_per_tangential{0};   ///< χ_i
+    Scalar falling_share{1};         ///< h_i
+    Scalar feed_per_softness{1};     ///< e_i; 1/(c q) for a force with the cutting share c and the exponent q
+};
+
+template <typename Scalar>
+struct FeedAheadSettings {
+    Scalar acceleration_mm_s2{1000};             ///< of the machine along the path, > 0
+    Scalar reaction_s{literal<Scalar>(0.05L)};   ///< from an override to the first change of feed
+    Scalar position_tolerance_mm{1};  ///< of stock and path, each way: a map that is off by less agrees
+    Scalar farthest_off_mm{2};        ///< no map that is off by more goes on unrefuted
+    Scalar assumed_hardness = literal<Scalar>(1.3L);
+    /// Softer than that it is taken for a shallower cut, whose teeth carry more for the same mean force.
+    Scalar lowest_hardness = literal<Scalar>(0.6L);
+    Scalar highest_hardness{2};
+    Scalar hardness_band{Scalar(1.25F)};  ///< ratio by which a force may differ from the map's with the measured κ
+    Scalar direction_band = literal<Scalar>(0.2L);  ///< of F_ax/F_at: what the law's r_1 leaves open
+    Scalar agreement_mm{2};
+    Scalar disagreement_mm{Scalar(0.5F)};
+};
+
+template <typename Scalar, std::size_t Capacity = 256>
+class FeedAhead {
+  public:
+    /// What a tick knows.
+    struct Step {
+        bool position_known = false;
+        Scalar position_mm{0};          ///< along the path
+        Scalar travel_mm{0};            ///< since the last step
+        Scalar blind_feed_mm_s{0};      ///< that is safe where nothing is known
+        bool fresh = false;             ///< the rest is a new estimate
+        Scalar tangential_N{0};         ///< F_at
+        Scalar tangential_sd_N{0};
+        Scalar mean_feed_mm_s{0};  ///< over the estimate's window
+        Scalar window_mm{0};       ///< way gone in it
+        Scalar contact_level_N{0};  ///< from which on the tool counts as in contact
+        bool feed_force_valid = false;
+        Scalar feed_force_N{0};  ///< F_ax
+        Scalar feed_force_sd_N{0};
+    };
+
+    explicit FeedAhead(const FeedAheadSettings<Scalar>& settings);
+
+    /// Another program, or the same from its begin: the window is empty, and nothing has agreed yet. κ is kept: the
+    /// next part is of the same material.
+    void restart();
+
+    [[nodiscard]] std::size_t room() const { return Capacity - count_; }
+    /// False, and nothing is added, where there is no room or the stretch does not begin behind the last one.
+    bool add(const Stretch<Scalar>& stretch);
+
+    [[nodiscard]] WayAhead<Scalar> step(const Step& now);
+
+    [[nodiscard]] Scalar hardness() const { return hardness_; }
+    [[nodiscard]] bool is_refuted() const { return is_refuted_; }
+
+  private:
+    struct Range {
+        Scalar low{0};
+        Scalar high{0};
+        bool is_empty = true;
+
+        void include(Scalar value) {
+            low = is_empty || value < low ? value : low;
+            high = is_empty || value > high ? value : high;
+            is_empty = false;
+        }
+    };
+    /// Of all stretches that an estimate's window and the tolerance touch.
+    struct Expected {
+        Range tangential_N;  // at κ = 1
+        Range direction;     // χ, of those that cut
+    };
+    /// Of the stretches within the window alone.
+    struct Mapped {
+        Scalar tooth_per_tangential{0};
+        Scalar tangential_N{0};  // mean, at κ = 1
+    };
+
+    static constexpr Scalar significance{4};  // standard deviations
+
+    [[nodiscard]] const Stretch<Scalar>& at(std::size_t i) const { return window_[(first_ + i) % Capacity]; }
+    [[nodiscard]] Scalar end_mm(std::size_t i) const { return at(i + 1).begin_mm; }
+    [[nodiscard]] static bool is_sound(const Step& now);
+    void drop_passed(Scalar behind_mm);
+    void compare(const Step& now);
+    [[nodiscard]] bool force_agrees(const Step& now, const Expected& expected) const;
+    [[nodiscard]] bool direction_agrees(const Step& now, const Expected& expected) const;
+    void measure_hardness(const Step& now, const Range& expected_N);
+    [[nodiscard]] Expected expected_around(const Step& now) const;
+    [[nodiscard]] Mapped mapped_within(const Step& now) const;
+    template <typename Visit>
+    void for_each_within(Scalar from_mm, Scalar to_mm, const Visit& visit) const;
+    [[nodiscard]] Scalar feed_at(std::size_t i) const;
+    [[nodiscard]] Scalar force_at(std::size_t i, Scalar feed_mm_s) const;
+    [[nodiscard]] Scalar fastest_from(Scalar position_mm, Scalar blind_feed_mm_s) const;
+
+    FeedAheadSettings<Scalar> settings_;
+    std::array<Stretch<Scalar>, Capacity> window_{};
+    std::size_t first_ = 0;
+    std::size_t count_ = 0;
+    Scalar hardness_{0};  // κ; 0: not measured
+    Scalar hardening_;    // 1 − 1/κ
+    Scalar agreed_mm_{0};
+    Scalar disagreed_mm_{0};
+    Scalar since_estimate_mm_{0};
+    Mapped mapped_;
+    bool touched_in_air_ = false;
+    bool is_refuted_ = false;
+};
+
+extern template class FeedAhead<float>;
+extern template class FeedAhead<estimation::Fixed>;
+
+}  // namespace millforce::control

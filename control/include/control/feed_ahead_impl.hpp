@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Bodies of feed_ahead.hpp. Only src/feed_ahead.cpp includes them.
+
+#include <cmath>
+
+#include "control/feed_ahead.hpp"
+#include "estimation/number/finite.hpp"
+
+namespace millforce::control {
+
+template <typename Scalar, std::size_t Capacity>
+FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings)
+    : settings_(settings), hardening_(Scalar(1) - Scalar(1) / settings.assumed_hardness) {}
+
+template <typename Scalar, std::size_t Capacity>
+void FeedAhead<Scalar, Capacity>::restart() {
+    first_ = 0;
+    count_ = 0;
+    agreed_mm_ = Scalar(0);
+    disagreed_mm_ = Scalar(0);
+    since_estimate_mm_ = Scalar(0);
+    touched_in_air_ = false;
+    is_refuted_ = false;
+}
+
+template <typename Scalar, std::size_t Capacity>
+bool FeedAhead<Scalar, Capacity>::add(const Stretch<Scalar>& stretch) {
+    const bool is_sound = estimation::is_finite(stretch.begin_mm) && is_known(stretch.feed_mm_s) &&
+                          estimation::is_finite(stretch.tangential_N) && !(stretch.tangential_N < Scalar(0)) &&
+                          estimation::is_finite(stretch.tooth_per_tangential) &&
+                          estimation::is_finite(stretch.feed_per_tangential) && is_known(stretch.falling_share) &&
+                          stretch.falling_share <= Scalar(1) &&
+                          is_known(stretch.feed_per_softness);
+    const bool goes_on = count_ == 0 || stretch.begin_mm > at(count_ - 1).begin_mm;
+    if (room() == 0 || !is_sound || !goes_on) {
+        return false;
+    }
+    window_[(first_ + count_) % Capacity] = stretch;
+    ++count_;
+    return true;
+}
+
+template <typename Scalar, std::size_t Capacity>
+WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
+    WayAhead<Scalar> way;
+    if (!now.position_known || !is_sound(now)) {
+        return way;
+    }
+    since_estimate_mm_ += now.travel_mm;
+    const bool covers = count_ > 1 && !(now.position_mm < at(0).begin_mm) && now.position_mm < at(count_ - 1).begin_mm;
+    if (!covers) {
+        return way;
+    }
+    if (now.fresh && is_known(now.mean_feed_mm_s) && estimation::is_finite(now.window_mm)) {
+        compare(now);
+        drop_passed(now.position_mm - now.window_mm - settings_.farthest_off_mm);
+    }
+    way.known = !is_refuted_ && !(agreed_mm_ < settings_.agreement_mm);
+    way.feed_mm_s = fastest_from(now.position_mm, now.blind_feed_mm_s);
+    way.tooth_per_tangential = mapped_.tooth_per_tangential;
+    way.tangential_N = hardness_ * mapped_.tangential_N;
+    return way;
+}
+
+template <typename Scalar, std::size_t Capacity>
+bool FeedAhead<Scalar, Capacity>::is_sound(const Step& now) {
+    return estimation::is_finite(now.position_mm) && estimation::is_finite(now.travel_mm) &&
+           estimation::is_finite(now.blind_feed_mm_s);
+}
+
+template <typename Scalar, std::size_t Capacity>
+void FeedAhead<Scalar, Capacity>::drop_passed(Scalar behind_mm) {
+    while (count_ > 2 && end_mm(0) < behind_mm) {
+        first_ = (first_ + 1) % Capacity;
+        --count_;
+    }
+}
+
+// ---- The measured cut against the map --------------------------------------------------------------------------------
+
+template <typename Scalar, std::size_t Capacity>
+void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
+    const Expected expected = expected_around(now);
+    const Scalar travel_mm = since_estimate_mm_;
+    const bool is_in_contact = now.tangential_N > now.contact_level_N;
+    const bool touches_in_air = is_in_contact && !(expected.tangential_N.high > Scalar(0));
+    since_estimate_mm_ = Scalar(0);
+    mapped_ = mapped_within(now);
+    is_refuted_ = is_refuted_ || (touches_in_air && touched_in_air_);
+    touched_in_air_ = touches_in_air;
+    if (!force_agrees(now, expected) || !direction_agrees(now, expected)) {
+        disagreed_mm_ += travel_mm;
+        is_refuted_ = is_refuted_ || disagreed_mm_ > settings_.disagreement_mm;
+        return;
+    }
+    disagreed_mm_ = Scalar(0);
+    if (is_in_contact && expected.tangential_N.low > Scalar(0)) {
+        agreed_mm_ += travel_mm;
+        measure_hardness(now, expected.tangential_N);
+    }
+}
+
+template <typename Scalar, std::size_t Capacity>
+bool FeedAhead<Scalar, Capacity>::force_agrees(const Step& now, const Expected& expected) const {
+    using estimation::clamp;
+    const bool is_measured = hardness_ > Scalar(0);
+    const Scalar lowest = settings_.lowest_hardness;
+    const Scalar highest = settings_.highest_hardness;
+    const Scalar softest = is_measured ? clamp(hardness_ / settings_.hardness_band, lowest, highest) : lowest;
+    const Scalar hardest = is_measured ? clamp(hardness_ * settings_.hardness_band, lowest, highest) : highest;
+    const Scalar noise_N = significance * now.tangential_sd_N;
+    const Scalar most_N = expected.tangential_N.high * hardest + noise_N;
+    const Scalar least_N = expected.tangential_N.low * softest - noise_N;
+    return (now.tangential_N <= most_N || now.tangential_N <= now.contact_level_N) && now.tangential_N >= least_N;
+}
+
+template <typename Scalar, std::size_t Capacity>
+bool FeedAhead<Scalar, Capacity>::direction_agrees(const Step& now, const Expected& expected) const {
+    if (!now.feed_force_valid || !(expected.tangential_N.high > Scalar(0)) || !(now.tangential_N > now.contact_level_N)) {
+        return true;
+    }
+    const Scalar noise_N = significance * now.feed_force_sd_N;
+    const Scalar least_N = (expected.direction.low - settings_.direction_band) * now.tangential_N - noise_N;
+    const Scalar most_N = (expected.direction.high + settings_.direction_band) * now.tangential_N + noise_N;
+    return now.feed_force_N >= least_N && now.feed_force_N <= most_N;
+}
+
+/// Only where the cut stays the same: elsewhere the force tells the place rather than the material.
+template <typename Scalar, std::size_t Capacity>
+void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range& expected_N) {
+    constexpr Scalar steady = literal<Scalar>(0.9L);
+    constexpr Scalar weight = literal<Scalar>(0.1L);  // of one estimate
+    if (expected_N.low < steady * expected_N.high) {
+        return;
+    }
+    const Scalar measured = now.tangential_N / estimation::halved(expected_N.low + expected_N.high);
+    const Scalar kept = estimation::clamp(measured, settings_.lowest_hardness, settings_.highest_hardness);
+    hardness_ = hardness_ > Scalar(0) ? hardness_ + weight * (kept - hardness_) : kept;
+    hardening_ = Scalar(1) - Scalar(1) / hardness_;
+}
+
+template <typename Scalar, std::size_t Capacity>
+auto FeedAhead<Scalar, Capacity>::expected_around(const Step& now) const -> Expected {
+    const Scalar tolerance_mm = settings_.position_tolerance_mm;
+    Expected expected;
+    for_each_within(now.position_mm - now.window_mm - tolerance_mm, now.position_mm + tolerance_mm, [&](std::size_t i) {
+        const Scalar force_N = force_at(i, now.mean_feed_mm_s);
+        expected.tangential_N.include(force_N);
+        if (force_N > Scalar(0)) {
+            expected.direction.include(at(i).feed_per_tangential);
+        }
+    });
+    return expected;
+}
+
+/// The tooth's force is the largest within the window, for the largest F_at.
+template <typename Scalar, std::size_t Capacity>
+auto FeedAhead<Scalar, Capacity>::mapped_within(const Step& now) const -> Mapped {
+    const Scalar begin_mm = now.position_mm - now.window_mm;
+    Scalar tooth_N{0};
+    Scalar highest_N{0};
+    Scalar sum_N_mm{0};
+    for_each_within(begin_mm, now.position_mm, [&](std::size_t i) {
+        const Scalar force_N = force_at(i, now.mean_feed_mm_s);
+        const Scalar of_tooth_N = force_N * at(i).tooth_per_tangential;
+        tooth_N = of_tooth_N > tooth_N ? of_tooth_N : tooth_N;
+        highest_N = force_N > highest_N ? force_N : highest_N;
+        const Scalar from_mm = at(i).begin_mm > begin_mm ? at(i).begin_mm : begin_mm;
+        const Scalar to_mm = end_mm(i) < now.position_mm ? end_mm(i) : now.position_mm;
+        sum_N_mm += force_N * (to_mm - from_mm);
+    });
+    Mapped mapped;
+    mapped.tooth_per_tangential = highest_N > Scalar(0) ? tooth_N / highest_N : Scalar(0);
+    mapped.tangential_N = now.window_mm > Scalar(0) ? sum_N_mm / now.window_mm : highest_N;
+    return mapped;
+}
+
+template <typename Scalar, std::size_t Capacity>
+template <typename Visit>
+void FeedAhead<Scalar, Capacity>::for_each_within(Scalar from_mm, Scalar to_mm, const Visit& visit) const {
+    for (std::size_t i = 0; i + 1 < count_ && at(i).begin_mm <= to_mm; ++i) {
+        if (!(end_mm(i) < from_mm)) {
+            visit(i);
+        }
+    }
+}
+
+/// F_at at κ = 1.
+template <typename Scalar, std::size_t Capacity>
+Scalar FeedAhead<Scalar, Capacity>::force_at(std::size_t i, Scalar feed_mm_s) const {
+    const Stretch<Scalar>& stretch = at(i);
+    return stretch.tangential_N * (Scalar(1) - stretch.falling_share * (Scalar(1) - feed_mm_s / stretch.feed_mm_s));
+}
+
+// ---- The feed --------------------------------------------------------------------------------------------------------
+
+/// v_i
+template <typename Scalar, std::size_t Capacity>
+Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i) const {
+    const Stretch<Scalar>& stretch = at(i);
+    if (!(stretch.tangential_N > Scalar(0))) {
+        return stretch.feed_mm_s;
+    }
+    const Scalar ratio = Scalar(1) - stretch.feed_per_softness * hardening_;
+    return ratio > Scalar(0) ? stretch.feed_mm_s * ratio : Scalar(0);
+}
+
+/// In squares of v + a T: one root for all.
+template <typename Scalar, std::size_t Capacity>
+Scalar FeedAhead<Scalar, Capacity>::fastest_from(Scalar position_mm, Scalar blind_feed_mm_s) const {
+    using estimation::square;
+    using std::sqrt;
+    const Scalar margin_mm = settings_.farthest_off_mm;
+    const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
+    const Scalar lost_mm_s = settings_.acceleration_mm_s2 * settings_.reaction_s;
+    const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
+        const Scalar distance_mm = begin_mm - margin_mm - position_mm;
+        const Scalar there = square(feed_mm_s + lost_mm_s);
+        const Scalar braking = square(feed_mm_s) + twice_a * distance_mm;
+        return braking > there ? braking : there;
+    };
+    const std::size_t last = count_ - 1;  // its begin is where the map ends
+    Scalar fastest = square_before(blind_feed_mm_s, at(last).begin_mm);
+    for (std::size_t i = 0; i < last; ++i) {
+        if (end_mm(i) + margin_mm < position_mm) {
+            continue;
+        }
+        const Scalar here = square_before(feed_at(i), at(i).begin_mm);
+        fastest = here < fastest ? here : fastest;
+    }
+    return sqrt(fastest) - lost_mm_s;
+}
+
+}  // namespace millforce::control

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part_map/map_follower.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace millforce::host {
+
+namespace {
+
+/// An estimate ends with a tooth period, an answer with a sample: a tick's share of the reaction.
+constexpr float tick_share_s = 0.002F;
+
+control::FeedAheadSettings<float> settings_of(const firmware::Parameters<float>& parameters) {
+    control::FeedAheadSettings<float> settings;
+    settings.acceleration_mm_s2 = parameters.machine.cnc.acceleration_mm_s2;
+    settings.reaction_s = parameters.machine.cnc.override_latency_s + tick_share_s;
+    return settings;
+}
+
+float per_revolution_s(float spindle_speed_rad_s) { return spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>); }
+
+}  // namespace
+
+MapFollower::MapFollower(const firmware::Parameters<float>& parameters, const PartMap& map)
+    : parameters_(parameters), stretches_(stretches_of(map, parameters)), ahead_(settings_of(parameters)) {
+    fill_window();
+}
+
+void MapFollower::follow(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) {
+    if (program.path_known && program.path_mm < path_mm_) {
+        ahead_.restart();
+        next_ = 0;
+    }
+    const estimation::CutEstimate<float>& estimate = tick.estimate();
+    const control::FeedControllerParameters<float>& control = parameters_.tool.control;
+    control::FeedAhead<float>::Step now;
+    now.position_known = program.path_known;
+    now.position_mm = program.path_mm;
+    now.travel_mm = std::max(program.path_mm - path_mm_, 0.0F);
+    now.blind_feed_mm_s = control.entry_feed_per_tooth_mm * static_cast<float>(parameters_.tool.teeth) *
+                          per_revolution_s(estimate.spindle_speed_rad_s);
+    now.fresh = tick.has_new_estimate() && estimate.tangential_N.valid;
+    now.tangential_N = estimate.tangential_N.value;
+    now.tangential_sd_N = std::sqrt(estimate.tangential_N.variance);
+    now.mean_feed_mm_s = estimate.feed_mm_s;
+    now.window_mm = estimate.feed_mm_s * estimate.window_s;
+    now.contact_level_N = control::contact_level_N(control, now.tangential_sd_N);
+    now.feed_force_valid = estimate.feed_N.valid;
+    now.feed_force_N = estimate.feed_N.value;
+    now.feed_force_sd_N = std::sqrt(estimate.feed_N.variance);
+    path_mm_ = program.path_mm;
+    fill_window();
+    tick.set_way_ahead(ahead_.step(now));
+}
+
+void MapFollower::fill_window() {
+    while (next_ < stretches_.size() && ahead_.room() > 0) {
+        ahead_.add(stretches_[next_]);
+        ++next_;
+    }
+}
+
+}  // namespace millforce::host

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "control/feed_ahead.hpp"
+#include "firmware/parameters.hpp"
+
+namespace millforce::host {
+
+/// A stretch of the tool's periphery that is in material, of one height. φ as in estimation/cutting/cut_geometry.hpp.
+struct EngagedArc {
+    double entry_rad = 0.0;
+    double exit_rad = 0.0;
+    double axial_depth_mm = 0.0;
+};
+
+/// The cut along a program's path: what the tool meets, and how it is to go there.
+struct MapPlace {
+    double path_mm = 0.0;  ///< gone since the program's begin, rapids included
+    std::size_t line = 0;  ///< of the program
+    bool rapid = false;
+    double programmed_feed_mm_s = 0.0;
+    double spindle_speed_rad_s = 0.0;
+    std::vector<EngagedArc> cut;  ///< in the order of φ; empty: air
+};
+
+/// Each place holds to the next one. The last is the program's end.
+using PartMap = std::vector<MapPlace>;
+
+/// The map as the controller takes it (control/feed_ahead.hpp): the feed at which a tooth reaches its set point by the
+/// tool's cutting law, and the forces there. Neighbours whose feeds and forces are alike are one stretch, with the lower
+/// feed. No stretch is faster than the machine's largest override allows. Cost: some 1,000 single-tooth forces for
+/// each change of the cut.
+[[nodiscard]] std::vector<control::Stretch<float>> stretches_of(const PartMap& map,
+                                                                const firmware::Parameters<float>& parameters);
+
+}  // namespace millforce::host
