@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
         "Exit codes: 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input.\n"
         "'millforce COMMAND --help' describes a command.");
     sim::add_simulate(program);
+    sim::add_preview(program);
     sim::add_ensemble(program);
     host::add_replay(program);
     host::add_run(program);

@@ -8,6 +8,7 @@ namespace millforce::sim {
 /// The subcommands that need a simulated machine. Each adds itself to the program and, when chosen, runs and sets the
 /// exit code: 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input (by throwing InputError).
 void add_simulate(host::Command& program);
+void add_preview(host::Command& program);
 void add_plant(host::Command& program);
 void add_ensemble(host::Command& program);
 void add_bench(host::Command& program);

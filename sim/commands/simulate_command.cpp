@@ -20,6 +20,7 @@
 #include "loop/bounds.hpp"
 #include "loop/recorder.hpp"
 #include "loop/simulation.hpp"
+#include "part_map/part_map_file.hpp"
 #include "preview/preview.hpp"
 #include "recording/recording.hpp"
 #include "report/report.hpp"
@@ -36,6 +37,7 @@ struct SimulateOptions {
     std::string out = "out";
     bool record = false;
     bool preview = false;
+    std::string map;
     std::optional<double> cutting_force_scale;
     std::optional<double> friction_scale;
     std::optional<double> current_noise_share;
@@ -100,6 +102,16 @@ RunResult run(const Scenario& scenario, const std::string& name, OverrideSource&
     return std::move(simulated.result);
 }
 
+host::PartMap map_of(const SimulateOptions& options, const Scenario& scenario) {
+    if (options.preview) {
+        return preview(scenario);
+    }
+    host::PartMapFile file = host::read_part_map(options.map);
+    host::require_same_origin(options.map, file.origin,
+                              host::origin_of(scenario.program_file, "", scenario.parameters.tool));
+    return std::move(file.map);
+}
+
 double safe_override_of(const Scenario& scenario, double hardest) {
     host::Progress progress("finding the constant feed that is safe everywhere", 1);
     return safe_constant_override(scenario, hardest, settings_with(progress));
@@ -141,8 +153,8 @@ int simulate_scenario(const SimulateOptions& options) {
         }
         results.push_back(run(scenario, "millforce", *controller, recording));
         host::leave_real_time();
-    } else if (options.preview) {
-        MappedController controller(scenario.parameters, preview(scenario));
+    } else if (options.preview || !options.map.empty()) {
+        MappedController controller(scenario.parameters, map_of(options, scenario));
         results.push_back(run(scenario, "millforce", controller, recording));
     } else if (!is_baseline) {
         results.push_back(
@@ -189,11 +201,14 @@ void add_simulate(host::Command& program) {
         .shows_default();
     host::Option record =
         command.flag("--record", options->record, "Also write recording.csv, one row per drive sample, for replay");
-    command
-        .flag("--preview", options->preview,
-              "Let the controller see what lies ahead: a part map of program, stock and tool")
+    host::Option preview = command.flag(
+        "--preview", options->preview, "Let the controller see what lies ahead: a part map of program, stock and tool");
+    preview.excludes(controller).excludes(record);
+    command.option("--map", options->map, "The same from a file of 'millforce preview', which need not fit this stock")
+        .value_name("PART.map")
         .excludes(controller)
-        .excludes(record);
+        .excludes(record)
+        .excludes(preview);
     command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s relative to the scenario's")
         .within(0.1, 10.0);
     command.option("--friction-scale", options->friction_scale, "True friction relative to the machine file's")

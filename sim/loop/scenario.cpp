@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cutting/oblique_cutting.hpp"
+#include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
 #include "files/toml_reader.hpp"
 
@@ -206,6 +207,23 @@ Scenario read_scenario(const std::string& path) {
     }
     root.reject_unknown_keys();
     scenario.machine.encoder_counts_per_rev = scenario.parameters.machine.encoder_counts_per_rev;
+    return scenario;
+}
+
+Scenario read_part(const std::string& program_path, const std::string& stock_path, const std::string& tool_path) {
+    Scenario scenario;
+    scenario.name = std::filesystem::path(program_path).stem().string();
+    scenario.title = scenario.name;
+    scenario.tool_file = tool_path;
+    scenario.program_file = program_path;
+    scenario.parameters.tool = host::read_tool_parameters(tool_path);
+    host::TomlFile file = host::TomlFile::open(stock_path);
+    Table root = file.root();
+    read_cutter(root, scenario.parameters.tool, scenario.cutter);
+    if (!root.has("stock")) {
+        throw host::InputError(stock_path + ": no table [stock]");
+    }
+    read_stock(root, scenario.stock);
     return scenario;
 }
 

@@ -101,6 +101,10 @@ struct Scenario {
 /// Throws InputError.
 Scenario read_scenario(const std::string& path);
 
+/// A part program on the [stock] of a TOML file (its other tables may hold anything), cut with the tool of a tool.toml:
+/// what geometry needs, and no more. Throws InputError.
+Scenario read_part(const std::string& program_path, const std::string& stock_path, const std::string& tool_path);
+
 /// Puts the deviation into the plant's settings, and the seed. Called once before a run.
 Scenario deviated(const Scenario& scenario, const PlantDeviation& deviation, std::uint64_t seed);
 

@@ -200,7 +200,8 @@ TEST(FeedAhead, where_the_window_ends_the_feed_is_down_to_the_blind_one) {
     CHECK_FALSE(ahead.step(now).known);
 }
 
-// ---- How far the map is believed -------------------------------------------------------------------------------------
+// ---- How far the map is believed
+// -------------------------------------------------------------------------------------
 
 TEST(FeedAhead, is_believed_once_the_forces_have_agreed_over_two_millimetres) {
     Ahead ahead = with(wall);
@@ -322,7 +323,8 @@ TEST(FeedAhead, a_program_that_begins_again_starts_with_what_is_known_of_the_mat
     CHECK_TRUE(cut(ahead, 1.0F, 4.0F, 390.0F).known);
 }
 
-// ---- What comes in from outside --------------------------------------------------------------------------------------
+// ---- What comes in from outside
+// --------------------------------------------------------------------------------------
 
 TEST(FeedAhead, takes_only_sound_stretches_in_order_and_as_many_as_it_holds) {
     Ahead ahead(exact());

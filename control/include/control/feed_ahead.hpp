@@ -12,8 +12,9 @@
 ///
 /// The map is a row of stretches. For each it names, for the cutting law as the tool's file has it, the feed f_i at
 /// which a tooth reaches its set point, the mean tangential force F_i at that feed, and per tangential force the
-/// largest force τ_i of a mean tooth and the mean force along the feed χ_i = F_ax/F_at. Edge forces stay while the feed falls: h_i is
-/// the share of F_i that falls with it, and e_i says by how much the feed must fall where the material is harder:
+/// largest force τ_i of a mean tooth and the mean force along the feed χ_i = F_ax/F_at. Edge forces stay while the feed
+/// falls: h_i is the share of F_i that falls with it, and e_i says by how much the feed must fall where the material is
+/// harder:
 ///
 ///   F(f) = κ F_i [1 − h_i (1 − f/f_i)]
 ///   v_i  = f_i [1 − e_i (1 − 1/κ)]
@@ -61,10 +62,10 @@ struct Stretch {
 
 template <typename Scalar>
 struct FeedAheadSettings {
-    Scalar acceleration_mm_s2{1000};             ///< of the machine along the path, > 0
-    Scalar reaction_s{literal<Scalar>(0.05L)};   ///< from an override to the first change of feed
-    Scalar position_tolerance_mm{1};  ///< of stock and path, each way: a map that is off by less agrees
-    Scalar farthest_off_mm{2};        ///< no map that is off by more goes on unrefuted
+    Scalar acceleration_mm_s2{1000};            ///< of the machine along the path, > 0
+    Scalar reaction_s{literal<Scalar>(0.05L)};  ///< from an override to the first change of feed
+    Scalar position_tolerance_mm{1};            ///< of stock and path, each way: a map that is off by less agrees
+    Scalar farthest_off_mm{2};                  ///< no map that is off by more goes on unrefuted
     Scalar assumed_hardness = literal<Scalar>(1.3L);
     /// Softer than that it is taken for a shallower cut, whose teeth carry more for the same mean force.
     Scalar lowest_hardness = literal<Scalar>(0.6L);
@@ -81,14 +82,14 @@ class FeedAhead {
     /// What a tick knows.
     struct Step {
         bool position_known = false;
-        Scalar position_mm{0};          ///< along the path
-        Scalar travel_mm{0};            ///< since the last step
-        Scalar blind_feed_mm_s{0};      ///< that is safe where nothing is known
-        bool fresh = false;             ///< the rest is a new estimate
-        Scalar tangential_N{0};         ///< F_at
+        Scalar position_mm{0};      ///< along the path
+        Scalar travel_mm{0};        ///< since the last step
+        Scalar blind_feed_mm_s{0};  ///< that is safe where nothing is known
+        bool fresh = false;         ///< the rest is a new estimate
+        Scalar tangential_N{0};     ///< F_at
         Scalar tangential_sd_N{0};
-        Scalar mean_feed_mm_s{0};  ///< over the estimate's window
-        Scalar window_mm{0};       ///< way gone in it
+        Scalar mean_feed_mm_s{0};   ///< over the estimate's window
+        Scalar window_mm{0};        ///< way gone in it
         Scalar contact_level_N{0};  ///< from which on the tool counts as in contact
         bool feed_force_valid = false;
         Scalar feed_force_N{0};  ///< F_ax

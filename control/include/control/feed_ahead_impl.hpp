@@ -31,8 +31,7 @@ bool FeedAhead<Scalar, Capacity>::add(const Stretch<Scalar>& stretch) {
                           estimation::is_finite(stretch.tangential_N) && !(stretch.tangential_N < Scalar(0)) &&
                           estimation::is_finite(stretch.tooth_per_tangential) &&
                           estimation::is_finite(stretch.feed_per_tangential) && is_known(stretch.falling_share) &&
-                          stretch.falling_share <= Scalar(1) &&
-                          is_known(stretch.feed_per_softness);
+                          stretch.falling_share <= Scalar(1) && is_known(stretch.feed_per_softness);
     const bool goes_on = count_ == 0 || stretch.begin_mm > at(count_ - 1).begin_mm;
     if (room() == 0 || !is_sound || !goes_on) {
         return false;
@@ -78,7 +77,8 @@ void FeedAhead<Scalar, Capacity>::drop_passed(Scalar behind_mm) {
     }
 }
 
-// ---- The measured cut against the map --------------------------------------------------------------------------------
+// ---- The measured cut against the map
+// --------------------------------------------------------------------------------
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
@@ -118,7 +118,8 @@ bool FeedAhead<Scalar, Capacity>::force_agrees(const Step& now, const Expected& 
 
 template <typename Scalar, std::size_t Capacity>
 bool FeedAhead<Scalar, Capacity>::direction_agrees(const Step& now, const Expected& expected) const {
-    if (!now.feed_force_valid || !(expected.tangential_N.high > Scalar(0)) || !(now.tangential_N > now.contact_level_N)) {
+    if (!now.feed_force_valid || !(expected.tangential_N.high > Scalar(0)) ||
+        !(now.tangential_N > now.contact_level_N)) {
         return true;
     }
     const Scalar noise_N = significance * now.feed_force_sd_N;
@@ -194,7 +195,8 @@ Scalar FeedAhead<Scalar, Capacity>::force_at(std::size_t i, Scalar feed_mm_s) co
     return stretch.tangential_N * (Scalar(1) - stretch.falling_share * (Scalar(1) - feed_mm_s / stretch.feed_mm_s));
 }
 
-// ---- The feed --------------------------------------------------------------------------------------------------------
+// ---- The feed
+// --------------------------------------------------------------------------------------------------------
 
 /// v_i
 template <typename Scalar, std::size_t Capacity>

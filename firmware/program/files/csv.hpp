@@ -21,9 +21,10 @@ struct CsvColumn {
 
 /// Reads a CSV file of numbers, one row at a time.
 ///
-/// The first line names the columns; they may be in any order, and columns that are not used may hold anything. Cells
-/// are separated by commas, may be quoted ("" is a quote), and spaces around them do not count. An empty cell is
-/// "none": NaN. A byte order mark and CRLF line ends are taken. Empty lines are skipped.
+/// Lines that begin with # before all others are comments. The next line names the columns; they may be in any order,
+/// and columns that are not used may hold anything. Cells are separated by commas, may be quoted ("" is a quote), and
+/// spaces around them do not count. An empty cell is "none": NaN. A byte order mark and CRLF line ends are taken. Empty
+/// lines are skipped.
 ///
 /// Everything else is an InputError "FILE:LINE: …": a file that cannot be opened, no header, a column missing (with the
 /// nearest existing name), named twice, a row with another number of cells than the header, text, nan, inf or a number
@@ -37,6 +38,8 @@ class CsvReader {
     const std::vector<std::string>& column_names() const { return names_; }
     const std::string& header_text() const { return header_text_; }
     const std::string& file_name() const { return file_; }
+    /// The comments, without # and the spaces around.
+    const std::vector<std::string>& comments() const { return comments_; }
 
     /// The column of this name, or InputError. `reason` ends the message: why it is needed.
     CsvColumn require(std::string_view name, std::string_view reason = {}) const;
@@ -84,6 +87,7 @@ class CsvReader {
     std::ifstream in_;
     std::vector<std::string> names_;
     std::string header_text_;
+    std::vector<std::string> comments_;
     std::string line_;
     std::vector<std::string> cells_;
     std::size_t line_number_ = 0;

@@ -76,6 +76,10 @@ void CsvReader::read_header() {
         if (line_number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) {
             line_.erase(0, 3);
         }
+        if (line_.starts_with('#')) {
+            comments_.emplace_back(trimmed(std::string_view(line_).substr(1)));
+            line_.clear();
+        }
     } while (trimmed(line_).empty());
     split();
     while (cells_.size() > 1 && cells_.back().empty()) {

@@ -171,6 +171,13 @@ firmware::MachineParameters<float> read_machine_parameters(const std::string& ma
     return parameters.machine;
 }
 
+firmware::ToolParameters<float> read_tool_parameters(const std::string& tool_path) {
+    firmware::Parameters<float> parameters;
+    read_file(ParameterFile::tool, tool_path, parameters);
+    refuse_a_limit_that_cannot_be_kept(tool_path, parameters.tool);
+    return parameters.tool;
+}
+
 std::optional<MachineBus> read_machine_bus(const std::string& machine_path) {
     firmware::Parameters<float> parameters;
     const MachineFileParts parts = read_file(ParameterFile::machine, machine_path, parameters);

@@ -19,6 +19,9 @@ firmware::Parameters<float> read_parameters(const std::string& machine_path, con
 /// Reads machine.toml alone, by the same rules.
 firmware::MachineParameters<float> read_machine_parameters(const std::string& machine_path);
 
+/// Reads tool.toml alone, by the same rules.
+firmware::ToolParameters<float> read_tool_parameters(const std::string& tool_path);
+
 /// The [bus] of machine.toml; nothing where no drive has a node id. Throws InputError as above, and where the settings
 /// do not fit together.
 std::optional<MachineBus> read_machine_bus(const std::string& machine_path);

@@ -18,7 +18,9 @@ control::FeedAheadSettings<float> settings_of(const firmware::Parameters<float>&
     return settings;
 }
 
-float per_revolution_s(float spindle_speed_rad_s) { return spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>); }
+float per_revolution_s(float spindle_speed_rad_s) {
+    return spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
+}
 
 }  // namespace
 

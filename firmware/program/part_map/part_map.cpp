@@ -42,7 +42,8 @@ class CutAt {
         const float first_rad = arcs_.front().angles.entry_rad;
         float largest_N = 0.0F;
         for (int k = 0; k <= steps; ++k) {
-            const float tip_rad = first_rad + (last_rad - first_rad) * static_cast<float>(k) / static_cast<float>(steps);
+            const float tip_rad =
+                first_rad + (last_rad - first_rad) * static_cast<float>(k) / static_cast<float>(steps);
             float feed_N = 0.0F;
             float normal_N = 0.0F;
             for (const Arc& arc : arcs_) {
@@ -113,7 +114,8 @@ bool is_same_cut(const MapPlace& a, const MapPlace& b) {
 control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parameters<float>& parameters) {
     const firmware::ToolParameters<float>& tool = parameters.tool;
     const auto programmed_mm_s = static_cast<float>(place.programmed_feed_mm_s);
-    const float teeth_per_s = static_cast<float>(place.spindle_speed_rad_s) / (2.0F * std::numbers::pi_v<float>)*static_cast<float>(tool.teeth);
+    const float teeth_per_s = static_cast<float>(place.spindle_speed_rad_s) /
+                              (2.0F * std::numbers::pi_v<float>)*static_cast<float>(tool.teeth);
     control::Stretch<float> stretch;
     stretch.begin_mm = static_cast<float>(place.path_mm);
     stretch.feed_mm_s = place.rapid ? programmed_mm_s : programmed_mm_s * parameters.machine.cnc.override_max;
@@ -127,7 +129,8 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
     const float feed_per_tooth_mm = cut.feed_per_tooth_at(target_N, highest_mm);
     // Secants where the feed and the hardness are mostly found: half the feed, and a batch that is 30 % harder.
     constexpr float harder = 1.3F;
-    const float harder_feed_mm = cut.feed_per_tooth_at(cut.highest_tooth_N(feed_per_tooth_mm) / harder, feed_per_tooth_mm);
+    const float harder_feed_mm =
+        cut.feed_per_tooth_at(cut.highest_tooth_N(feed_per_tooth_mm) / harder, feed_per_tooth_mm);
     stretch.feed_mm_s = feed_per_tooth_mm * teeth_per_s;
     const auto mean = cut.mean(feed_per_tooth_mm);
     stretch.tangential_N = mean.tangential_N;

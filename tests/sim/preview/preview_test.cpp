@@ -145,7 +145,8 @@ TEST(Preview, places_are_in_the_order_of_the_path_and_end_with_the_program_in_ai
     CHECK_TRUE(map.back().cut.empty());
 }
 
-// ---- The map as the controller takes it ------------------------------------------------------------------------------
+// ---- The map as the controller takes it
+// ------------------------------------------------------------------------------
 
 TEST(Preview, a_straight_cut_is_one_stretch_at_whose_feed_the_tooth_meets_its_set_point) {
     const Scenario scenario = scenario_named("slot_entry");
@@ -175,9 +176,12 @@ TEST(Preview, the_feed_in_air_is_the_largest_override_and_a_rapid_is_a_rapid) {
                   static_cast<double>(before_contact.feed_mm_s), 1e-3);
 }
 
-TEST(Preview, an_empty_map_has_no_stretches) { CHECK_TRUE(stretches_of({}, scenario_named("slot_entry").parameters).empty()); }
+TEST(Preview, an_empty_map_has_no_stretches) {
+    CHECK_TRUE(stretches_of({}, scenario_named("slot_entry").parameters).empty());
+}
 
-// ---- In the loop -----------------------------------------------------------------------------------------------------
+// ---- In the loop
+// -----------------------------------------------------------------------------------------------------
 
 TEST(Preview, with_the_map_the_limit_holds_in_softer_and_in_harder_material) {
     for (const char* name : {"slot_entry", "width_step", "width_step_up", "interrupted", "depth_ramp", "face_mill"}) {
@@ -236,10 +240,9 @@ TEST(Preview, no_wrong_map_breaks_a_tooth_or_costs_more_than_a_tenth_of_the_blin
         const PartMap map = preview(scenario);
         const double blind_s = blind(scenario).time_s;
         const PartMap of_another_part = preview(scenario_named("zigzag"));
-        for (const PartMap& wrong :
-             {shifted(map, 1.5), shifted(map, 2.0), shifted(map, -2.0), shifted(map, 3.0), shifted(map, 8.0),
-              shifted(map, -20.0), mirrored(map), deeper(map, 0.5), deeper(map, 2.0), with_air_behind(map, 0.5),
-              of_another_part}) {
+        for (const PartMap& wrong : {shifted(map, 1.5), shifted(map, 2.0), shifted(map, -2.0), shifted(map, 3.0),
+                                     shifted(map, 8.0), shifted(map, -20.0), mirrored(map), deeper(map, 0.5),
+                                     deeper(map, 2.0), with_air_behind(map, 0.5), of_another_part}) {
             const Run run = with_map(scenario, wrong);
             CHECK_EQUAL(0, run.figures.teeth_broken);
             CHECK_COMPARE(run.figures.peak_over_limit, <=, 1.1);

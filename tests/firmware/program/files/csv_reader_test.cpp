@@ -35,6 +35,18 @@ std::string error_of(std::string_view text, std::string_view name = "a") {
 
 TEST_GROUP(CsvReader){};
 
+TEST(CsvReader, comments_stand_in_front_of_the_column_names_and_nowhere_else) {
+    const TemporaryFolder folder;
+    CsvReader csv(folder.write("t.csv", "# a table 1\n#\n\n# second\r\na\n1\n"));
+    LONGS_EQUAL(3, csv.comments().size());
+    STRCMP_EQUAL("a table 1", csv.comments()[0].c_str());
+    STRCMP_EQUAL("second", csv.comments()[2].c_str());
+    CHECK(csv.next_row());
+    DOUBLES_EQUAL(1.0, csv.number(csv.require("a")), 0.0);
+    STRCMP_CONTAINS(":2: ", error_of("a\n# no comment\n").c_str());
+    STRCMP_EQUAL(":1: the file is empty; expected a line of column names", error_of("# alone\n").c_str());
+}
+
 TEST(CsvReader, finds_columns_by_name_in_any_order) {
     const TemporaryFolder folder;
     CsvReader csv(folder.write("t.csv", "b,a,note\n1,2,x\n3,-4e-3,y\n"));

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "part_map/part_map.hpp"
+
+/// A part map as a file: CSV, with comments in front that say what it belongs to.
+///
+///     # millforce part map 1
+///     # program pocket.ngc crc32 5f3a09c1
+///     # tool endmill_10mm crc32 0b77e2d4
+///     path_mm,line,rapid,feed_mm_min,spindle_rpm,entry_deg,exit_deg,axial_depth_mm
+///     0,4,1,15000,4000,,,
+///     150.4,8,0,1500,4000,11.5,168.5,5
+///
+///   path_mm         gone along the program's path since its begin, rapids included; a row holds up to the next one
+///   line            of the program
+///   rapid           1 in a G0
+///   feed_mm_min     as programmed
+///   spindle_rpm     as programmed; 0: stands
+///   entry_deg, exit_deg, axial_depth_mm   an arc that is engaged, φ from the normal to the feed as in
+///                   estimation/cutting/cut_geometry.hpp; empty: air. Further arcs at the same place are further rows
+///                   with the same path_mm, in the order of φ
+///
+/// The last row is the program's end, in air. The checksum of the program is that of its bytes without carriage
+/// returns; that of the tool covers what the arcs and depths depend on: teeth, diameter, helix and flute length. A tool
+/// that is calibrated anew keeps its maps.
+
+namespace millforce::host {
+
+struct MapOrigin {
+    std::string program;  ///< file name; empty where there is none (a profile)
+    std::uint32_t program_crc32 = 0;
+    std::string tool;
+    std::uint32_t tool_crc32 = 0;
+};
+
+struct PartMapFile {
+    MapOrigin origin;
+    PartMap map;
+};
+
+/// `program_file` may be empty. Throws InputError.
+[[nodiscard]] MapOrigin origin_of(const std::filesystem::path& program_file, const std::string& tool_name,
+                                  const firmware::ToolParameters<float>& tool);
+
+/// Writes only places that differ from the one before. Throws InputError.
+void write_part_map(const std::filesystem::path& file, const PartMapFile& map);
+
+/// Throws InputError "FILE:LINE: …": another version, a checksum that cannot be read, a path that goes back, an arc
+/// outside 0…180° or that ends before it begins, a depth or a feed that cannot be, no end in air, all that CsvReader
+/// rejects.
+[[nodiscard]] PartMapFile read_part_map(const std::filesystem::path& file);
+
+/// Throws InputError where the map was made for another program or another tool than these.
+void require_same_origin(const std::filesystem::path& file, const MapOrigin& of_map, const MapOrigin& of_part);
+
+}  // namespace millforce::host
