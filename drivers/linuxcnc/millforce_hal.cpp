@@ -109,6 +109,8 @@ SampleMessage message_of(const std::array<hal_stream_data, MILLFORCE_FIELDS>& ro
     m.axis_velocity_mm_s = {f32(MILLFORCE_X_VELOCITY), f32(MILLFORCE_Y_VELOCITY), f32(MILLFORCE_Z_VELOCITY)};
     m.programmed_feed_mm_s = f32(MILLFORCE_FEED);
     m.operator_limit = f32(MILLFORCE_OPERATOR_LIMIT);
+    m.line = row[MILLFORCE_LINE].u;
+    m.distance_to_go_mm = f32(MILLFORCE_DISTANCE_TO_GO);
     return m;
 }
 

@@ -17,6 +17,8 @@ pin in float y_velocity;
 pin in float z_velocity;
 pin in float requested_velocity "F of the block in work in machine units/s: motion.requested-vel. (motion.feed-mm-per-minute contains the override)";
 pin in s32 motion_type "motion.motion-type: 1 is a rapid";
+pin in s32 program_line "Line of the block in work: motion.program-line; not wired or 0: not known";
+pin in float distance_to_go "To that block's end, in machine units: motion.distance-to-go";
 pin in bit feed_hold "Operator or CNC hold the feed, e.g. halui.program.is-paused";
 pin in bit reset "Leaves a fault of the controller; the same signal as the guard's";
 pin in float operator_limit=1.0 "Largest override that the operator allows, at most 1";
@@ -27,7 +29,7 @@ param rw float x_current_scale=1.0;
 param rw float y_current_scale=1.0;
 param rw float z_current_scale=1.0;
 param rw float counts_per_rev=0.0 "Not 0: spindle-revs is used, and this is encoder_counts_per_rev of machine.toml";
-param rw float mm_per_unit=1.0 "Of requested-velocity: 25.4 on a machine in inches";
+param rw float mm_per_unit=1.0 "Of requested-velocity and distance-to-go: 25.4 on a machine in inches";
 param rw unsigned present=31 "What is wired: 1 spindle position + 2 spindle current + 4 x + 8 y + 16 z";
 variable rtapi_s64 time_ns;
 variable real_t last_requested;
@@ -84,5 +86,7 @@ FUNCTION(_) {
     field[MILLFORCE_Z_VELOCITY].f = z_velocity;
     field[MILLFORCE_FEED].f = feed * mm_per_unit;
     field[MILLFORCE_OPERATOR_LIMIT].f = operator_limit;
+    field[MILLFORCE_LINE].u = program_line > 0 ? (rtapi_u32)program_line : 0u;
+    field[MILLFORCE_DISTANCE_TO_GO].f = distance_to_go * mm_per_unit;
     if (hal_stream_write(&stream, field) < 0) overruns++;
 }

@@ -5,7 +5,7 @@
 /* One row of the HAL stream from millforce_sample (servo thread) to millforce-hal. */
 #define MILLFORCE_STREAM_KEY 0x4D464C4B
 #define MILLFORCE_STREAM_DEPTH 4000 /* cycles that millforce-hal may be late */
-#define MILLFORCE_STREAM_TYPES "uuuuuufffffffff"
+#define MILLFORCE_STREAM_TYPES "uuuuuufffffffffuf"
 
 enum {
     MILLFORCE_CYCLE,
@@ -23,6 +23,8 @@ enum {
     MILLFORCE_Z_VELOCITY,
     MILLFORCE_FEED,
     MILLFORCE_OPERATOR_LIMIT,
+    MILLFORCE_LINE,
+    MILLFORCE_DISTANCE_TO_GO,
     MILLFORCE_FIELDS
 };
 

@@ -184,4 +184,8 @@ std::size_t Cnc::line() const {
     return move().line;
 }
 
+double Cnc::distance_to_go_mm() const {
+    return finished() ? 0.0 : length_mm(move()) - along_mm_;
+}
+
 }  // namespace millforce::sim

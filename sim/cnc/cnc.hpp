@@ -52,6 +52,7 @@ class Cnc {
     [[nodiscard]] bool is_rapid() const;
     [[nodiscard]] double spindle_speed_rad_s() const;
     [[nodiscard]] std::size_t line() const;
+    [[nodiscard]] double distance_to_go_mm() const;            ///< to the end of the block in work, along it
     [[nodiscard]] double path_mm() const { return path_mm_; }  ///< travelled since the start
     [[nodiscard]] double total_path_mm() const { return limits_.total_mm(); }
     [[nodiscard]] bool finished() const { return index_ >= moves_.size(); }

@@ -34,7 +34,8 @@ Scenario part_of(const PreviewOptions& options) {
     if (!is_scenario && (options.stock.empty() || options.tool.empty())) {
         throw host::InputError(options.part + ": a part program needs --stock and --tool");
     }
-    Scenario scenario = is_scenario ? read_scenario(options.part) : read_part(options.part, options.stock, options.tool);
+    Scenario scenario =
+        is_scenario ? read_scenario(options.part) : read_part(options.part, options.stock, options.tool);
     scenario.interpreter = options.interpreter;
     return scenario;
 }
@@ -75,8 +76,8 @@ int write_preview(const PreviewOptions& options) {
     fmt::print("{}: {:.0f} mm of path, {:.0f} mm of it in the cut, at most {:.2f} R wide and {:.2f} mm deep\n",
                options.output, summary.length_mm, summary.in_cut_mm, summary.widest_immersion, summary.deepest_mm);
     if (!(summary.in_cut_mm > 0.0)) {
-        host::print_line(stderr,
-                         "millforce: note: the tool meets no stock on its way: do zero point and stock belong together?");
+        host::print_line(
+            stderr, "millforce: note: the tool meets no stock on its way: do zero point and stock belong together?");
     }
     return 0;
 }
@@ -86,7 +87,8 @@ int write_preview(const PreviewOptions& options) {
 void add_preview(host::Command& program) {
     auto options = std::make_shared<PreviewOptions>();
     host::Command command = program.subcommand(
-        "preview", "Work out what the tool will meet along a part program: the part map that the controller looks ahead with");
+        "preview",
+        "Work out what the tool will meet along a part program: the part map that the controller looks ahead with");
     command.footer(
         "PART is a part program with --stock and --tool, or a scenario (.toml), which names both.\n"
         "The stock is the [stock] table of a TOML file: min_x_mm, min_y_mm, max_x_mm, max_y_mm, top_mm, cell_mm, the\n"

@@ -74,7 +74,7 @@ class MappedController : public MillforceController {
 
   protected:
     void look_ahead(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) override {
-        follower_.follow(tick, program);
+        follower_.look_ahead(tick, program);
     }
 
   private:

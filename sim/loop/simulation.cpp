@@ -124,8 +124,8 @@ class Loop {
         hal::ProgramStatus program;
         program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
         program.rapid = cnc_.is_rapid();
-        program.path_known = true;
-        program.path_mm = static_cast<float>(cnc_.path_mm());
+        program.line = static_cast<std::uint32_t>(cnc_.line());
+        program.distance_to_go_mm = static_cast<float>(cnc_.distance_to_go_mm());
         return program;
     }
 

@@ -32,6 +32,7 @@ host::PartMap preview(const Scenario& scenario, double step_mm) {
     for (const Move& move : moves_of(scenario)) {
         const double length = length_mm(move);
         place.line = move.line;
+        place.block_end_mm = before_move_mm + length;
         place.rapid = move.kind == MoveKind::rapid;
         place.programmed_feed_mm_s = place.rapid ? rapid_mm_s : move.feed_mm_s;
         place.spindle_speed_rad_s = move.spindle_speed_rad_s;

@@ -99,6 +99,8 @@ SampleBytes encode(const SampleMessage& m) {
     }
     out.f32(m.programmed_feed_mm_s);
     out.f32(m.operator_limit);
+    out.u32(m.line);
+    out.f32(m.distance_to_go_mm);
     return bytes;
 }
 
@@ -153,6 +155,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, SampleMessage& message)
     }
     m.programmed_feed_mm_s = in.f32();
     m.operator_limit = in.f32();
+    m.line = in.u32();
+    m.distance_to_go_mm = in.f32();
     message = m;
     return MessageError::none;
 }

@@ -24,6 +24,8 @@ hal::ProgramStatus program_of(const local_link::SampleMessage& m) {
     program.operator_override = m.operator_limit;
     program.rapid = m.rapid;
     program.feed_hold = m.feed_hold;
+    program.line = m.line;
+    program.distance_to_go_mm = m.distance_to_go_mm;
     return program;
 }
 
@@ -33,8 +35,8 @@ float value_of(const estimation::Measurement<float>& measurement) {
 
 }  // namespace
 
-LinkController::LinkController(const Parameters<float>& parameters, float largest_override)
-    : tick_(capped(parameters, largest_override)), largest_override_(largest_override) {}
+LinkController::LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way)
+    : tick_(capped(parameters, largest_override)), largest_override_(largest_override), way_(way) {}
 
 local_link::MessageError LinkController::on_message(std::span<const std::uint8_t> bytes,
                                                     local_link::OverrideBytes& answer) {
@@ -51,6 +53,9 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     (void)drives_.take_sample(sample);  // each message is one
     tick_.take(sample);
     finish_estimate(tick_);
+    if (way_ != nullptr) {
+        way_->look_ahead(tick_, program);
+    }
     output_ = tick_.answer(program);
     answer = encode(answer_to(message.sequence));
     return local_link::MessageError::none;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "commands/command_line.hpp"
@@ -13,6 +15,8 @@
 #include "files/parameter_files.hpp"
 #include "files/parameter_notes.hpp"
 #include "firmware_link/link_controller.hpp"
+#include "part_map/map_follower.hpp"
+#include "part_map/part_map_file.hpp"
 
 namespace millforce::host {
 
@@ -23,6 +27,8 @@ struct ServeOptions {
     std::string machine;
     std::string tool;
     double override_max = 1.0;
+    std::string map;
+    std::string program;
 };
 
 /// Tells of a fault as it comes and goes.
@@ -39,8 +45,23 @@ class FaultTeller {
     std::uint8_t fault_ = 0;
 };
 
-void serve_peer(UnixServer& server, firmware::LinkController& controller) {
+/// Tells when a part map is dropped.
+class MapTeller {
+  public:
+    void follow(const MapFollower& follower) {
+        if (follower.ahead().is_refuted() && !was_refuted_) {
+            print_line(stderr, "millforce: the part map does not fit this cut: on without it");
+        }
+        was_refuted_ = follower.ahead().is_refuted();
+    }
+
+  private:
+    bool was_refuted_ = false;
+};
+
+void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower) {
     FaultTeller faults;
+    MapTeller maps;
     while (server.has_peer()) {
         const auto bytes = server.receive();
         if (bytes.empty()) {
@@ -57,12 +78,28 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller) {
         server.send(answer);
         firmware::finish_work(controller);
         faults.follow(controller.output());
+        if (follower != nullptr) {
+            maps.follow(*follower);
+        }
     }
+}
+
+std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Parameters<float>& parameters) {
+    if (options.map.empty()) {
+        return std::nullopt;
+    }
+    PartMapFile file = read_part_map(options.map);
+    const std::string tool = std::filesystem::path(options.tool).stem().string();
+    require_same_origin(options.map, file.origin, origin_of(options.program, tool, parameters.tool));
+    print_line(stderr, fmt::format("millforce: {}: looks ahead in {}, {:.0f} mm of path", options.map,
+                                   file.origin.program, file.map.back().path_mm));
+    return std::move(file.map);
 }
 
 int serve(const ServeOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     tell_parameter_notes(parameters);
+    const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);
     for (const std::string& note : become_real_time()) {
@@ -72,9 +109,10 @@ int serve(const ServeOptions& options) {
     print_line(stderr, fmt::format("millforce: {}: waiting", options.socket));
     while (server.wait_for_peer()) {
         print_line(stderr, "millforce: connected");
-        auto controller =
-            std::make_unique<firmware::LinkController>(parameters, static_cast<float>(options.override_max));
-        serve_peer(server, *controller);
+        const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
+        auto controller = std::make_unique<firmware::LinkController>(
+            parameters, static_cast<float>(options.override_max), follower.get());
+        serve_peer(server, *controller, follower.get());
         server.drop_peer();
         print_line(stderr, fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
@@ -98,6 +136,11 @@ void add_serve(Command& program) {
                 "Largest override that the CNC accepts; 1: LinuxCNC's adaptive feed")
         .within(0.0, 10.0)
         .shows_default();
+    Option program_file = command.option("--program", options->program, "Part program that the map belongs to");
+    program_file.value_name("PART.ngc");
+    command.option("--map", options->map, "Part map of 'millforce preview', to look ahead with")
+        .value_name("PART.map")
+        .needs(program_file);
     command.on_run([options] { return serve(*options); });
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 /// An estimate ends with a tooth period, an answer with a sample: a tick's share of the reaction.
 constexpr float tick_share_s = 0.002F;
+/// Going back by less than that is a corner that was blended.
+constexpr float begun_again_mm = 2.0F;
 
 control::FeedAheadSettings<float> settings_of(const firmware::Parameters<float>& parameters) {
     control::FeedAheadSettings<float> settings;
@@ -25,21 +27,26 @@ float per_revolution_s(float spindle_speed_rad_s) {
 }  // namespace
 
 MapFollower::MapFollower(const firmware::Parameters<float>& parameters, const PartMap& map)
-    : parameters_(parameters), stretches_(stretches_of(map, parameters)), ahead_(settings_of(parameters)) {
+    : parameters_(parameters),
+      position_(map),
+      stretches_(stretches_of(map, parameters)),
+      ahead_(settings_of(parameters)) {
     fill_window();
 }
 
-void MapFollower::follow(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) {
-    if (program.path_known && program.path_mm < path_mm_) {
+void MapFollower::look_ahead(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) {
+    const std::optional<double> found = position_.find(program.line, static_cast<double>(program.distance_to_go_mm));
+    const float path_mm = found ? static_cast<float>(*found) : path_mm_;
+    if (path_mm < path_mm_ - begun_again_mm) {
         ahead_.restart();
         next_ = 0;
     }
     const estimation::CutEstimate<float>& estimate = tick.estimate();
     const control::FeedControllerParameters<float>& control = parameters_.tool.control;
     control::FeedAhead<float>::Step now;
-    now.position_known = program.path_known;
-    now.position_mm = program.path_mm;
-    now.travel_mm = std::max(program.path_mm - path_mm_, 0.0F);
+    now.position_known = found.has_value();
+    now.position_mm = path_mm;
+    now.travel_mm = std::max(path_mm - path_mm_, 0.0F);
     now.blind_feed_mm_s = control.entry_feed_per_tooth_mm * static_cast<float>(parameters_.tool.teeth) *
                           per_revolution_s(estimate.spindle_speed_rad_s);
     now.fresh = tick.has_new_estimate() && estimate.tangential_N.valid;
@@ -51,7 +58,7 @@ void MapFollower::follow(firmware::ForceControlTick<float>& tick, const hal::Pro
     now.feed_force_valid = estimate.feed_N.valid;
     now.feed_force_N = estimate.feed_N.value;
     now.feed_force_sd_N = std::sqrt(estimate.feed_N.variance);
-    path_mm_ = program.path_mm;
+    path_mm_ = path_mm;
     fill_window();
     tick.set_way_ahead(ahead_.step(now));
 }

@@ -6,17 +6,19 @@
 
 #include "control/feed_ahead.hpp"
 #include "firmware/tick.hpp"
+#include "firmware/way_source.hpp"
 #include "part_map/part_map.hpp"
+#include "part_map/path_position.hpp"
 
 namespace millforce::host {
 
-/// Lets a tick see the part map: between its estimate and its answer, follow() tells it the way ahead. A path that goes
-/// backwards is the program's begin again. Not thread-safe.
-class MapFollower {
+/// Lets a tick see the part map. A path that goes backwards is the program's begin again; where the CNC tells a line
+/// that the map does not have, nothing is known of the way. Not thread-safe.
+class MapFollower final : public firmware::WaySource<float> {
   public:
     MapFollower(const firmware::Parameters<float>& parameters, const PartMap& map);
 
-    void follow(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program);
+    void look_ahead(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) override;
 
     [[nodiscard]] const control::FeedAhead<float>& ahead() const { return ahead_; }
 
@@ -24,6 +26,7 @@ class MapFollower {
     void fill_window();
 
     firmware::Parameters<float> parameters_;
+    PathPosition position_;
     std::vector<control::Stretch<float>> stretches_;
     std::size_t next_ = 0;  // that the window does not hold yet
     control::FeedAhead<float> ahead_;

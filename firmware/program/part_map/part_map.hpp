@@ -18,8 +18,9 @@ struct EngagedArc {
 
 /// The cut along a program's path: what the tool meets, and how it is to go there.
 struct MapPlace {
-    double path_mm = 0.0;  ///< gone since the program's begin, rapids included
-    std::size_t line = 0;  ///< of the program
+    double path_mm = 0.0;       ///< gone since the program's begin, rapids included
+    double block_end_mm = 0.0;  ///< path at the end of the block that the place is in
+    std::size_t line = 0;       ///< of the program, 1 the first
     bool rapid = false;
     double programmed_feed_mm_s = 0.0;
     double spindle_speed_rad_s = 0.0;

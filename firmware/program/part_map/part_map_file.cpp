@@ -26,8 +26,9 @@ constexpr std::string_view format_line = "millforce part map 1";
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double rad_s_per_rpm = std::numbers::pi / 30.0;
 
-constexpr std::array<std::string_view, 8> column_names{
-    "path_mm", "line", "rapid", "feed_mm_min", "spindle_rpm", "entry_deg", "exit_deg", "axial_depth_mm"};
+constexpr std::array<std::string_view, 9> column_names{"path_mm",   "block_end_mm", "line",
+                                                       "rapid",     "feed_mm_min",  "spindle_rpm",
+                                                       "entry_deg", "exit_deg",     "axial_depth_mm"};
 
 std::uint32_t checksum(std::string_view text) {
     return firmware::crc32(0, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
@@ -76,15 +77,19 @@ bool is_same(const MapPlace& a, const MapPlace& b) {
     const auto is_same_arc = [](const EngagedArc& x, const EngagedArc& y) {
         return x.entry_rad == y.entry_rad && x.exit_rad == y.exit_rad && x.axial_depth_mm == y.axial_depth_mm;
     };
-    return a.line == b.line && a.rapid == b.rapid && a.programmed_feed_mm_s == b.programmed_feed_mm_s &&
-           a.spindle_speed_rad_s == b.spindle_speed_rad_s && std::ranges::equal(a.cut, b.cut, is_same_arc);
+    return a.block_end_mm == b.block_end_mm && a.line == b.line && a.rapid == b.rapid &&
+           a.programmed_feed_mm_s == b.programmed_feed_mm_s && a.spindle_speed_rad_s == b.spindle_speed_rad_s &&
+           std::ranges::equal(a.cut, b.cut, is_same_arc);
 }
 
 /// As many digits as a map means: 1 µm, 0.001°, 0.001 /min.
-double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
+double rounded(double value) {
+    return std::round(value * 1000.0) / 1000.0;
+}
 
 void write_place(CsvWriter& csv, const MapPlace& place) {
     std::array<double, column_names.size()> row{rounded(place.path_mm),
+                                                rounded(place.block_end_mm),
                                                 static_cast<double>(place.line),
                                                 place.rapid ? 1.0 : 0.0,
                                                 rounded(place.programmed_feed_mm_s * 60.0),
@@ -96,9 +101,9 @@ void write_place(CsvWriter& csv, const MapPlace& place) {
         csv.row(row);
     }
     for (const EngagedArc& arc : place.cut) {
-        row[5] = rounded(arc.entry_rad / rad_per_deg);
-        row[6] = rounded(arc.exit_rad / rad_per_deg);
-        row[7] = rounded(arc.axial_depth_mm);
+        row[6] = rounded(arc.entry_rad / rad_per_deg);
+        row[7] = rounded(arc.exit_rad / rad_per_deg);
+        row[8] = rounded(arc.axial_depth_mm);
         csv.row(row);
     }
 }
@@ -107,8 +112,8 @@ class MapReader {
   public:
     explicit MapReader(const std::filesystem::path& file) : csv_(file) {
         if (csv_.comments().empty() || csv_.comments().front() != format_line) {
-            throw InputError(fmt::format("{}:1: expected '# {}', a part map of 'millforce preview'", csv_.file_name(),
-                                         format_line));
+            throw InputError(
+                fmt::format("{}:1: expected '# {}', a part map of 'millforce preview'", csv_.file_name(), format_line));
         }
         for (std::size_t k = 0; k < column_names.size(); ++k) {
             columns_[k] = csv_.require(column_names[k]);
@@ -134,10 +139,11 @@ class MapReader {
         constexpr double longest_mm = 1e6;
         MapPlace place;
         place.path_mm = csv_.required_number(columns_[0], 0.0, longest_mm);
-        place.line = static_cast<std::size_t>(csv_.required_number(columns_[1], 0.0, 1e9));
-        place.rapid = csv_.required_number(columns_[2], 0.0, 1.0) != 0.0;
-        place.programmed_feed_mm_s = csv_.required_number(columns_[3], 0.0, 1e6) / 60.0;
-        place.spindle_speed_rad_s = csv_.required_number(columns_[4], 0.0, 1e6) * rad_s_per_rpm;
+        place.block_end_mm = csv_.required_number(columns_[1], place.path_mm, longest_mm);
+        place.line = static_cast<std::size_t>(csv_.required_number(columns_[2], 0.0, 1e9));
+        place.rapid = csv_.required_number(columns_[3], 0.0, 1.0) != 0.0;
+        place.programmed_feed_mm_s = csv_.required_number(columns_[4], 0.0, 1e6) / 60.0;
+        place.spindle_speed_rad_s = csv_.required_number(columns_[5], 0.0, 1e6) * rad_s_per_rpm;
         const std::optional<EngagedArc> arc = arc_of_row();
         if (!map.empty() && place.path_mm == map.back().path_mm) {
             add_further_arc(map.back(), arc);
@@ -153,24 +159,24 @@ class MapReader {
     }
 
     std::optional<EngagedArc> arc_of_row() {
-        if (std::isnan(csv_.number(columns_[5]))) {
+        if (std::isnan(csv_.number(columns_[6]))) {
             return std::nullopt;
         }
         EngagedArc arc;
-        const double entry_deg = csv_.required_number(columns_[5], 0.0, 180.0);
-        const double exit_deg = csv_.required_number(columns_[6], 0.0, 180.0);
+        const double entry_deg = csv_.required_number(columns_[6], 0.0, 180.0);
+        const double exit_deg = csv_.required_number(columns_[7], 0.0, 180.0);
         if (!(exit_deg > entry_deg)) {
-            csv_.fail(columns_[6], "expected an arc that ends behind its entry");
+            csv_.fail(columns_[7], "expected an arc that ends behind its entry");
         }
         arc.entry_rad = entry_deg * rad_per_deg;
         arc.exit_rad = exit_deg * rad_per_deg;
-        arc.axial_depth_mm = csv_.required_number(columns_[7], 0.001, 500.0);
+        arc.axial_depth_mm = csv_.required_number(columns_[8], 0.001, 500.0);
         return arc;
     }
 
     void add_further_arc(MapPlace& place, const std::optional<EngagedArc>& arc) {
         if (!arc || place.cut.empty() || arc->entry_rad < place.cut.back().exit_rad) {
-            csv_.fail(columns_[5], "a second row for this place; expected a further arc, behind the last one's exit");
+            csv_.fail(columns_[6], "a second row for this place; expected a further arc, behind the last one's exit");
         }
         place.cut.push_back(*arc);
     }
@@ -210,13 +216,16 @@ void write_part_map(const std::filesystem::path& file, const PartMapFile& map) {
     target.commit();
 }
 
-PartMapFile read_part_map(const std::filesystem::path& file) { return MapReader(file).read(); }
+PartMapFile read_part_map(const std::filesystem::path& file) {
+    return MapReader(file).read();
+}
 
 void require_same_origin(const std::filesystem::path& file, const MapOrigin& of_map, const MapOrigin& of_part) {
     const auto refuse = [&](std::string_view kind, const std::string& was, const std::string& is) {
-        throw InputError(fmt::format("{}: made for another {} ('{}'; this is '{}'); make it again with "
-                                     "'millforce preview'",
-                                     file.string(), kind, was, is));
+        throw InputError(
+            fmt::format("{}: made for another {} ('{}'; this is '{}'); make it again with "
+                        "'millforce preview'",
+                        file.string(), kind, was, is));
     };
     if (of_map.program_crc32 != of_part.program_crc32) {
         refuse("program", of_map.program, of_part.program);

@@ -12,12 +12,13 @@
 ///     # millforce part map 1
 ///     # program pocket.ngc crc32 5f3a09c1
 ///     # tool endmill_10mm crc32 0b77e2d4
-///     path_mm,line,rapid,feed_mm_min,spindle_rpm,entry_deg,exit_deg,axial_depth_mm
-///     0,4,1,15000,4000,,,
-///     150.4,8,0,1500,4000,11.5,168.5,5
+///     path_mm,block_end_mm,line,rapid,feed_mm_min,spindle_rpm,entry_deg,exit_deg,axial_depth_mm
+///     0,142.7,4,1,15000,4000,,,
+///     150.4,216.7,8,0,1500,4000,11.5,168.5,5
 ///
 ///   path_mm         gone along the program's path since its begin, rapids included; a row holds up to the next one
-///   line            of the program
+///   block_end_mm    path at the end of the block in work: a CNC tells the line and the distance to go to that end
+///   line            of the program, 1 the first
 ///   rapid           1 in a G0
 ///   feed_mm_min     as programmed
 ///   spindle_rpm     as programmed; 0: stands

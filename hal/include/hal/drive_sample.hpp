@@ -99,8 +99,8 @@ struct ProgramStatus {
     float operator_override = 1.0F;     ///< the operator's override; it always wins downwards
     bool rapid = false;                 ///< a G0 block is active
     bool feed_hold = false;             ///< the operator or the CNC holds the feed
-    bool path_known = false;            ///< path_mm is told
-    float path_mm = 0.0F;               ///< gone along the program's path since its begin
+    std::uint32_t line = 0;             ///< of the program, of the block in work; 0: not known
+    float distance_to_go_mm = 0.0F;     ///< to that block's end, along its path
 };
 
 }  // namespace millforce::hal

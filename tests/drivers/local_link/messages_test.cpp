@@ -28,6 +28,8 @@ SampleMessage a_sample() {
     m.axis_velocity_mm_s = {-25.0F, 0.0F, 4.0F};
     m.programmed_feed_mm_s = 25.0F;
     m.operator_limit = 0.5F;
+    m.line = 258;
+    m.distance_to_go_mm = 12.5F;
     return m;
 }
 
@@ -63,18 +65,20 @@ TEST(LocalLink, gives_a_sample_back_as_it_was) {
     CHECK(got.axis_current_A == sent.axis_current_A);
     CHECK(got.axis_velocity_mm_s == sent.axis_velocity_mm_s);
     CHECK(got.programmed_feed_mm_s == sent.programmed_feed_mm_s && got.operator_limit == sent.operator_limit);
+    CHECK(got.line == sent.line && got.distance_to_go_mm == sent.distance_to_go_mm);
 }
 
 TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
     const SampleBytes bytes = encode(a_sample());
-    MEMCMP_EQUAL("MFLK\x01\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
+    MEMCMP_EQUAL("MFLK\x02\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
     BYTES_EQUAL(9, bytes[24]);
     BYTES_EQUAL(0x1F, bytes[25]);
-    BYTES_EQUAL(5, bytes[26]);                               // rapid and reset
-    MEMCMP_EQUAL("\x00\x00\x50\x40", bytes.data() + 28, 4);  // 3.25
-    MEMCMP_EQUAL("\x00\x00\xC8\xC1", bytes.data() + 44, 4);  // -25
+    BYTES_EQUAL(5, bytes[26]);                                               // rapid and reset
+    MEMCMP_EQUAL("\x00\x00\x50\x40", bytes.data() + 28, 4);                  // 3.25
+    MEMCMP_EQUAL("\x00\x00\xC8\xC1", bytes.data() + 44, 4);                  // -25
+    MEMCMP_EQUAL("\x02\x01\x00\x00\x00\x00\x48\x41", bytes.data() + 64, 8);  // 258, 12.5
     const OverrideBytes answer = encode(an_override());
-    MEMCMP_EQUAL("MFLK\x01\x00\x02\x00", answer.data(), 8);
+    MEMCMP_EQUAL("MFLK\x02\x00\x02\x00", answer.data(), 8);
     BYTES_EQUAL(77, answer[8]);
     BYTES_EQUAL(76, answer[12]);
     BYTES_EQUAL(0, answer[20]);
@@ -107,7 +111,7 @@ TEST(LocalLink, names_what_is_wrong_and_keeps_the_last_message) {
         return decode(bytes, kept);
     };
     CHECK(error_with(0, 'X') == MessageError::not_this_link);
-    CHECK(error_with(4, 2) == MessageError::version);
+    CHECK(error_with(4, 1) == MessageError::version);
     CHECK(error_with(6, 1) == MessageError::kind);
     CHECK(error_with(20, 2) == MessageError::reserved_bits);
     CHECK(error_with(19, 0xBF) == MessageError::not_a_ratio);  // its sign

@@ -55,12 +55,14 @@ RunFigures blind(const Scenario& scenario) {
     return simulate(scenario, controller, "millforce").result.figures;
 }
 
-PartMap shifted(PartMap map, double by_mm) {
-    for (MapPlace& place : map) {
-        place.path_mm += by_mm;
+/// The same path over stock that lies `by_mm` further along it.
+PartMap shifted(const PartMap& map, double by_mm) {
+    PartMap result = map;
+    for (MapPlace& place : result) {
+        const auto after = std::ranges::upper_bound(map, std::max(place.path_mm - by_mm, 0.0), {}, &MapPlace::path_mm);
+        place.cut = (after - 1)->cut;
     }
-    map.front().path_mm = 0.0;
-    return map;
+    return result;
 }
 
 PartMap mirrored(const PartMap& map) {

@@ -19,7 +19,7 @@
 /// | sample, bytes | what | unit and range |
 /// |---|---|---|
 /// | 0…3 | "MFLK" | |
-/// | 4, 5 | version of the layout, U16 | 1 |
+/// | 4, 5 | version of the layout, U16 | 2 |
 /// | 6, 7 | kind, U16 | 1 |
 /// | 8…11 | sequence, U32 | is given back in the answer |
 /// | 12…15 | time, U32 | µs, wraps; only differences are used |
@@ -34,11 +34,13 @@
 /// | 44…55 | velocities of x, y, z, F32 | mm/s, of the tool relative to the workpiece |
 /// | 56…59 | programmed feed of the block in work, F32 | mm/s; 0: not known |
 /// | 60…63 | operator's limit, F32 | an override, 1: none |
+/// | 64…67 | program line of the block in work, U32 | 1 the first; 0: not known |
+/// | 68…71 | distance to go to that block's end, F32 | mm along its path |
 ///
 /// | override, bytes | what | unit and range |
 /// |---|---|---|
 /// | 0…3 | "MFLK" | |
-/// | 4, 5 | version, U16 | 1 |
+/// | 4, 5 | version, U16 | 2 |
 /// | 6, 7 | kind, U16 | 2 |
 /// | 8…11 | sequence of the sample that is answered, U32 | |
 /// | 12…15 | heartbeat: ticks of the controller, U32 | |
@@ -52,8 +54,8 @@
 
 namespace millforce::local_link {
 
-inline constexpr std::uint16_t layout_version = 1;
-inline constexpr std::size_t sample_bytes = 64;
+inline constexpr std::uint16_t layout_version = 2;
+inline constexpr std::size_t sample_bytes = 72;
 inline constexpr std::size_t override_bytes = 52;
 inline constexpr std::size_t link_axes = 3;
 
@@ -72,6 +74,8 @@ struct SampleMessage {
     std::array<float, link_axes> axis_velocity_mm_s{};
     float programmed_feed_mm_s = 0.0F;
     float operator_limit = 1.0F;
+    std::uint32_t line = 0;
+    float distance_to_go_mm = 0.0F;
 };
 
 struct OverrideMessage {

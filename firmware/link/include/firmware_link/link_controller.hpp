@@ -5,6 +5,7 @@
 #include <span>
 
 #include "firmware/tick.hpp"
+#include "firmware/way_source.hpp"
 #include "firmware_link/link_drives.hpp"
 #include "local_link/messages.hpp"
 
@@ -24,8 +25,8 @@ namespace millforce::firmware {
 
 class LinkController {
   public:
-    /// `largest_override`: what the CNC's input takes; caps the machine's override_max.
-    LinkController(const Parameters<float>& parameters, float largest_override);
+    /// `largest_override`: what the CNC's input takes; caps the machine's override_max. `way` outlives this.
+    LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way = nullptr);
 
     /// `answer` is written if the bytes are valid.
     [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
@@ -48,6 +49,7 @@ class LinkController {
     ForceControlTick<float> tick_;
     hal::FeedOverride output_{};
     float largest_override_;
+    WaySource<float>* way_;
     bool has_time_ = false;
     bool was_reset_ = true;
     std::uint32_t time_us_ = 0;

@@ -22,19 +22,20 @@ const std::string head =
     "# millforce part map 1\n"
     "# program a part.ngc crc32 5f3a09c1\n"
     "# tool mill crc32 0b77e2d4\n"
-    "path_mm,line,rapid,feed_mm_min,spindle_rpm,entry_deg,exit_deg,axial_depth_mm\n";
+    "path_mm,block_end_mm,line,rapid,feed_mm_min,spindle_rpm,entry_deg,exit_deg,axial_depth_mm\n";
 
 /// Air, a slot, two sides of a slot that is left, the end.
 PartMapFile example() {
     PartMapFile file;
     file.origin = {"a part.ngc", 0x5f3a09c1, "mill", 0x0b77e2d4};
     MapPlace place;
+    place.block_end_mm = 10.5;
     place.line = 4;
     place.rapid = true;
     place.programmed_feed_mm_s = 250.0;
     place.spindle_speed_rad_s = 4000.0 * std::numbers::pi / 30.0;
     file.map.push_back(place);
-    place = {10.5, 5, false, 25.0, place.spindle_speed_rad_s, {{0.0, std::numbers::pi, 5.0}}};
+    place = {10.5, 50.0, 5, false, 25.0, place.spindle_speed_rad_s, {{0.0, std::numbers::pi, 5.0}}};
     file.map.push_back(place);
     place.path_mm = 40.25;
     place.cut = {{0.0, 60.0 * rad_per_deg, 5.0}, {120.0 * rad_per_deg, std::numbers::pi, 4.5}};
@@ -53,7 +54,9 @@ std::string error_of(std::string_view text) {
     return message.starts_with(place) ? message.substr(place.size()) : message;
 }
 
-std::string error_of_rows(const std::string& rows) { return error_of(head + rows); }
+std::string error_of_rows(const std::string& rows) {
+    return error_of(head + rows);
+}
 
 }  // namespace
 
@@ -73,6 +76,7 @@ TEST(PartMapFile, what_was_written_is_read) {
         const MapPlace& was = written.map[k];
         const MapPlace& is = read.map[k];
         DOUBLES_EQUAL(was.path_mm, is.path_mm, 1e-9);
+        DOUBLES_EQUAL(was.block_end_mm, is.block_end_mm, 1e-9);
         LONGS_EQUAL(was.line, is.line);
         CHECK_EQUAL(was.rapid, is.rapid);
         DOUBLES_EQUAL(was.programmed_feed_mm_s, is.programmed_feed_mm_s, 1e-9);
@@ -90,11 +94,11 @@ TEST(PartMapFile, is_written_as_its_header_says) {
     const TemporaryFolder folder;
     write_part_map(folder.path("t.map"), example());
     const std::string expected = head +
-                                 "0,4,1,15000,4000,,,\n"
-                                 "10.5,5,0,1500,4000,0,180,5\n"
-                                 "40.25,5,0,1500,4000,0,60,5\n"
-                                 "40.25,5,0,1500,4000,120,180,4.5\n"
-                                 "50,5,0,1500,4000,,,\n";
+                                 "0,10.5,4,1,15000,4000,,,\n"
+                                 "10.5,50,5,0,1500,4000,0,180,5\n"
+                                 "40.25,50,5,0,1500,4000,0,60,5\n"
+                                 "40.25,50,5,0,1500,4000,120,180,4.5\n"
+                                 "50,50,5,0,1500,4000,,,\n";
     STRCMP_EQUAL(expected.c_str(), folder.read("t.map").c_str());
 }
 
@@ -112,7 +116,8 @@ TEST(PartMapFile, places_at_which_nothing_changes_are_not_written) {
 TEST(PartMapFile, another_file_or_version_is_refused) {
     STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("path_mm,line\n1,2\n").c_str());
     STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("# millforce part map 2\npath_mm\n1\n").c_str());
-    STRCMP_CONTAINS("no line '# program NAME crc32 HEX'", error_of("# millforce part map 1\n" + head.substr(head.find("path_mm"))).c_str());
+    STRCMP_CONTAINS("no line '# program NAME crc32 HEX'",
+                    error_of("# millforce part map 1\n" + head.substr(head.find("path_mm"))).c_str());
     std::string broken = head;
     broken.replace(broken.find("0b77e2d4"), 8, "0b77e2dg");
     STRCMP_CONTAINS("no line '# tool NAME crc32 HEX'", error_of(broken).c_str());
@@ -120,16 +125,18 @@ TEST(PartMapFile, another_file_or_version_is_refused) {
 
 TEST(PartMapFile, rows_that_cannot_be_are_refused_with_their_line) {
     STRCMP_CONTAINS("the last row is not the program's end", error_of_rows("").c_str());
-    STRCMP_CONTAINS("the last row is not the program's end", error_of_rows("0,1,0,60,1000,0,90,1\n").c_str());
-    STRCMP_CONTAINS(":6: column 'path_mm': the path goes back", error_of_rows("5,1,0,60,1000,,,\n4,1,0,60,1000,,,\n").c_str());
-    STRCMP_CONTAINS(":5: column 'exit_deg'", error_of_rows("5,1,0,60,1000,90,80,1\n").c_str());
-    STRCMP_CONTAINS(":5: column 'entry_deg'", error_of_rows("5,1,0,60,1000,-1,80,1\n").c_str());
-    STRCMP_CONTAINS(":5: column 'exit_deg'", error_of_rows("5,1,0,60,1000,10,,1\n").c_str());
-    STRCMP_CONTAINS(":5: column 'axial_depth_mm'", error_of_rows("5,1,0,60,1000,10,20,0\n").c_str());
-    STRCMP_CONTAINS(":5: column 'feed_mm_min'", error_of_rows("5,1,0,-60,1000,,,\n").c_str());
-    STRCMP_CONTAINS(":5: column 'path_mm'", error_of_rows("nan,1,0,60,1000,,,\n").c_str());
+    STRCMP_CONTAINS("the last row is not the program's end", error_of_rows("0,9,1,0,60,1000,0,90,1\n").c_str());
+    STRCMP_CONTAINS(":6: column 'path_mm': the path goes back",
+                    error_of_rows("5,9,1,0,60,1000,,,\n4,9,1,0,60,1000,,,\n").c_str());
+    STRCMP_CONTAINS(":5: column 'exit_deg'", error_of_rows("5,9,1,0,60,1000,90,80,1\n").c_str());
+    STRCMP_CONTAINS(":5: column 'entry_deg'", error_of_rows("5,9,1,0,60,1000,-1,80,1\n").c_str());
+    STRCMP_CONTAINS(":5: column 'exit_deg'", error_of_rows("5,9,1,0,60,1000,10,,1\n").c_str());
+    STRCMP_CONTAINS(":5: column 'axial_depth_mm'", error_of_rows("5,9,1,0,60,1000,10,20,0\n").c_str());
+    STRCMP_CONTAINS(":5: column 'feed_mm_min'", error_of_rows("5,9,1,0,-60,1000,,,\n").c_str());
+    STRCMP_CONTAINS(":5: column 'block_end_mm'", error_of_rows("5,4,1,0,60,1000,,,\\n").c_str());
+    STRCMP_CONTAINS(":5: column 'path_mm'", error_of_rows("nan,9,1,0,60,1000,,,\n").c_str());
     STRCMP_CONTAINS(":6: column 'entry_deg': a second row for this place",
-                    error_of_rows("5,1,0,60,1000,10,50,1\n5,1,0,60,1000,40,90,1\n").c_str());
+                    error_of_rows("5,9,1,0,60,1000,10,50,1\n5,9,1,0,60,1000,40,90,1\n").c_str());
 }
 
 TEST(PartMapFile, belongs_to_the_programs_bytes_but_not_to_its_line_ends) {
@@ -158,8 +165,10 @@ TEST(PartMapFile, a_map_of_another_program_or_tool_is_refused) {
     require_same_origin("a.map", mine, mine);
     MapOrigin other = mine;
     other.program_crc32 ^= 1U;
-    STRCMP_CONTAINS("a.map: made for another program", message_of<InputError>([&] { require_same_origin("a.map", mine, other); }).c_str());
+    STRCMP_CONTAINS("a.map: made for another program",
+                    message_of<InputError>([&] { require_same_origin("a.map", mine, other); }).c_str());
     other = mine;
     other.tool_crc32 ^= 1U;
-    STRCMP_CONTAINS("made for another tool", message_of<InputError>([&] { require_same_origin("a.map", mine, other); }).c_str());
+    STRCMP_CONTAINS("made for another tool",
+                    message_of<InputError>([&] { require_same_origin("a.map", mine, other); }).c_str());
 }
