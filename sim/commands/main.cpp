@@ -18,12 +18,12 @@ int run(int argc, char** argv) {
         "Exit codes: 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input.\n"
         "'millforce COMMAND --help' describes a command.");
     sim::add_simulate(program);
-    sim::add_preview(program);
     sim::add_ensemble(program);
     host::add_replay(program);
     host::add_run(program);
     host::add_calibrate(program);
     host::add_estimate(program);
+    sim::add_preview(program);
     sim::add_reproduce(program);
     sim::add_cut_table(program);
     sim::add_bench(program);

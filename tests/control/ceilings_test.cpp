@@ -110,6 +110,12 @@ TEST(Ceilings, where_the_way_ahead_is_known_no_surge_is_feared) {
     CHECK(output.limit == Limit::force);
 }
 
+TEST(Ceilings, where_the_way_ahead_is_known_the_override_rises_as_fast_as_the_machine_can_in_air) {
+    Controller controller;
+    repeat(controller, in_air(), 2000);
+    check_ratio(0.9F, repeat(controller, with_way(in_air(), 18.0F), 1));
+}
+
 TEST(Ceilings, the_way_ahead_raises_nothing_above_the_force_nor_without_an_estimate) {
     Parameters p = immediate();
     Controller controller(p);

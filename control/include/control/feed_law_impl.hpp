@@ -85,7 +85,8 @@ void FeedLaw<Scalar>::approach(const Parameters& parameters, const ControlInput<
     const Scalar distance = wanted - override_ratio_;
     const Scalar rise = share < Scalar(1) ? distance * share : distance;
     const Scalar highest_rise = parameters.slew_up_per_s * motion.dt_s;
-    override_ratio_ = bounded(parameters, override_ratio_ + (rise > highest_rise ? highest_rise : rise));
+    const bool is_too_fast = rise > highest_rise && !input.way.known;
+    override_ratio_ = bounded(parameters, override_ratio_ + (is_too_fast ? highest_rise : rise));
 }
 
 /// The share of the way up that this step's part of a revolution goes; 0 for a spindle that turns backwards.

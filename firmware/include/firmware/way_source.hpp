@@ -5,8 +5,8 @@
 
 namespace millforce::firmware {
 
-/// Whatever knows what lies ahead, a part map for instance. Called once for each sample, between the tick's estimate and
-/// its answer, from the tick's thread; it calls tick.set_way_ahead().
+/// Whatever knows what lies ahead, a part map for instance. Called once for each sample, between the tick's estimate
+/// and its answer, from the tick's thread; it calls tick.set_way_ahead().
 template <typename Scalar>
 class WaySource {
   public:

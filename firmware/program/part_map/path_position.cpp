@@ -17,8 +17,8 @@ constexpr int samples_of_change = 50;
 
 PathPosition::PathPosition(const PartMap& map) {
     for (const MapPlace& place : map) {
-        const bool is_new = blocks_.empty() || blocks_.back().line != place.line ||
-                            blocks_.back().end_mm != place.block_end_mm;
+        const bool is_new =
+            blocks_.empty() || blocks_.back().line != place.line || blocks_.back().end_mm != place.block_end_mm;
         if (is_new) {
             blocks_.push_back({place.line, place.path_mm, place.block_end_mm});
         }

@@ -19,8 +19,8 @@ MapPlace at(double path_mm, double block_end_mm, std::size_t line) {
 }
 
 /// Line 7 is a cycle of three moves, and lines 8 and 9 are run through twice.
-const PartMap map = {at(0, 10, 3),   at(4, 10, 3),  at(10, 30, 7), at(30, 35, 7), at(35, 55, 7),
-                     at(55, 60, 8),  at(60, 70, 9), at(70, 75, 8), at(75, 85, 9), at(85, 85, 9)};
+const PartMap map = {at(0, 10, 3),  at(4, 10, 3),  at(10, 30, 7), at(30, 35, 7), at(35, 55, 7),
+                     at(55, 60, 8), at(60, 70, 9), at(70, 75, 8), at(75, 85, 9), at(85, 85, 9)};
 
 /// What is told for longer than a change of blocks takes.
 std::optional<double> settled(PathPosition& position, std::uint32_t line, double to_go_mm) {
