@@ -26,7 +26,8 @@
 /// The override approaches what is wanted
 ///   downwards  at once, within slew_down_per_s
 ///   upwards    in the cut by recovery_per_rev of the distance per revolution, else at once; within slew_up_per_s,
-///              but where the way ahead is known: there its ceiling says how far it may rise. In the cut an estimate is good for a rise of one revolution; then the override waits for the next.
+///              but where the way ahead is known: there its ceiling says how far it may rise. In the cut an estimate is
+///              good for a rise of one revolution; then the override waits for the next.
 ///
 /// Valid: F, f > 0, 1+p_s > 0, all finite (`applies_to`); c below 0.05 counts as 0.05. An estimate outside leaves the
 /// demand where it is; the ceilings then let nothing rise. The override is always finite and within [override_min,
