@@ -21,6 +21,7 @@
 #include "loop/recorder.hpp"
 #include "loop/simulation.hpp"
 #include "part_map/part_map_file.hpp"
+#include "preview/clairvoyant.hpp"
 #include "preview/preview.hpp"
 #include "recording/recording.hpp"
 #include "report/report.hpp"
@@ -140,6 +141,15 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
     return std::make_unique<PlantOnCan>(settings, std::make_unique<host::SocketPort>(socket));
 }
 
+/// What is left to gain: the feed of one who knows the true force everywhere.
+void print_plan(const Scenario& scenario, const RunFigures& figures) {
+    const RunFigures plan = clairvoyant_run(scenario);
+    fmt::print(
+        "\nThe plan of one who knows the true force everywhere takes {:.1f} s (peak {:.0f} % of the limit): this run "
+        "takes {:.2f} times as long.\n",
+        plan.time_s, 100.0 * plan.peak_over_limit, figures.time_s / plan.time_s);
+}
+
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
     const std::filesystem::path out = host::results_folder(options.out, "summary.json");
@@ -168,6 +178,9 @@ int simulate_scenario(const SimulateOptions& options) {
     }
     const ScenarioInfo info = info_of(scenario, ratio);
     fmt::print("{}", summary_table(info, results));
+    if (options.preview || !options.map.empty()) {
+        print_plan(scenario, results.front().figures);
+    }
     write_report(out, info, results);
     fmt::print("\nreport: {}\n", (out / "report.html").string());
     const RunFigures& figures = results.front().figures;
