@@ -67,7 +67,9 @@ ClairvoyantFeed::ClairvoyantFeed(const Scenario& scenario, double share) : posit
         const double highest_mm_s = move.kind == MoveKind::rapid ? no_bound : override_max * move.feed_mm_s;
         const double teeth_per_s =
             move.spindle_speed_rad_s / (2.0 * std::numbers::pi) * static_cast<double>(plant.cutter.teeth);
-        for (double s_mm = 0.0; s_mm < length; s_mm += step_mm) {
+        const auto steps = static_cast<long>(std::ceil(length / step_mm));
+        for (long k = 0; k < steps; ++k) {
+            const double s_mm = static_cast<double>(k) * step_mm;
             workpiece->move_to(position_at(move, s_mm), direction_at(move, s_mm), before_move_mm + s_mm);
             const std::vector<UniformArc> cut = uniform_arcs(workpiece->engagement());
             Place place{before_move_mm + s_mm, highest_mm_s};
