@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
+#include <optional>
 
 #include "cutting/revolution_load.hpp"
 #include "loop/simulation.hpp"
-#include "loop/workpiece.hpp"
 #include "preview/preview.hpp"
 
 namespace millforce::sim {
@@ -40,58 +39,54 @@ double feed_per_tooth_at(const CuttingForce& force, const EngagementMap& cut, do
     return low_mm;
 }
 
-bool is_same_cut(const std::vector<UniformArc>& a, const std::vector<UniformArc>& b) {
-    constexpr double alike_rad = 0.002;
-    constexpr double alike_mm = 0.005;
-    return std::ranges::equal(a, b, [](const UniformArc& x, const UniformArc& y) {
-        return std::abs(x.entry_rad - y.entry_rad) < alike_rad && std::abs(x.exit_rad - y.exit_rad) < alike_rad &&
-               std::abs(x.height_mm - y.height_mm) < alike_mm;
-    });
-}
+/// The plan's feed at each place that a preview passes, before braking.
+class TrueFeed {
+  public:
+    TrueFeed(const Scenario& scenario, double share)
+        : plant_(deviated(scenario, scenario.deviation, scenario.seed)),
+          force_(plant_.cutter, plant_.coefficients, plant_.cutting_options),
+          limit_N_(share * static_cast<double>(scenario.parameters.tool.tooth_force_limit_N)),
+          override_max_(static_cast<double>(scenario.parameters.machine.cnc.override_max)) {}
+
+    double at(const host::MapPlace& place, const EngagementMap& engagement) {
+        if (place.rapid) {
+            return no_bound;
+        }
+        const double highest_mm_s = override_max_ * place.programmed_feed_mm_s;
+        const double teeth_per_s =
+            place.spindle_speed_rad_s / (2.0 * std::numbers::pi) * static_cast<double>(plant_.cutter.teeth);
+        if (place.cut.empty() || !(teeth_per_s > 0.0)) {
+            return highest_mm_s;
+        }
+        if (!last_ || !host::is_same_cut(*last_, place)) {
+            last_ = place;
+            last_feed_mm_s_ = teeth_per_s * feed_per_tooth_at(force_, engagement, limit_N_, highest_mm_s / teeth_per_s);
+        }
+        return last_feed_mm_s_;
+    }
+
+  private:
+    Scenario plant_;
+    CuttingForce force_;
+    double limit_N_;
+    double override_max_;
+    std::optional<host::MapPlace> last_;  // whose forces were worked out
+    double last_feed_mm_s_ = 0.0;
+};
 
 }  // namespace
 
-ClairvoyantFeed::ClairvoyantFeed(const Scenario& scenario, double share) : position_(preview(scenario)) {
-    constexpr double step_mm = 0.1;
-    const Scenario plant = deviated(scenario, scenario.deviation, scenario.seed);
-    const CuttingForce force(plant.cutter, plant.coefficients, plant.cutting_options);
-    const double limit_N = share * static_cast<double>(scenario.parameters.tool.tooth_force_limit_N);
-    const double override_max = static_cast<double>(scenario.parameters.machine.cnc.override_max);
-    const std::unique_ptr<Workpiece> workpiece = workpiece_of(scenario);
-    std::vector<UniformArc> last_cut;
-    double last_highest_mm_s = 0.0;
-    double last_feed_mm_s = 0.0;
-    double before_move_mm = 0.0;
-    for (const Move& move : moves_of(scenario)) {
-        const double length = length_mm(move);
-        const double highest_mm_s = move.kind == MoveKind::rapid ? no_bound : override_max * move.feed_mm_s;
-        const double teeth_per_s =
-            move.spindle_speed_rad_s / (2.0 * std::numbers::pi) * static_cast<double>(plant.cutter.teeth);
-        const auto steps = static_cast<long>(std::ceil(length / step_mm));
-        for (long k = 0; k < steps; ++k) {
-            const double s_mm = static_cast<double>(k) * step_mm;
-            workpiece->move_to(position_at(move, s_mm), direction_at(move, s_mm), before_move_mm + s_mm);
-            const std::vector<UniformArc> cut = uniform_arcs(workpiece->engagement());
-            Place place{before_move_mm + s_mm, highest_mm_s};
-            const bool is_bounded = !cut.empty() && std::isfinite(highest_mm_s) && teeth_per_s > 0.0;
-            if (is_bounded && highest_mm_s == last_highest_mm_s && is_same_cut(cut, last_cut)) {
-                place.feed_mm_s = last_feed_mm_s;
-            } else if (is_bounded) {
-                place.feed_mm_s = teeth_per_s * feed_per_tooth_at(force, workpiece->engagement(), limit_N,
-                                                                  highest_mm_s / teeth_per_s);
-                last_cut = cut;
-                last_highest_mm_s = highest_mm_s;
-                last_feed_mm_s = place.feed_mm_s;
-            }
-            plan_.push_back(place);
-        }
-        before_move_mm += length;
-    }
+ClairvoyantFeed::ClairvoyantFeed(const Scenario& scenario, double share)
+    : position_(preview(scenario, 0.1,
+                        [this, feed = TrueFeed(scenario, share)](const host::MapPlace& place,
+                                                                 const EngagementMap& engagement) mutable {
+                            plan_.push_back({place.path_mm, feed.at(place, engagement)});
+                        })) {
+    lower_to_neighbours();
     brake_in_time(static_cast<double>(scenario.parameters.machine.cnc.acceleration_mm_s2));
 }
 
 void ClairvoyantFeed::brake_in_time(double acceleration_mm_s2) {
-    lower_to_neighbours();
     for (std::size_t i = plan_.size(); i-- > 1;) {
         const double next_mm_s = plan_[i].feed_mm_s;
         const double way_mm = plan_[i].path_mm - plan_[i - 1].path_mm;

@@ -24,6 +24,10 @@ std::vector<host::EngagedArc> arcs_in(const EngagementMap& engagement) {
 }  // namespace
 
 host::PartMap preview(const Scenario& scenario, double step_mm) {
+    return preview(scenario, step_mm, [](const host::MapPlace&, const EngagementMap&) {});
+}
+
+host::PartMap preview(const Scenario& scenario, double step_mm, const PreviewVisit& visit) {
     const std::unique_ptr<Workpiece> workpiece = workpiece_of(scenario);
     const double rapid_mm_s = CncSettings{}.rapid_feed_mm_s;
     host::PartMap map;
@@ -43,6 +47,7 @@ host::PartMap preview(const Scenario& scenario, double step_mm) {
             workpiece->move_to(position_at(move, s_mm), direction_at(move, s_mm), place.path_mm);
             place.cut = arcs_in(workpiece->engagement());
             map.push_back(place);
+            visit(place, workpiece->engagement());
         }
         before_move_mm += length;
     }

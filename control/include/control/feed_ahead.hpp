@@ -21,10 +21,9 @@
 ///
 /// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
 /// stands for it. In each cut that stays the same over the window of an estimate it is measured, κ = F_at/F(f)|κ=1, and
-/// averaged over some revolutions. At every place the feed may then be v_i,
-/// and now the override asks for the largest v from which the machine brakes to each of them, d_i ahead. On its way
-/// there it goes at √(v_i² + 2 a d), a: acceleration; what is asked for at d_i is done a reaction time T later, when
-/// the feed has fallen by a T more:
+/// averaged over some revolutions. At every place the feed may then be v_i. Now it may be the largest v from which the
+/// machine brakes to each of them, d_i ahead. On its way there the machine goes at √(v_i² + 2 a d), a: acceleration;
+/// what is asked for at d_i is done a reaction time T later, when the feed has fallen by a T more:
 ///
 ///   v = max(v_i, √(v_i² + 2 a d_i) − a T)    the lowest of all i
 ///

@@ -49,12 +49,13 @@ class ForceControlTick {
     /// The override, by the newest estimate. Once for each sample.
     hal::FeedOverride answer(const hal::ProgramStatus& program);
 
+    /// take() and answer() at once.
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program);
+
     /// What a part map says of the way ahead, before answer(); stays until the next call. None by default.
     void set_way_ahead(const control::WayAhead<Scalar>& way) { input_.way = way; }
     /// There is an estimate that no answer has seen yet.
     [[nodiscard]] bool has_new_estimate() const { return has_new_estimate_; }
-    /// Both at once.
-    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program);
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);

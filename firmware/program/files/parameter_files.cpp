@@ -159,9 +159,8 @@ void refuse_a_limit_that_cannot_be_kept(const std::string& path, const firmware:
 
 firmware::Parameters<float> read_parameters(const std::string& machine_path, const std::string& tool_path) {
     firmware::Parameters<float> parameters;
-    read_file(ParameterFile::machine, machine_path, parameters);
-    read_file(ParameterFile::tool, tool_path, parameters);
-    refuse_a_limit_that_cannot_be_kept(tool_path, parameters.tool);
+    parameters.machine = read_machine_parameters(machine_path);
+    parameters.tool = read_tool_parameters(tool_path);
     return parameters;
 }
 

@@ -2,7 +2,8 @@
 #include "part_map/map_follower.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
@@ -18,10 +19,6 @@ control::FeedAheadSettings<float> settings_of(const firmware::Parameters<float>&
     settings.acceleration_mm_s2 = parameters.machine.cnc.acceleration_mm_s2;
     settings.reaction_s = parameters.machine.cnc.override_latency_s + tick_share_s;
     return settings;
-}
-
-float per_revolution_s(float spindle_speed_rad_s) {
-    return spindle_speed_rad_s / (2.0F * std::numbers::pi_v<float>);
 }
 
 }  // namespace
@@ -48,7 +45,7 @@ void MapFollower::look_ahead(firmware::ForceControlTick<float>& tick, const hal:
     now.position_mm = path_mm;
     now.travel_mm = std::max(path_mm - path_mm_, 0.0F);
     now.blind_feed_mm_s = control.entry_feed_per_tooth_mm * static_cast<float>(parameters_.tool.teeth) *
-                          per_revolution_s(estimate.spindle_speed_rad_s);
+                          estimate.spindle_speed_rad_s * estimation::turns_per_rad<float>;
     now.fresh = tick.has_new_estimate() && estimate.tangential_N.valid;
     now.tangential_N = estimate.tangential_N.value;
     now.tangential_sd_N = std::sqrt(estimate.tangential_N.variance);

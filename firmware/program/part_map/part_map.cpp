@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "estimation/cutting/peak_factors.hpp"
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
@@ -106,16 +107,11 @@ bool is_same_arc(const EngagedArc& a, const EngagedArc& b) {
            std::abs(a.axial_depth_mm - b.axial_depth_mm) < alike_mm;
 }
 
-bool is_same_cut(const MapPlace& a, const MapPlace& b) {
-    return a.rapid == b.rapid && a.programmed_feed_mm_s == b.programmed_feed_mm_s &&
-           a.spindle_speed_rad_s == b.spindle_speed_rad_s && std::ranges::equal(a.cut, b.cut, is_same_arc);
-}
-
 control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parameters<float>& parameters) {
     const firmware::ToolParameters<float>& tool = parameters.tool;
     const auto programmed_mm_s = static_cast<float>(place.programmed_feed_mm_s);
-    const float teeth_per_s = static_cast<float>(place.spindle_speed_rad_s) /
-                              (2.0F * std::numbers::pi_v<float>)*static_cast<float>(tool.teeth);
+    const float teeth_per_s = static_cast<float>(place.spindle_speed_rad_s) * estimation::turns_per_rad<float> *
+                              static_cast<float>(tool.teeth);
     control::Stretch<float> stretch;
     stretch.begin_mm = static_cast<float>(place.path_mm);
     stretch.feed_mm_s = place.rapid ? programmed_mm_s : programmed_mm_s * parameters.machine.cnc.override_max;
@@ -150,6 +146,11 @@ bool may_join(const control::Stretch<float>& a, const control::Stretch<float>& b
 }
 
 }  // namespace
+
+bool is_same_cut(const MapPlace& a, const MapPlace& b) {
+    return a.rapid == b.rapid && a.programmed_feed_mm_s == b.programmed_feed_mm_s &&
+           a.spindle_speed_rad_s == b.spindle_speed_rad_s && std::ranges::equal(a.cut, b.cut, is_same_arc);
+}
 
 std::vector<control::Stretch<float>> stretches_of(const PartMap& map, const firmware::Parameters<float>& parameters) {
     std::vector<control::Stretch<float>> stretches;

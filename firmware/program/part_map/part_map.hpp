@@ -14,6 +14,8 @@ struct EngagedArc {
     double entry_rad = 0.0;
     double exit_rad = 0.0;
     double axial_depth_mm = 0.0;
+
+    bool operator==(const EngagedArc&) const = default;
 };
 
 /// The cut along a program's path: what the tool meets, and how it is to go there.
@@ -29,6 +31,9 @@ struct MapPlace {
 
 /// Each place holds to the next one. The last is the program's end.
 using PartMap = std::vector<MapPlace>;
+
+/// Alike within 0.005 rad and 0.01 mm, at the same programmed feed and speed: of equal forces at equal feeds.
+[[nodiscard]] bool is_same_cut(const MapPlace& a, const MapPlace& b);
 
 /// The map as the controller takes it (control/feed_ahead.hpp): the feed at which a tooth reaches its set point by the
 /// tool's cutting law, and the forces there. Neighbours whose feeds and forces are alike are one stretch, with the

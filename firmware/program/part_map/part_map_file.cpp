@@ -74,12 +74,9 @@ OriginLine origin_line(const CsvReader& csv, std::string_view kind) {
 }
 
 bool is_same(const MapPlace& a, const MapPlace& b) {
-    const auto is_same_arc = [](const EngagedArc& x, const EngagedArc& y) {
-        return x.entry_rad == y.entry_rad && x.exit_rad == y.exit_rad && x.axial_depth_mm == y.axial_depth_mm;
-    };
     return a.block_end_mm == b.block_end_mm && a.line == b.line && a.rapid == b.rapid &&
            a.programmed_feed_mm_s == b.programmed_feed_mm_s && a.spindle_speed_rad_s == b.spindle_speed_rad_s &&
-           std::ranges::equal(a.cut, b.cut, is_same_arc);
+           a.cut == b.cut;
 }
 
 /// As many digits as a map means: 1 µm, 0.001°, 0.001 /min.
