@@ -32,13 +32,11 @@ enum class CutState : std::uint8_t {
     /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air.
     exit = 3,
 
-    /// There is nothing to judge by, or the feed is held: the override is not raised. For want of an estimate in a cut
-    /// the feed
-    /// is held as well.
-    /// Entered: from any state but fault while the feed is held, from entry or in_cut for want of an estimate.
-    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air where spindle and
-    /// axes
-    /// have stood for 2 s.
+    /// There is no estimate, or the feed is held: the override is not raised. Without an estimate in a cut, the feed is
+    /// held as well.
+    /// Entered: from any state but fault while the feed is held, from entry or in_cut without an estimate.
+    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air once spindle and
+    /// axes have stood still for 2 s.
     hold = 4,
 
     /// The controller has given up: lowest override, feed held.

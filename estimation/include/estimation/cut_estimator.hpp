@@ -60,8 +60,8 @@ class CutEstimator {
     /// The encoder failed or the samples stopped: forgets the cut, keeps what was learnt in air.
     void restart();
 
-    /// The cut of estimate() neither begins nor ends: its depth serves where the forces do not tell it. Call once per
-    /// new estimate.
+    /// The cut of estimate() neither begins nor ends: its depth is used later, where the forces do not determine
+    /// it. Call once per new estimate.
     void remember_depth();
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. Uses the

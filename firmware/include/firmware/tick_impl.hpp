@@ -154,8 +154,8 @@ void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& progr
     control_ = controller_.step(input_);
 }
 
-/// The map knows the arc, and with it the tooth's share of F_at, better than the forces tell it. What their band says
-/// stays the least that the tooth carries.
+/// The map knows the arc, and with it the tooth's share of F_at, better than the forces can give it. The lower end of
+/// the forces' band remains the least that the tooth is assumed to carry.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     using std::sqrt;

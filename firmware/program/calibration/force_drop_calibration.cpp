@@ -268,7 +268,7 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
     if (side == CutSide::centred) {
         throw InputError(
             fmt::format("{}: side = \"centred\", expected down, up or unknown: a centred cut has no wall "
-                        "whose width the drop tells",
+                        "whose width the drop shows",
                         options.tool.string()));
     }
     const std::vector<MeasuredCut> cuts = read_known_cuts(options, parameters);

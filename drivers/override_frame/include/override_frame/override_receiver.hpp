@@ -17,8 +17,8 @@ struct OverrideReceiverSettings {
     std::uint16_t largest_counter_step = 50;  ///< ticks between two frames, lost frames included
     std::uint8_t frames_to_trust = 3;         ///< fresh frames in sequence before the override is used (again)
     float largest_ratio = 2.0F;               ///< beyond it the frame is rejected
-    float fallback_ratio = 0.0F;              ///< while the controller is dead …
-    bool fallback_hold = true;                ///< … and whether the feed stops then
+    float fallback_ratio = 0.0F;              ///< override while the controller is dead
+    bool fallback_hold = true;                ///< whether the feed stops while the controller is dead
 };
 
 enum class ReceiveError : std::uint8_t {

@@ -140,7 +140,7 @@ void EngagementSolver<Scalar, Nodes>::end_sides(Search& s) const {
     s.phase_ = Search::Phase::done;
 }
 
-/// The remembered depth has less than half the doubt of the one that the forces alone tell.
+/// The remembered depth has less than half the standard deviation of the one that the forces alone give.
 template <typename Scalar, int Nodes>
 bool EngagementSolver<Scalar, Nodes>::Search::memory_knows_more() const {
     const Scalar remembered_sd_mm = remembered_.relative_sd * remembered_.depth_mm;
@@ -245,7 +245,7 @@ std::size_t EngagementSolver<Scalar, Nodes>::Search::end_of_descent(std::size_t 
     }
     return node;
 }
-/// … up to which J does not fall.
+/// The last node from here on, of those scanned, up to which J does not fall.
 template <typename Scalar, int Nodes>
 std::size_t EngagementSolver<Scalar, Nodes>::Search::end_of_ascent(std::size_t node) const {
     while (node + 2 < nodes && !(J_[node + 2] < J_[node])) {
@@ -376,7 +376,7 @@ std::size_t EngagementSolver<Scalar, Nodes>::low_end(Search& s) const {
     }
     return low > 0 ? last_inside(s, low, low - 1) : low;
 }
-/// … above it.
+/// The outermost node above the estimate that lies within the interval, or the nearest one.
 template <typename Scalar, int Nodes>
 std::size_t EngagementSolver<Scalar, Nodes>::high_end(Search& s) const {
     const Table& forces = table(s.side_);

@@ -59,8 +59,8 @@ struct RoughnessModel {
     RoughnessMeasure measure{RoughnessMeasure::Ra};
     Scalar constant_um{0};                 ///< C; 0: there is no model
     RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
-    RoughnessValues<Scalar> minimum{};     ///< range of the tests …
-    RoughnessValues<Scalar> maximum{};     ///< … 0: not given
+    RoughnessValues<Scalar> minimum{};     ///< of the tests: lower end of the range; 0: not given
+    RoughnessValues<Scalar> maximum{};     ///< of the tests: upper end of the range; 0: not given
     RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
     Scalar tests{0};                       ///< n
     Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
