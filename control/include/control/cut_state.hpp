@@ -74,7 +74,7 @@ enum class Limit : std::uint8_t {
     entry_feed = 5,
     surge = 6,  ///< an engagement may come that the controller could not follow
     operator_limit = 7,
-    no_estimate = 8,  ///< held where it was for want of an estimate
+    no_estimate = 8,  ///< held where it was, since there is no estimate
     feed_per_tooth = 9,
     roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
     law_misfit = 11,  ///< held where it was: the forces contradict each other, or the law of the cut

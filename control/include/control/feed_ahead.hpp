@@ -31,7 +31,7 @@
 ///
 /// Each stretch counts from farthest_off_mm before its begin to as far behind its end.
 ///
-/// The map is believed as far as it has proved itself. `known` becomes true once measured forces have agreed over
+/// The map is used only after the forces have confirmed it. `known` becomes true once measured forces have agreed over
 /// agreement_mm of cut: F_at within what the stretches around the tool may give, with κ between lowest_hardness
 /// and highest_hardness, and within hardness_band of κ once that is measured; and F_ax within direction_band·F_at of
 /// χ F_at, where it is measured: the direction of the force gives the arc, whatever the depth and the material. Both

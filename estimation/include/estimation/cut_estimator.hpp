@@ -80,7 +80,7 @@ class CutEstimator {
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
         return axes_[axis].friction_scale(positive);
     }
-    /// What the total force of estimate() is worked out of, by whoever shows it: TotalForce.
+    /// Input of TotalForce, for a display of the total force of estimate().
     [[nodiscard]] TotalForceInput<Scalar> total_force_input() const {
         return {estimate_.worst_tooth_force_N, peaks_.now().radial_immersion, peaks_.depth_mm(), peaks_.side()};
     }

@@ -50,7 +50,8 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     watch_sample(sample, signals, dt_s);
 }
 
-/// Without encoder or spindle current there is no force: such a sample is none. The first whole one is waited for.
+/// Without encoder or spindle current there is no force: such a sample is discarded. The tick waits for the first
+/// complete one.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::watch_sample(const hal::DriveSample& sample, const Signals& signals,
                                                       Scalar dt_s) {

@@ -73,7 +73,7 @@ inline const std::array<CalibrationKey, 6> cutting_coefficient_keys{{
     key_of("cutting", "K_re_N_per_mm"),
 }};
 
-/// Table [cutting]: what the law's doubt and range are made of. No KEY_se.
+/// Table [cutting]: the keys that state the law's uncertainty and range. No KEY_se.
 inline const std::array<CalibrationKey, 9> cutting_doubt_keys{{
     key_of("cutting", "K_s_relative_sd"),
     key_of("cutting", "K_s_exponent_sd"),

@@ -92,8 +92,7 @@ std::string what_the_cuts_lack(const CuttingFit& fit, CuttingLawForm form) {
     }
     if (lacks(estimation::cutting_r_1)) {
         return "'k_1' cannot be determined: the forces hold nothing of the radial force (slots have none along the "
-               "normal); "
-               "expected side cuts with normal_force_N, or feed_force_N";
+               "normal); expected side cuts with normal_force_N, or feed_force_N";
     }
     if (lacks(estimation::cutting_p_s)) {
         return "'p_s' cannot be determined: all chips are equally thick; expected cuts at a second feed";

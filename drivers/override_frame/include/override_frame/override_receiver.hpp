@@ -41,9 +41,9 @@ struct ReceivedOverride {
     std::uint8_t fault = 0;
 };
 
-/// The CNC's side, a pure state machine: frames and times in, an override out, the fallback wherever there is doubt.
-/// A heartbeat other than `operational` ends the trust at once; that heartbeats stay away does not, the counter is the
-/// better witness. One thread.
+/// The CNC's side, a pure state machine: frames and times in, an override out, the fallback whenever the frames are not
+/// trusted. A heartbeat other than `operational` ends the trust at once; that heartbeats stay away does not, the
+/// counter is the better witness. One thread.
 class OverrideReceiver {
   public:
     explicit OverrideReceiver(const OverrideReceiverSettings& settings) : settings_(settings) {}

@@ -144,8 +144,8 @@ class FeedDrive {
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 
     /// The tool is known to be in air: the current is friction, weight and inertia alone. A current that the stated
-    /// doubt of the friction cannot explain teaches nothing: the signal is implausible, and there is no force until one
-    /// in air is plausible again.
+    /// deviation of the friction cannot explain teaches nothing: the signal is implausible, and there is no force until
+    /// one in air is plausible again.
     void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
         if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {

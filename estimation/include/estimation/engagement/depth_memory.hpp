@@ -58,7 +58,7 @@ class DepthMemory {
 
     void forget() { *this = {}; }
 
-    /// Found with the same K_s as the forces that it is used with: K_s is no part of its doubt.
+    /// Found with the same K_s as the forces that it is used with: the uncertainty of K_s is not part of it.
     [[nodiscard]] KnownDepth<Scalar> depth() const { return {depth_mm_, relative_sd_, false}; }
 
   private:

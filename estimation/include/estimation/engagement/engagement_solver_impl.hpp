@@ -401,7 +401,8 @@ std::size_t EngagementSolver<Scalar, Nodes>::last_inside(Search& s, std::size_t 
     return s.is_inside(next) ? next : node;
 }
 
-/// Of a 95 % interval that may be lopsided: by its longer side. At R_r = 2 there is only one.
+/// Standard deviation from a 95 % interval that may be asymmetric: from its longer side. At R_r = 2 there is only one
+/// side.
 template <typename Scalar>
 Scalar sd_of_interval(Scalar low, Scalar value, Scalar high) {
     const Scalar below = value - low;
@@ -451,7 +452,7 @@ void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
     e.immersion_valid = width <= settings_.widest_interval;
 }
 
-/// Depth at the estimate and at the interval's ends; its deviation adds what the immersion's doubt and K_s leave open.
+/// Depth at the estimate and at the interval's ends; its deviation adds the uncertainty of immersion and K_s.
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     using std::sqrt;
