@@ -31,7 +31,7 @@ pin in float requested_velocity "motion.requested-vel, to find out that the over
 pin in float current_velocity "motion.current-vel, for that check and for machine-ok";
 pin out float out "To motion.adaptive-feed";
 pin out bit feed_inhibit "To motion.feed-inhibit";
-pin out bit machine_ok=1 "For the emergency-stop chain: false if the machine keeps moving after it was told to stop; true again when it is at rest with enable false";
+pin out bit machine_ok=1 "For the emergency-stop chain: false if the machine keeps moving after a stop was demanded; true again when it is at rest with enable false";
 pin out bit ok "The controller lives and its override is a number from 0 on";
 pin out bit fault "Latched";
 pin out unsigned reason "Reason of the latched fault: 1 never heard, 2 heartbeat stopped or restarted, 3 not a number, 4 negative, 5 not obeyed";

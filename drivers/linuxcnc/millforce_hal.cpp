@@ -137,7 +137,7 @@ void set_pins(const Pins& p, const OverrideMessage& m) {
     set_estimate(m.axial_depth_mm, p.depth, p.depth_valid);
     set_estimate(m.axial_depth_sd_mm, p.depth_sd, nullptr);
     *p.heartbeat = m.heartbeat;
-    *p.answered = m.sequence;  // last: whoever sees it sees the rest
+    *p.answered = m.sequence;  // last: a reader that sees it also sees the rest
 }
 
 class Bridge {

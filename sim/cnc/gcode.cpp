@@ -649,7 +649,7 @@ class Interpreter {
     double start_height_mm_;
     std::optional<DrillingCycle> cycle_;
     double height_before_cycle_mm_ = 0.0;
-    long coordinates_ = 0;  // in tenths; 0: not told
+    long coordinates_ = 0;  // in tenths; 0: not given
     double tool_ = 0.0;
     double selected_tool_ = 0.0;
     std::size_t line_ = 0;

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* What the component millforce_plant in LinuxCNC's servo thread and `millforce plant` tell each other, once per servo
+/* The messages between the component millforce_plant in LinuxCNC's servo thread and `millforce plant`, once per servo
  * cycle, over a Unix socket of type SOCK_SEQPACKET. Both run on one machine and are built together: plain structures.
  */
 

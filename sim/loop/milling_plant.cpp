@@ -29,7 +29,7 @@ void MillingPlant::advance(double dt_s, const Command& command) {
     for (FeedHistory* history : {&since_tooth_before_, &since_last_revolution_}) {
         history->add(machine_.spindle_angle_rad(), machine_.position_mm());
     }
-    // The command's direction serves while the tool stands: what is left then is noise.
+    // While the tool stands still, the command's direction is used: the measured one would be noise.
     constexpr double standing_mm = 2e-3;
     const Eigen::Vector3d way_mm = since_last_revolution_.way_mm();
     direction_ = way_mm.norm() > standing_mm ? way_mm.normalized() : command.direction;

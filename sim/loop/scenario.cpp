@@ -92,7 +92,7 @@ void read_cutter(Table& root, const firmware::ToolParameters<float>& tool, Cutte
 
 void read_material(Table& root, Scenario& scenario) {
     Table table = root.table("material");
-    scenario.material = table.text("name", "not told");
+    scenario.material = table.text("name", "not stated");
     if (table.has("shear_stress_N_mm2")) {
         ObliqueCut cut;
         cut.shear_stress_N_mm2 = table.number("shear_stress_N_mm2", 1.0, 1e4);

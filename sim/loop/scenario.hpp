@@ -57,8 +57,8 @@ struct ProfileSettings {
 struct PlantDeviation {
     double cutting_force_scale = 1.0;  ///< K_s true / K_s of the coefficients in the scenario
     double radial_force_scale = 1.0;   ///< r_1 true / r_1 of the coefficients in the scenario
-    double size_effect_shift = 0.0;    ///< added to the exponent of K_s over chip thickness, K_s fixed at the pivot …
-    double radial_size_effect_shift = 0.0;  ///< … and to that of r_1
+    double size_effect_shift = 0.0;    ///< added to the exponent of K_s over chip thickness, K_s fixed at the pivot
+    double radial_size_effect_shift = 0.0;  ///< added to the exponent of r_1 over chip thickness
     double size_effect_pivot_mm = 1.0;
     double friction_scale = 1.0;        ///< of the feed drives and the spindle bearing
     double current_noise_share = 0.01;  ///< of rated current, per sample

@@ -216,7 +216,7 @@ void check_integration_of_cases(Reproduction& out) {
     }
 }
 
-/// Cuts at random: the agreement is none of the five cases' luck.
+/// Random cuts: the agreement does not depend on the choice of the five cases.
 void check_integration_at_random(Reproduction& out) {
     std::mt19937 engine(1);
     const auto between = [&](double low, double high) {

@@ -106,7 +106,7 @@ std::vector<std::string> hwang_deviations() {
 
 constexpr const char* hwang_summary =
     "When a tooth of a face mill leaves the workpiece, the force drops at once by what that tooth carried. From this "
-    "drop and from the average force of a revolution the system tells how wide the cut is: its radial immersion, the "
+    "drop and from the average force of a revolution the system finds how wide the cut is: its radial immersion, the "
     "width over the cutter's radius. It needs neither the material's hardness nor the depth of cut. Every cut of the "
     "paper's Table 1 is milled here in simulation, with edge forces, runout, noise and a 300 Hz filter before the "
     "samples, and estimated from these samples alone.";

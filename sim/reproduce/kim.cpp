@@ -154,10 +154,10 @@ std::vector<std::string> deviations() {
         ("Each cut has running in air at its own feed before it: idle current and friction are taken from there, not "
          "from Eqs. 8 and 9 of another day. So r_1 comes out as well, where the paper finds large errors."),
         ("The plant's chip is the paper's, f_z sin φ. With the trochoidal chip over the same engagement angles the "
-         "force of a "
-         "cut 0.2 mm wide at 0.14 mm per tooth is 9 % higher, because such a cut removes more than f_z a_e."),
+         "force of a cut 0.2 mm wide at 0.14 mm per tooth is 9 % higher, because such a cut removes more than f_z "
+         "a_e."),
         ("Immersion and depth are solved together, since t_a depends on the immersion; the depth comes from F_at as "
-         "well, because F_ax crosses zero near R_r = 1.4. In up milling below R_r = 0.3 the ratio tells nothing, and "
+         "well, because F_ax crosses zero near R_r = 1.4. In up milling below R_r = 0.3 the ratio shows nothing, and "
          "the estimator says so."),
     };
 }
@@ -175,7 +175,7 @@ std::vector<NotReproduced> not_reproduced() {
 }
 
 constexpr const char* summary =
-    "The motors of a milling machine tell the cutting force, once it is known how much force a current means. Three "
+    "The motors of a milling machine show the cutting force, once it is known how much force a current means. Three "
     "steps find that out without a dynamometer: running in air gives the friction, standard cuts with a known tool "
     "give the motors' constants, and cuts with an unknown tool then give its cutting coefficients. Here the steps "
     "run on twelve simulated machines, whose currents have friction, noise and drift, and what they find is held "

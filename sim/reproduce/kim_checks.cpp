@@ -131,7 +131,7 @@ void check_force_ratio(Reproduction& out) {
                                    monotone ? 1.0 : 0.0, Judged::at_least, 1.0));
     out.checks.push_back(
         own_check("Eq. 6: change of F_ax/F_at from R_r 0.05 to 0.2 in up milling, as a share of that in down "
-                  "milling: it tells hardly any immersion there",
+                  "milling: it hardly depends on the immersion there",
                   "", change(CutSide::up) / change(CutSide::down), Judged::at_most, 0.1));
 }
 

@@ -35,7 +35,7 @@ struct Figure {
     [[nodiscard]] std::string bound_text() const;  ///< as printed: "± 3 %", "≤ 0.10", ""
 };
 
-/// A check of our own: a promise about this project's value, or a value that is worth a look.
+/// A check of our own: a promise about this project's value, or a value of interest.
 [[nodiscard]] Figure own_check(std::string name, std::string unit, double value,
                                Figure::Judged judged = Figure::Judged::shown, double bound = 0.0,
                                double bound_low = 0.0);

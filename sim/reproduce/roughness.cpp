@@ -299,7 +299,7 @@ constexpr const char* summary =
     "How smooth a ball-end-milled surface becomes is predicted while it is cut, from spindle speed, feed, tool "
     "diameter, depth and the ratio of two cutting forces, F_x/F_z: a power law whose exponents are fitted to cutting "
     "tests. Each prediction comes with the interval that should hold 95 of 100 new surfaces. Here tests are made "
-    "from the published law with a stated scatter, the law is fitted to them anew, and new tests show whether the "
+    "from the published law with a stated scatter, the law is fitted to them again, and new tests show whether the "
     "interval holds what it promises.";
 
 }  // namespace
@@ -327,7 +327,7 @@ Reproduction reproduce_roughness() {
         "Table 1.",
         "It prints no measured roughness, no scatter, no number of tests and no range of F_x/F_z. Here: all 36 "
         "combinations of Table 1, ln R scattering by 0.15, the ratio from 0.5 to 1.5. The published models enter the "
-        "tool library without an interval, and with a range that is not told for the ratio.",
+        "tool library without an interval, and with no stated range for the ratio.",
         "It draws the 95 % prediction interval and prints no formula. Here: Student's t with n − p degrees of "
         "freedom and the leverage of the cut, in logarithms; so it is not symmetric in R, and R itself is the "
         "median.",

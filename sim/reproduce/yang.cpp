@@ -241,7 +241,7 @@ std::vector<NotReproduced> not_reproduced() {
 
 constexpr const char* summary =
     "The force of a helical end mill rises while a flute sweeps into the workpiece and falls while it leaves. The "
-    "shape of one such wave tells how far the axial and the radial depth of cut (ADOC, RDOC) are from their nominal "
+    "shape of one such wave shows how far the axial and the radial depth of cut (ADOC, RDOC) are from their nominal "
     "values, as happens with castings or worn fixtures, and it does so whatever the material's hardness. The force "
     "is averaged over all flutes, which takes runout out. The published method then reads one angle of the wave and "
     "its mean; beside it stands a fit of the whole wave. All 30 published tests are milled here in simulation, and "

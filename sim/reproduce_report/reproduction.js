@@ -8,7 +8,7 @@
   const seriesColours = 8;
   const dashes = [null, [7, 4], [2, 3], [10, 3, 2, 3]];
 
-  /** "Ø10 mm, model" and "Ø10 mm, tests" belong together: the same colour, told apart by style or dash. */
+  /** "Ø10 mm, model" and "Ø10 mm, tests" belong together: the same colour, different style or dash. */
   const familyOf = (name) => {
     const end = name.lastIndexOf(", ");
     return end > 0 ? name.slice(0, end) : name;

@@ -98,7 +98,7 @@ std::vector<std::vector<std::uint64_t>> estimates_at_once(CutSide side, int step
     return estimates;
 }
 
-/// … where there is one slice between two samples.
+/// The estimates where one slice of the work is done between two samples.
 template <typename Scalar>
 std::vector<std::vector<std::uint64_t>> estimates_between_samples(double revs_per_s, int steps_per_slice) {
     CutEstimator<Scalar> estimator = fresh_estimator<Scalar>();

@@ -14,17 +14,17 @@ namespace millforce::judging {
 
 /// What the tick is told, or what a signal says, against the truth.
 enum class Wrong : std::uint8_t {
-    nothing,            ///< the side is told
-    nothing_told,       ///< the side is not told
-    side,               ///< the other side is told
+    nothing,            ///< the side is declared
+    nothing_told,       ///< the side is not declared
+    side,               ///< the other side is declared
     x_friction,         ///< 360 N more friction on x, from contact on
     x_reversed,         ///< x's current with the other sign
     x_dead,             ///< x's current is 0
     x_tenfold,          ///< x's current × 10
     axes_swapped,       ///< the currents of x and y
     spindle_weak,       ///< the spindle's current × 0.3
-    spindle_frozen,     ///< … stays as it was in air
-    spindle_saturated,  ///< … never above 1.5 times its idle value
+    spindle_frozen,     ///< the spindle's current stays as it was in air
+    spindle_saturated,  ///< the spindle's current never above 1.5 times its idle value
     edge_forces,        ///< the tool's file has none
     material,           ///< twice as hard at a chip of 0.05 mm, harder at thinner ones, and r_1 × 1.5
 };

@@ -91,7 +91,7 @@ TEST(BadInput, what_is_not_toml_is_refused_with_line_and_column) {
                                    "ELF\0\1\2",
                                    7),
                        {"machine.toml:1:"});
-    machine_is_refused(machine_text + "[x]\n", {"machine.toml:15:"});  // a table told twice
+    machine_is_refused(machine_text + "[x]\n", {"machine.toml:15:"});  // a table given twice
 }
 
 TEST(BadInput, an_unknown_key_is_refused_with_the_nearest_one) {

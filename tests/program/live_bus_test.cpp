@@ -78,7 +78,7 @@ TEST(LiveBus, rated_values_that_the_machine_lacks_come_from_the_drives_answers_i
     replay_is_refused(in, {}, {"machine.toml", "bus.spindle: no rated value, and a listener cannot ask"});
     in.write("machine.toml", with(with(machine_text + bus_text, "[x]\n", "[x]\nrated_current_A = 12\n"), "[bus]\n",
                                   "[bus]\nrole = \"master\"\n"));
-    replay_is_refused(in, {}, {"log.csv", "no drive's answer tells the rated value of spindle", "rated_current_A"});
+    replay_is_refused(in, {}, {"log.csv", "no drive's answer gives the rated value of spindle", "rated_current_A"});
     in.write("log.csv", "(1699999999.0) can0 581#43756000E02E0000\n" + LiveInputs::log());
     LONGS_EQUAL(0, in.replay().exit_code);
 }

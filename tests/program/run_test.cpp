@@ -257,5 +257,5 @@ TEST(Run, a_machine_that_measures_its_spindle_alone_is_told_what_follows_from_it
     inputs.write("machine.toml", with(machine_text, "K_x4_N_per_A = 120.0", "K_x4_N_per_A = 0.0"));
     const Ended ended = simulated();
     LONGS_EQUAL(0, ended.exit_code);
-    CHECK(contains(ended.error, "millforce: note: neither x nor y tells a force (K_x4_N_per_A)"));
+    CHECK(contains(ended.error, "millforce: note: neither x nor y gives a force (K_x4_N_per_A)"));
 }

@@ -9,7 +9,7 @@
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
 
-/// What plant and controller tell each other when the controller runs on another processor: plain structures over a
+/// The messages between plant and controller when the controller runs on another processor: plain structures over a
 /// pair of pipes, one request and one answer per sample. Both sides are little-endian and align alike.
 
 namespace millforce::lock_step {

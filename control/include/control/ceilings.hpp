@@ -22,7 +22,7 @@
 ///              surge is under way: then also the override at the last estimate before the growth, until it is over
 ///              (cut_trend.hpp).
 ///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
-///   way ahead  where a part map is known: its feed (feed_ahead.hpp). It stands in place of air, entry, exit, surge,
+///   way ahead  where a part map is known: its feed (feed_ahead.hpp). It replaces air, entry, exit, surge,
 ///              turn and fading, which guard a tool that does not see. The force, which is measured, stays.
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way

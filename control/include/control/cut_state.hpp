@@ -32,13 +32,11 @@ enum class CutState : std::uint8_t {
     /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air.
     exit = 3,
 
-    /// There is nothing to judge by, or the feed is held: the override is not raised. For want of an estimate in a cut
-    /// the feed
-    /// is held as well.
-    /// Entered: from any state but fault while the feed is held, from entry or in_cut for want of an estimate.
-    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air where spindle and
-    /// axes
-    /// have stood for 2 s.
+    /// There is no estimate, or the feed is held: the override is not raised. Without an estimate in a cut, the feed is
+    /// held as well.
+    /// Entered: from any state but fault while the feed is held, from entry or in_cut without an estimate.
+    /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air once spindle and
+    /// axes have stood still for 2 s.
     hold = 4,
 
     /// The controller has given up: lowest override, feed held.
@@ -76,7 +74,7 @@ enum class Limit : std::uint8_t {
     entry_feed = 5,
     surge = 6,  ///< an engagement may come that the controller could not follow
     operator_limit = 7,
-    no_estimate = 8,  ///< held where it was for want of an estimate
+    no_estimate = 8,  ///< held where it was, since there is no estimate
     feed_per_tooth = 9,
     roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
     law_misfit = 11,  ///< held where it was: the forces contradict each other, or the law of the cut

@@ -40,7 +40,7 @@ class CutStates {
     [[nodiscard]] Fault fault() const { return fault_; }
     /// The tool has been in_cut since it was last in air, so it has already survived a cut at this feed.
     [[nodiscard]] bool has_cut() const { return has_cut_; }
-    /// In `hold` for want of an estimate in a cut.
+    /// In `hold` because there is no estimate in a cut.
     [[nodiscard]] bool is_blind() const { return is_blind_; }
 
   private:

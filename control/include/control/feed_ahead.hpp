@@ -27,19 +27,19 @@
 ///
 ///   v = max(v_i, √(v_i² + 2 a d_i) − a T)    the lowest of all i
 ///
-/// So it brakes a T²/2 earlier than it must from a feed that was steady.
+/// From a steady feed it therefore brakes a T²/2 earlier than necessary.
 ///
 /// Each stretch counts from farthest_off_mm before its begin to as far behind its end.
 ///
-/// The map is believed as far as it has proved itself. `known` becomes true once measured forces have agreed over
+/// The map is used only after the forces have confirmed it. `known` becomes true once measured forces have agreed over
 /// agreement_mm of cut: F_at within what the stretches around the tool may give, with κ between lowest_hardness
 /// and highest_hardness, and within hardness_band of κ once that is measured; and F_ax within direction_band·F_at of
-/// χ F_at, where it is measured: the direction of the force tells the arc, whatever the depth and the material. Both
+/// χ F_at, where it is measured: the direction of the force gives the arc, whatever the depth and the material. Both
 /// with four standard deviations of the measurement beside. What disagrees over more than disagreement_mm refutes the
 /// map: `known` is false from then on, until restart(). So does contact, two estimates in a row, where the map has air.
 ///
 /// Use: restart() with each program, add() stretches in the order of the path while room() lasts, step() at each tick.
-/// Where the window runs dry the way is as good as unknown: the feed is down to blind_feed_mm_s by then.
+/// If the window runs empty, nothing is known of the path ahead: the feed has fallen to blind_feed_mm_s by then.
 ///
 /// Units mm, mm/s, N. Positions along the path from the program's begin; for Fixed up to 2·10⁹. Anything not finite, or
 /// a position that is not known, gives `known` false. Cost: some 10 operations for each stretch of the window and one

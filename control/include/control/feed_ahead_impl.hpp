@@ -128,7 +128,7 @@ bool FeedAhead<Scalar, Capacity>::direction_agrees(const Step& now, const Expect
     return now.feed_force_N >= least_N && now.feed_force_N <= most_N;
 }
 
-/// Only where the cut stays the same: elsewhere the force tells the place rather than the material.
+/// Only where the cut stays the same: elsewhere the force depends on the exact place more than on the material.
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range& expected_N) {
     constexpr Scalar steady = literal<Scalar>(0.9L);

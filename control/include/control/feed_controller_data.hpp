@@ -32,13 +32,13 @@ struct FeedControllerParameters {
     Scalar highest_programmed_feed_mm_s{0};  ///< highest F of the program; 0: learnt as blocks come
     Scalar max_feed_per_tooth_mm{literal<Scalar>(0.2L)};  ///< what the tool's edge and chip space allow
     Scalar entry_revolutions{2};
-    Scalar entry_travel_mm{5};         ///< … and this travel: until then the engagement still grows (cutter radius)
-    Scalar exit_travel_mm{2};          ///< without contact before `exit` becomes `air`
-    Scalar contact_force_N{10};        ///< smallest F_at that counts as contact
-    Scalar contact_significance{4};    ///< … and it must be so many of its standard deviations
-    Scalar surge_radial_immersion{0};  ///< largest immersion that may come without warning; 0: none does
+    Scalar entry_travel_mm{5};       ///< `entry` also lasts for this travel: the engagement still grows (cutter radius)
+    Scalar exit_travel_mm{2};        ///< without contact before `exit` becomes `air`
+    Scalar contact_force_N{10};      ///< smallest F_at that counts as contact
+    Scalar contact_significance{4};  ///< contact: F_at must also be this many of its standard deviations
+    Scalar surge_radial_immersion{0};               ///< largest immersion that may come without warning; 0: none does
     Scalar surge_share{literal<Scalar>(1.03L)};     ///< of the limit that such a surge may reach
-    Scalar turn_radial_immersion{2};                ///< … after a sharp turn of the path; 0: a turn changes nothing
+    Scalar turn_radial_immersion{2};                ///< immersion assumed after a sharp turn of the path; 0: none
     Scalar turn_travel_mm{2};                       ///< for so long after a turn
     Scalar overload_share{literal<Scalar>(1.35L)};  ///< of the limit above which the feed is held and the fault latched
     Scalar overload_revolutions{3};                 ///< for so long, though the override already falls

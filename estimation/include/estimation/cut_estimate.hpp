@@ -29,7 +29,7 @@ struct CutEstimatorSettings {
     Scalar nominal_feed_per_tooth_mm{literal<Scalar>(0.05L)};
     Scalar assumed_immersion{1};  ///< used for peaks (never to speed up) until an immersion is known
     Scalar surge_immersion{0};    ///< see FeedControllerParameters::surge_radial_immersion
-    Scalar turn_immersion{0};     ///< … and turn_radial_immersion
+    Scalar turn_immersion{0};     ///< see FeedControllerParameters::turn_radial_immersion
     Scalar tooth_force_limit_N{1000};
     Scalar declared_depth_mm{0};  ///< axial depth that the program declares; 0: not declared
     Scalar law_relative_sd{literal<Scalar>(0.02L)};

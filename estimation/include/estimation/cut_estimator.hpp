@@ -60,8 +60,8 @@ class CutEstimator {
     /// The encoder failed or the samples stopped: forgets the cut, keeps what was learnt in air.
     void restart();
 
-    /// The cut of estimate() neither begins nor ends: its depth serves where the forces do not tell it. Call once per
-    /// new estimate.
+    /// The cut of estimate() neither begins nor ends: its depth is used later, where the forces do not determine
+    /// it. Call once per new estimate.
     void remember_depth();
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. Uses the
@@ -80,7 +80,7 @@ class CutEstimator {
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
         return axes_[axis].friction_scale(positive);
     }
-    /// What the total force of estimate() is worked out of, by whoever shows it: TotalForce.
+    /// Input of TotalForce, for a display of the total force of estimate().
     [[nodiscard]] TotalForceInput<Scalar> total_force_input() const {
         return {estimate_.worst_tooth_force_N, peaks_.now().radial_immersion, peaks_.depth_mm(), peaks_.side()};
     }

@@ -50,7 +50,8 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     watch_sample(sample, signals, dt_s);
 }
 
-/// Without encoder or spindle current there is no force: such a sample is none. The first whole one is waited for.
+/// Without encoder or spindle current there is no force: such a sample is discarded. The tick waits for the first
+/// complete one.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::watch_sample(const hal::DriveSample& sample, const Signals& signals,
                                                       Scalar dt_s) {
@@ -154,8 +155,8 @@ void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& progr
     control_ = controller_.step(input_);
 }
 
-/// The map knows the arc, and with it the tooth's share of F_at, better than the forces tell it. What their band says
-/// stays the least that the tooth carries.
+/// The map knows the arc, and with it the tooth's share of F_at, better than the forces can give it. The lower end of
+/// the forces' band remains the least that the tooth is assumed to carry.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     using std::sqrt;

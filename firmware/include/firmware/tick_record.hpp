@@ -9,7 +9,7 @@
 #include "hal/feed_override.hpp"
 
 /// One tick for a record: what the tick knows anyway. Everything else (the total force, units and words for a person)
-/// is worked out from it by whoever shows it, outside the real-time path.
+/// is calculated from it by the program that shows it, outside the real-time path.
 
 namespace millforce::firmware {
 

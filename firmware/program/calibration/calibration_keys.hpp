@@ -20,7 +20,7 @@ struct CalibrationKey {
 /// Ends the program at its start where neither table has the key.
 CalibrationKey key_of(std::string_view table, std::string_view name) noexcept;
 
-/// Table [x], [y] or [z], from position and motor force; order of estimation::SymmetricFrictionIndex …
+/// Table [x], [y] or [z], from position and motor force; order of estimation::SymmetricFrictionIndex.
 inline const std::array<CalibrationKey, 4> symmetric_friction_keys{{
     key_of("axis", "mass_kg"),
     key_of("axis", "viscous_N_s_per_m"),
@@ -28,7 +28,7 @@ inline const std::array<CalibrationKey, 4> symmetric_friction_keys{{
     key_of("axis", "offset_N"),
 }};
 
-/// … and of estimation::DirectionalFrictionIndex. The mass is the one above.
+/// The same tables, in the order of estimation::DirectionalFrictionIndex. The mass is that of symmetric_friction_keys.
 inline const std::array<CalibrationKey, 5> directional_friction_keys{{
     key_of("axis", "directional_mass_kg"),
     key_of("axis", "positive_viscous_N_s_per_m"),
@@ -73,7 +73,7 @@ inline const std::array<CalibrationKey, 6> cutting_coefficient_keys{{
     key_of("cutting", "K_re_N_per_mm"),
 }};
 
-/// Table [cutting]: what the law's doubt and range are made of. No KEY_se.
+/// Table [cutting]: the keys that state the law's uncertainty and range. No KEY_se.
 inline const std::array<CalibrationKey, 9> cutting_doubt_keys{{
     key_of("cutting", "K_s_relative_sd"),
     key_of("cutting", "K_s_exponent_sd"),

@@ -32,9 +32,8 @@ void print_fitted(std::ostream& out, const FittedValue& fitted);
 /// written.
 void print_left_out(std::ostream& out, const FittedValue& left_out);
 
-/// Writes KEY and KEY_se; a standard error of 0 is none. Throws InputError where the value lies outside of what the
-/// parameter files allow: such a fit is of data that are no machine's, and a file that cannot be read back is of no
-/// use.
+/// Writes KEY and KEY_se; a standard error of 0 is not written. Throws InputError if the value lies outside
+/// the range of the parameter files: such data do not come from a machine, and the file could not be read back.
 void write_fitted(TomlWriter& toml, const FittedValue& fitted);
 
 /// Writes a standard deviation, or another value that only bad data make 0 or less. Throws InputError as write_fitted.

@@ -77,7 +77,7 @@ std::vector<CutRow> read_conditions(const std::filesystem::path& file);
 estimation::CuttingFit fit_cuts(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
                                 estimation::CutSide side, unsigned held_at_zero = 0);
 
-/// The same for forces from currents: their errors are absolute, and the drives' gains are in doubt.
+/// The same for forces from currents: their errors are absolute, and the drives' gains are uncertain.
 estimation::CuttingFit fit_cuts_from_currents(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
                                               estimation::CutSide side, const estimation::DriveGainDoubt& doubt,
                                               unsigned held_at_zero = 0);

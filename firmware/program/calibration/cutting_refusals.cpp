@@ -82,7 +82,7 @@ std::string what_the_cuts_lack(const CuttingFit& fit, CuttingLawForm form) {
     if (form != CuttingLawForm::power && fit.maximum_feed_per_tooth_mm <= 1.2 * fit.minimum_feed_per_tooth_mm &&
         lacks(estimation::cutting_K_te)) {
         return fmt::format(
-            "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
+            "'K_te_N_per_mm' cannot be separated from 'k_s_N_per_mm2': all cuts have about {:.4g} mm feed per "
             "tooth; expected cuts at a second feed, larger or smaller by half",
             fit.maximum_feed_per_tooth_mm);
     }
@@ -92,8 +92,7 @@ std::string what_the_cuts_lack(const CuttingFit& fit, CuttingLawForm form) {
     }
     if (lacks(estimation::cutting_r_1)) {
         return "'k_1' cannot be determined: the forces hold nothing of the radial force (slots have none along the "
-               "normal); "
-               "expected side cuts with normal_force_N, or feed_force_N";
+               "normal); expected side cuts with normal_force_N, or feed_force_N";
     }
     if (lacks(estimation::cutting_p_s)) {
         return "'p_s' cannot be determined: all chips are equally thick; expected cuts at a second feed";

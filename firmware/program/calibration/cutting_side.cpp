@@ -115,8 +115,7 @@ void warn_of_other_sign(std::ostream& out, const Reading& chosen, const std::opt
     if (turned && clearer(chosen, *turned) != &chosen) {
         out << fmt::format(
             "warning: with the opposite sign of {} the forces fit {} milling as well (r_1 = {:.3f}): only cuts at "
-            "other "
-            "widths can tell\n",
+            "other widths can decide\n",
             turned->turned_column, name_of(turned->side), turned->r_1());
     }
 }

@@ -94,7 +94,7 @@ AirBaseline air_baseline(const std::vector<RecordedStretch>& stretches, const Re
     const Neighbours any = neighbours(stretches, cut, false);
     if (any.before == nullptr) {
         throw InputError(
-            fmt::format("{}: the idle torque cannot be told from the cut's: no row in air with the feed in "
+            fmt::format("{}: the idle torque cannot be separated from the cut's: no row in air with the feed in "
                         "{}{}; expected one before or after the cut (axial_depth_mm 0)",
                         cut.conditions.place, cut.feed_mm_s > 0.0 ? '+' : '-', axes[cut.axis]));
     }

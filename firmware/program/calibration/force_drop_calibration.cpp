@@ -99,8 +99,7 @@ std::vector<MeasuredCut> read_known_cuts(const ForceShapeCalibrationOptions& opt
         if (known[k].measured.empty()) {
             throw InputError(
                 fmt::format("{}: no force drop from {} to {} s in {} revolutions that were whole; expected at least {} "
-                            "revolutions of a "
-                            "steady cut whose tooth passing the low-pass lets through",
+                            "revolutions of a steady cut whose tooth passing the low-pass lets through",
                             cuts[k].place, cuts[k].start_s, cuts[k].end_s, known[k].refused * revolutions_of_a_cut,
                             revolutions_of_a_cut));
         }
@@ -268,7 +267,7 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
     if (side == CutSide::centred) {
         throw InputError(
             fmt::format("{}: side = \"centred\", expected down, up or unknown: a centred cut has no wall "
-                        "whose width the drop tells",
+                        "whose width the drop shows",
                         options.tool.string()));
     }
     const std::vector<MeasuredCut> cuts = read_known_cuts(options, parameters);

@@ -50,7 +50,7 @@ std::string what_the_axis_lacks(char axis, const std::vector<SteadyFeed>& feeds)
         const char sign = direction > 0.0 ? '+' : '-';
         if (count == 0) {
             return fmt::format(
-                "'{}.gravity_A' cannot be told from K_x3_A: no steady travel in air in {}{}; "
+                "'{}.gravity_A' cannot be separated from K_x3_A: no steady travel in air in {}{}; "
                 "expected at least three different feeds in each direction",
                 axis, sign, axis);
         }

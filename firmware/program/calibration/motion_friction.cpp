@@ -238,8 +238,7 @@ bool check_second_half(std::ostream& out, const SecondHalf& half) {
     }
     out << fmt::format(
         "fitted on the first half, phantom force in the second: {:.2f} N rms, bound {:.2f} N; friction {:+.1f} ± "
-        "{:.1f} "
-        "%, bound {:.0f} %: {}\n",
+        "{:.1f} %, bound {:.0f} %: {}\n",
         half.phantom_N, half.bound_N, 100.0 * half.excess, 200.0 * half.excess_sd, 100.0 * SecondHalf::largest_change,
         half.has_changed() ? "BROKEN: the friction changed"
         : half.can_tell()  ? "holds"

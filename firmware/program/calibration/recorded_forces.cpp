@@ -44,7 +44,7 @@ void read_recorded_forces(const std::vector<std::filesystem::path>& recordings,
         if (firmware::has_force_sensor(parameters.tool) && !reader.has_force_sensor()) {
             throw InputError(
                 fmt::format("{}:1: no column 'fx_N' or 'fy_N', expected the force sensor whose low_pass_hz "
-                            "the tool's [force_sensor] tells",
+                            "the tool's [force_sensor] gives",
                             path.string()));
         }
         Progress progress("reading " + path.filename().string());

@@ -210,7 +210,8 @@ bool check_left_out(std::ostream& out, const std::vector<TestRow>& rows, unsigne
 }
 
 /// C holds for 1 rpm, 1 mm/rev and so on, far outside of the tests: neither it nor its error need be numbers that a
-/// tool file takes. Where C is none, the data are no cutting tests.
+/// tool file takes. If C is below the smallest value, the data are not
+/// cutting tests.
 double constant_standard_error(const RoughnessFit& fit) {
     constexpr double smallest_um = 1e-30;  // float keeps it
     constexpr double largest_error_um = 1e12;

@@ -242,8 +242,7 @@ int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& ou
     }
     if (fit.nothing_below_base_speed) {
         out << "  every speed is in field weakening: K_t1_Nm_per_A holds at base_speed_rad_s and falls above it; below "
-               "it "
-               "nothing is known\n";
+               "it nothing is known\n";
     }
     return exit_done;
 }

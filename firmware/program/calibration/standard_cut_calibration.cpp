@@ -155,7 +155,7 @@ void refuse_implausible_gains(const StandardCutOptions& options, const StandardC
     }
 }
 
-/// Prints and writes one drive's gain and offset, and the doubt of the gain.
+/// Prints and writes one drive's gain and offset, and the uncertainty of the gain.
 void report(std::ostream& out, TomlWriter& toml, const DriveGainFit& fit, std::array<CalibrationKey, 3> keys,
             double database_sd, const std::optional<FittedValue>& left_out = std::nullopt) {
     std::vector<FittedValue> written{{keys[0], fit.gain, fit.gain_se}};

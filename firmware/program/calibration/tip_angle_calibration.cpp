@@ -122,7 +122,7 @@ int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostrea
     const MeanAngle mean = mean_of(angles_of(options, parameters, cuts), pitch_rad);
     if (mean.cuts == 0) {
         throw InputError(
-            fmt::format("{}: '{}' cannot be determined: no cut tells it; expected {} revolutions of a steady "
+            fmt::format("{}: '{}' cannot be determined: no cut shows it; expected {} revolutions of a steady "
                         "cut of known depths, its sweep no whole number of tooth pitches",
                         options.cuts.string(), tip_angle_key.name, parameters.tool.depth_shape.revolutions));
     }

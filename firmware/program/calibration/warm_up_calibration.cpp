@@ -128,8 +128,7 @@ estimation::WarmUpFit warm_up_or_refuse(const std::filesystem::path& path,
         case estimation::WarmUpLack::duration:
             throw InputError(fmt::format(
                 "{}: '{}' cannot be determined: {:.0f} s show too little of the curve; expected a record of {:.0f} s "
-                "or "
-                "more",
+                "or more",
                 path.string(), time_key.name, fit.duration_s,
                 std::max(600.0, std::max(2.0 * fit.duration_s, std::min(3.0 * fit.time_constant_s, 7200.0)))));
         case estimation::WarmUpLack::nothing:

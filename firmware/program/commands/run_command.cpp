@@ -120,8 +120,7 @@ void add_run(Command& program) {
     Command command = program.subcommand("run", "Run the live controller on a CAN interface");
     command.footer(
         "Runs until SIGINT, SIGTERM or SIGHUP; then the override says hold and the heartbeat 'stopped'. An interface "
-        "that is "
-        "not\n"
+        "that is not\n"
         "there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");

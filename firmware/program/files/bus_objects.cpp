@@ -107,7 +107,7 @@ void take_from_bus(const std::string& file, std::size_t place, const LocalDriveK
     const char* table = drive_tables[place];
     const std::uint16_t motion = place == 0 ? drive.count_object.index : cia402::object::velocity_actual;
     if (maps(drive, cia402::object::current_actual) || (keys.has_counter() && maps(drive, motion))) {
-        refuse_local(file, place, fmt::format("a tpdo of [{}] tells the same, expected one of the two", table));
+        refuse_local(file, place, fmt::format("a tpdo of [{}] gives the same, expected one of the two", table));
     }
     const bool has_pdo = std::ranges::any_of(drive.pdos, [](const cia402::PdoMapping& pdo) { return pdo.is_used(); });
     const bool is_on_bus = drive.node_id != 0 && has_pdo;

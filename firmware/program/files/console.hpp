@@ -7,7 +7,7 @@
 
 namespace millforce::host {
 
-/// One line for whoever watches, on a stream that may be full, closed or gone: what cannot be written is dropped. Never
+/// One line for the user, on a stream that may be full, closed or gone: what cannot be written is dropped. Never
 /// throws. (fmt::print throws where a write fails, and ends a thread that nobody guards.)
 void print_line(std::FILE* stream, std::string_view line) noexcept;
 

@@ -148,8 +148,7 @@ void document_local_io(std::string& text) {
 void document_information(std::string& text) {
     text +=
         "\n## Keys for information\n\nA calibration writes them for the reader of its file; the controller does not "
-        "use "
-        "them. Each key with a\nnumber, here or above, may have a companion `KEY_se`: the standard error of its "
+        "use them. Each key with a\nnumber, here or above, may have a companion `KEY_se`: the standard error of its "
         "fit.\n\n"
         "| table | key | unit | meaning |\n|---|---|---|---|\n";
     for (const auto& row : information_table()) {
@@ -165,8 +164,7 @@ void document_information(std::string& text) {
 std::string parameter_documentation() {
     std::string text =
         "# Parameters\n\nMade by `millforce parameters`. Free text keys `name` and `description` may stand at the top "
-        "of "
-        "either file.\n\n## machine.toml\n";
+        "of either file.\n\n## machine.toml\n";
     document_file(firmware::ParameterFile::machine, text);
     document_objects(text);
     document_local_io(text);

@@ -11,9 +11,8 @@ std::vector<std::string> parameter_notes(const firmware::Parameters<float>& para
     const bool has_sensor = parameters.tool.force_sensor.low_pass_hz > 0.0F;
     if (!(axes[0].K_x4_N_per_A > 0.0F) && !(axes[1].K_x4_N_per_A > 0.0F) && !has_sensor) {
         notes.emplace_back(
-            "neither x nor y tells a force (K_x4_N_per_A): radial immersion and depth are not known, and the feed is "
-            "the one "
-            "at which the worst cut with this torque is within the tooth's limit");
+            "neither x nor y gives a force (K_x4_N_per_A): radial immersion and depth are not known, and the feed is "
+            "chosen so that the worst cut with this torque stays within the tooth's limit");
     }
     return notes;
 }

@@ -8,11 +8,11 @@
 
 namespace millforce::host {
 
-/// What a machine with these parameters cannot know, and what follows from it: to be told at the start. One sentence
-/// each.
+/// What a machine with these parameters cannot know, and what follows from it, to be printed at the start. One
+/// sentence each.
 std::vector<std::string> parameter_notes(const firmware::Parameters<float>& parameters);
 
-/// … on standard error.
+/// Prints the notes of parameter_notes() on standard error.
 void tell_parameter_notes(const firmware::Parameters<float>& parameters);
 
 }  // namespace millforce::host

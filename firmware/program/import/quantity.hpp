@@ -22,7 +22,7 @@ enum class Quantity : std::uint8_t {
     ratio,     ///< 1
 };
 
-/// What a unit alone does not tell. The map's keys of the same names; 0: not given.
+/// What the unit alone leaves open. The map's keys of the same names; 0: not given.
 struct UnitSettings {
     double rated_A = 0.0;         ///< current that 100 % stand for
     double counts_per_rev = 0.0;  ///< of the encoder, all edges counted

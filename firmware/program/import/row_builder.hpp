@@ -14,7 +14,7 @@ namespace millforce::host {
 /// Rows at equal times out of values that come at any.
 struct Resampling {
     double rate_hz = 0.0;  ///< 0: a row for each record, as it comes
-    double hold_s = 0.02;  ///< a value is held no longer than this; then there is none
+    double hold_s = 0.02;  ///< a value is held no longer than this, then it is missing
 };
 
 /// Builds the recording's rows out of records. With resampling, a row has the last value of each column, and a row

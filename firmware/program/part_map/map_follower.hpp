@@ -12,8 +12,8 @@
 
 namespace millforce::host {
 
-/// Lets a tick see the part map. A path that goes backwards is the program's begin again; where the CNC tells a line
-/// that the map does not have, nothing is known of the way. Not thread-safe.
+/// Gives a tick the part map. If the position on the path jumps back, the program has begun again. If the CNC reports a
+/// line that the map does not have, nothing is known of the path ahead. Not thread-safe.
 class MapFollower final : public firmware::WaySource<float> {
   public:
     MapFollower(const firmware::Parameters<float>& parameters, const PartMap& map);

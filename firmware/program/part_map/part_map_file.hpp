@@ -17,7 +17,7 @@
 ///     150.4,216.7,8,0,1500,4000,11.5,168.5,5
 ///
 ///   path_mm         gone along the program's path since its begin, rapids included; a row holds up to the next one
-///   block_end_mm    path at the end of the block in work: a CNC tells the line and the distance to go to that end
+///   block_end_mm    path at the end of the block in work: a CNC reports the line and the distance to go to that end
 ///   line            of the program, 1 the first
 ///   rapid           1 in a G0
 ///   feed_mm_min     as programmed
@@ -28,7 +28,7 @@
 ///
 /// The last row is the program's end, in air. The checksum of the program is that of its bytes without carriage
 /// returns; that of the tool covers what the arcs and depths depend on: teeth, diameter, helix and flute length. A tool
-/// that is calibrated anew keeps its maps.
+/// that is calibrated again keeps its maps.
 
 namespace millforce::host {
 

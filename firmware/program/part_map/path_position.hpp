@@ -10,8 +10,8 @@
 
 namespace millforce::host {
 
-/// Where on the map's path a tool is, by what a CNC tells of it: the line in work and the distance to go to the block's
-/// end. A line that is run through more than once (a cycle, a subprogram) is told apart by where the tool was before.
+/// Where on the map's path a tool is, from what a CNC reports: the line in work and the distance to go to the block's
+/// end. If a line is run through more than once (a cycle, a subprogram), the tool's last position decides.
 /// Blocks that a CNC has joined, as LinuxCNC does with straight ones in a row, bear the last one's line and are longer
 /// than it: they are taken where they go on from the last position. Not thread-safe.
 class PathPosition {
@@ -19,8 +19,8 @@ class PathPosition {
     explicit PathPosition(const PartMap& map);
 
     /// mm since the program's begin; nothing where the map has no such line, or none whose block is that long. A line
-    /// that only lies behind is the program's begin again. Once for each sample: what jumps is believed once it is told
-    /// for 50 samples, and until then the tool is where it was.
+    /// that is only found behind the tool means that the program has begun again. Call once for each sample: a jump is
+    /// accepted once it has been reported for 50 samples, and until then the position stays as it was.
     std::optional<double> find(std::uint32_t line, double distance_to_go_mm);
 
   private:

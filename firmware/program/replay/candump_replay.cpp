@@ -44,7 +44,7 @@ class CandumpLines {
         return true;
     }
     [[nodiscard]] const candump::LogLine& line() const { return line_; }
-    /// The line is no frame: it tells what a source beside the bus gave.
+    /// The line is no frame: it holds the values of a source beside the bus.
     [[nodiscard]] bool is_local() const { return is_local_; }
     [[nodiscard]] const hal::DriveSample& beside_bus() const { return beside_bus_; }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
@@ -168,7 +168,7 @@ void CandumpReplay::take_rated_values() {
         }
         if (told == 0) {
             throw InputError(
-                fmt::format("{}: no drive's answer tells the rated value of {}; expected it in the machine's file ({})",
+                fmt::format("{}: no drive's answer gives the rated value of {}; expected it in the machine's file ({})",
                             settings_.log, drive_names[role], by_torque ? "rated_torque_Nm" : "rated_current_A"));
         }
         rated = static_cast<float>(told) * 0.001F;

@@ -16,7 +16,7 @@ struct CanFrame {
     std::uint32_t id = 0;  ///< 11 bits, or 29 where `extended`
     bool extended = false;
     bool remote = false;
-    std::uint8_t length = 0;  ///< bytes of data, 0…8; whoever reads checks it
+    std::uint8_t length = 0;  ///< bytes of data, 0…8; the reader must check it
     std::array<std::uint8_t, largest_can_length> data{};
 };
 

@@ -20,7 +20,7 @@
 ///     latch = base + ((stamp - base) / σ_v² + c / σ_u²) / (1 / σ_v² + 1 / σ_u² + 1 / σ_w²)
 ///
 /// where base is a grid of even periods (gain 1/64), but moved to the expected stamp by the share of their distance
-/// that is more than v would make of it (σ_v²/4): where all of a stamp is w, it is believed however slowly w changes.
+/// that is more than v would make of it (σ_v²/4): where all of a stamp is w, it is trusted however slowly w changes.
 ///
 /// Counts that contradict the stamp (4 sd) are a spindle that changes its speed, and are left out. Stamps are taken as
 /// they are until 200 periods were seen with the spindle turning by at least 4 counts per period. A stamp more than a

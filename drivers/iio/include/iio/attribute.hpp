@@ -20,7 +20,7 @@ enum class IioError : std::uint8_t {
     file_unreadable,   ///< not allowed, a folder, in use by another, or failing
     file_unwritable,   ///< the same, for what is written at start
     not_a_number,      ///< empty, longer than 63 characters, not finite, or not a number
-    scan_format,       ///< a `_type` that is none, or none that a channel can have
+    scan_format,       ///< a `_type` that cannot be read, or that a channel cannot have
     scan_layout,       ///< two elements with one index, more than 16 of them, or more than 256 bytes
     channel_disabled,  ///< the channel's scan element is off, and `configures` is false
     clock,             ///< current_timestamp_clock names no clock of Linux

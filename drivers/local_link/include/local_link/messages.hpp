@@ -11,8 +11,7 @@
 /// socket loses and alters nothing, so the other side must be a different program or version.
 ///
 /// Each connection is a separate run: the controller starts from the beginning. Only the samples' own time counts, so
-/// the
-/// same samples give the same overrides whenever they arrive.
+/// the same samples give the same overrides whenever they arrive.
 ///
 /// Both messages are little endian, without padding. Numbers F32 are IEEE 754; what is "no estimate" is a NaN.
 ///

@@ -17,8 +17,8 @@ struct OverrideReceiverSettings {
     std::uint16_t largest_counter_step = 50;  ///< ticks between two frames, lost frames included
     std::uint8_t frames_to_trust = 3;         ///< fresh frames in sequence before the override is used (again)
     float largest_ratio = 2.0F;               ///< beyond it the frame is rejected
-    float fallback_ratio = 0.0F;              ///< while the controller is dead …
-    bool fallback_hold = true;                ///< … and whether the feed stops then
+    float fallback_ratio = 0.0F;              ///< override while the controller is dead
+    bool fallback_hold = true;                ///< whether the feed stops while the controller is dead
 };
 
 enum class ReceiveError : std::uint8_t {
@@ -41,9 +41,9 @@ struct ReceivedOverride {
     std::uint8_t fault = 0;
 };
 
-/// The CNC's side, a pure state machine: frames and times in, an override out, the fallback wherever there is doubt.
-/// A heartbeat other than `operational` ends the trust at once; that heartbeats stay away does not, the counter is the
-/// better witness. One thread.
+/// The CNC's side, a pure state machine: frames and times in, an override out, the fallback whenever the frames are not
+/// trusted. A heartbeat other than `operational` ends the trust at once; that heartbeats stay away does not, the
+/// counter is the better witness. One thread.
 class OverrideReceiver {
   public:
     explicit OverrideReceiver(const OverrideReceiverSettings& settings) : settings_(settings) {}

@@ -45,7 +45,7 @@ class ForceDropCalibration {
     using Cut = ForceDropCalibrationCut;
     using Result = ForceDropCalibrationResult;
 
-    /// False: the cut is left out, for want of a valid measurement.
+    /// False: the cut is left out, because its measurement is not valid.
     bool add(const Cut& cut);
 
     [[nodiscard]] Result solve() const;

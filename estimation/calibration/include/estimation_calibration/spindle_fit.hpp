@@ -44,7 +44,7 @@ enum SpindleFitIndex : int {
 struct SpindleFit {
     /// In the order of SpindleFitIndex. Base speed 0: no field weakening seen.
     LeastSquaresSolution<double, spindle_parameter_count> solution{};
-    /// Field weakening is seen, but the samples do not tell a base speed above their slowest (by the same F-ratio):
+    /// Field weakening is seen, but the samples show no base speed above their slowest (by the same F-ratio):
     /// K_t1 holds at the slowest speed and falls above it, and nothing is known below.
     bool nothing_below_base_speed = false;
 };

@@ -29,7 +29,7 @@ namespace millforce::estimation {
 /// Coefficients of a workpiece material and a tool, and how well they are known.
 ///
 /// ln K_s has the variance K_s_relative_sd² + (K_s_exponent_sd · ln(t_a/t_ref))², and r_1 likewise: t_ref is where the
-/// calibration knew most, and away from it the doubt grows. min/max_chip_thickness_mm is the calibrated range.
+/// calibration knew most, and away from it the uncertainty grows. min/max_chip_thickness_mm is the calibrated range.
 template <typename Scalar>
 struct CuttingLaw {
     Scalar k_s_N_per_mm2{0};  ///< K_s at t_a = 1 mm.
@@ -43,7 +43,7 @@ struct CuttingLaw {
     Scalar K_s_exponent_sd{0};              ///< its growth per unit of ln(t_a/t_ref).
     Scalar r_1_relative_sd{0};              ///< standard deviation of ln r_1 at t_ref.
     Scalar r_1_exponent_sd{0};              ///< its growth per unit of ln(t_a/t_ref).
-    Scalar reference_chip_thickness_mm{0};  ///< t_ref; 0: the doubt does not grow.
+    Scalar reference_chip_thickness_mm{0};  ///< t_ref; 0: the uncertainty does not grow.
     Scalar minimum_chip_thickness_mm{0};    ///< thinnest mean chip of the calibration cuts.
     Scalar maximum_chip_thickness_mm{0};    ///< thickest mean chip of the calibration cuts; 0: not given.
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of ToothPeakTable. Included by src/peak_table.cpp, and by whoever needs another scalar.
+// Bodies of ToothPeakTable. Included by src/peak_table.cpp, and wherever another scalar is needed.
 
 #include "estimation/cutting/peak_factors.hpp"
 

@@ -53,7 +53,7 @@ class FluteProfile {
 
     void restart();
 
-    /// Adds one sample. `turned_rev` since the last one (0 ≤ turned < half a pitch, else the profile starts anew),
+    /// Adds one sample. `turned_rev` since the last one (0 ≤ turned < half a pitch, else the profile starts again),
     /// `angle_rev` after it (0…1). True where the profile has become complete: average() then holds it, until the
     /// next add() after restart(); further samples are not taken before that.
     bool add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals);
@@ -86,7 +86,7 @@ struct ProfileSpectrum {
     static constexpr std::size_t lines = 2U * static_cast<std::size_t>(Harmonics) + 1U;
     std::array<Phasor<Scalar>, lines> line{};  ///< [k + K]
     Scalar spindle_speed_rev_s{0};
-    int highest = Harmonics;  ///< above it the samples do not tell a harmonic from its aliases
+    int highest = Harmonics;  ///< above it a harmonic and its aliases cannot be distinguished
 };
 
 /// Channels 0 and 1 are F_x and F_y. Attenuation from bin width and interpolation, sinc(πk/Bins) and sinc²(πk/samples

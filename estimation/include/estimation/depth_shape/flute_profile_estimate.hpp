@@ -23,7 +23,7 @@ struct FluteProfileFitSettings {
     FluteGeometry<Scalar> cutter{};
     Scalar feed_per_tooth_mm{0};   ///< for the trochoid's part of the chip's shape (some f_z/R); 0: chips of circles
     CutSide side = CutSide::down;  ///< down, up, or unknown: both are fitted, and the clearly better one is taken
-    DepthRange<Scalar> axial{};    ///< searched; a solution at its end is none
+    DepthRange<Scalar> axial{};    ///< searched; a solution at its end is rejected
     DepthRange<Scalar> radial{};
     LowPass<Scalar> low_pass{};
     /// Angle of a tooth's tip at the encoder's zero, 0…2π/N; not valid: unknown, then found with the depths.

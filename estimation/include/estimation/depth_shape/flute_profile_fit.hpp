@@ -25,7 +25,7 @@
 /// The tip's angle is worth a calibration. Without it the width hangs on where the force ends at the thin side of the
 /// chip, where runout lifts teeth out of the cut: at e = 0.15 f_z three cuts in ten then have no estimate, of the
 /// others the mean error is still near 1 %. With it, learnt from one cut of known depths (as the published method
-/// learns K), the sharp side of the cut tells the width. A spindle whose tool has not moved in its holder keeps it.
+/// learns K), the sharp side of the cut gives the width. A spindle whose tool has not moved in its holder keeps it.
 ///
 /// Steps: (1) 40 × 14 nodes of sweep and engagement with chip and edge alone, 32 shifts each where the tip's angle is
 /// not known; (2) from the six highest local maxima, and one pitch of sweep to either side of the best, variable
@@ -36,7 +36,7 @@
 /// "No estimate" of a depth: its standard deviation above largest_relative_sd; the solution at the end of the search
 /// range; a profile without ripple (the sweep a whole number of pitches: F constant, nothing to see; 4 of 1 000 random
 /// cuts); fewer than three harmonics within the low-pass. Sweeps of more than a pitch have look-alikes a pitch away;
-/// where the profile cannot tell them apart (most of the 4 in 100 random cuts without estimate) the axial depth has
+/// where the profile cannot distinguish them (most of the 4 in 100 random cuts without estimate) the axial depth has
 /// none.
 ///
 /// Accuracy in simulation (`millforce reproduce yang`): with the tip's angle, 0.3 % mean over the published tests; over
@@ -66,7 +66,8 @@ class FluteProfileFit {
 
     [[nodiscard]] Estimate estimate(const Spectrum& spectrum) const;
 
-    /// The tip's angle from a cut of known depths (each within relative_sd); not valid where the profile does not tell.
+    /// The tip's angle from a cut of known depths (each within relative_sd); not valid where the profile does not show
+    /// it.
     [[nodiscard]] Measurement<Scalar> calibrate_tip_angle(const Spectrum& spectrum, const DepthsOfCut<Scalar>& known,
                                                           Scalar relative_sd) const;
 

@@ -29,7 +29,7 @@ struct FluteProfileFit<Scalar, Harmonics>::Minima {
             best = minimum;
         }
     }
-    /// The best one; another that explains the data about as well is part of its doubt.
+    /// The best one; another that explains the data about as well adds to its uncertainty.
     [[nodiscard]] Minimum with_doubt() const {
         Minimum result = best;
         const Scalar as_good = best.misfit + Scalar(9) * best.residual_variance;

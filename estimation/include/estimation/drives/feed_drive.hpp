@@ -85,11 +85,11 @@ struct FeedDriveParameters {
     FrictionCurrent<Scalar> negative{};  ///< of its magnitude, travelling in − direction
     Scalar K_x3_A{0};                    ///< constant friction current, of both directions: see gravity_A
     Scalar gravity_A{0};                 ///< current that holds the axis against its weight; half the difference of
-                          ///< the directions' constant friction is in it: air data cannot tell them apart
-    Scalar K_x4_N_per_A{0};         ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
-    Scalar K_x5_N_m_per_min{0};     ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
-    Scalar mass_kg{0};              ///< moved mass, with the motor's inertia reflected
-    Scalar velocity_floor_mm_s{1};  ///< below it there is no estimate: friction is undefined at rest
+                                         ///< the directions' constant friction is in it: air data cannot separate them
+    Scalar K_x4_N_per_A{0};              ///< force per ampere. The paper's Table 3 repeats K_t1 here: calibrate
+    Scalar K_x5_N_m_per_min{0};          ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
+    Scalar mass_kg{0};                   ///< moved mass, with the motor's inertia reflected
+    Scalar velocity_floor_mm_s{1};       ///< below it there is no estimate: friction is undefined at rest
     Scalar gain_relative_sd{literal<Scalar>(0.03L)};           ///< of K_x4, from its calibration
     Scalar friction_relative_sd{literal<Scalar>(0.2L)};        ///< of I_f before the first re-zeroing in air
     Scalar friction_walk_per_sqrt_s{literal<Scalar>(0.002L)};  ///< drift of I_f, relative
@@ -144,8 +144,8 @@ class FeedDrive {
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 
     /// The tool is known to be in air: the current is friction, weight and inertia alone. A current that the stated
-    /// doubt of the friction cannot explain teaches nothing: the signal is implausible, and there is no force until one
-    /// in air is plausible again.
+    /// deviation of the friction cannot explain teaches nothing: the signal is implausible, and there is no force until
+    /// one in air is plausible again.
     void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
         if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {

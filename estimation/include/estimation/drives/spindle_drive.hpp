@@ -65,9 +65,9 @@ class SpindleDrive {
     /// Time passes: the drift may have moved.
     void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
 
-    /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little: of
-    /// its inertia's torque a share is in doubt. A torque that the idle torque's stated doubt cannot explain teaches
-    /// nothing: the signal is implausible, and there is no force until one in air is plausible again.
+    /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little:
+    /// a share of its inertia's torque is uncertain. A torque that the idle torque's stated deviation cannot explain
+    /// teaches nothing: the signal is implausible, and there is no force until one in air is plausible again.
     void rezero(const Average& average) {
         if (!is_usable(average)) {
             return;

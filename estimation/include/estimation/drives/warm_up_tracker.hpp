@@ -10,8 +10,9 @@ namespace millforce::estimation {
 ///   x = b + w,   b a random walk,   dw/dt = −w/τ,
 ///
 /// b the offset, w what is left of the cold machine's excess. One measurement in air sees only their sum; measurements
-/// at different times tell them apart, and without a second one the excess falls as its calibration says, with the
-/// doubt that it states. So an idle torque that was zeroed before a long cut does not keep the value of a cold bearing.
+/// at different times separate them. Without a second one the excess falls as its calibration says, with the
+/// uncertainty stated there. So an idle torque that was zeroed before a long cut does not keep the value of a cold
+/// bearing.
 ///
 ///   b: P_bb ← P_bb + q dt, at most its start value;   w ← φ w, P_bw ← φ P_bw, P_ww ← φ² P_ww, φ = 1 − dt/τ, dt < τ/2
 ///   k = (P_bb + P_bw, P_bw + P_ww) / (P_bb + 2 P_bw + P_ww + R),   x ← x + k (z − x)

@@ -10,13 +10,13 @@
 
 namespace millforce::estimation {
 
-/// The axial depth that the forces told last, for a cut whose forces do not tell it: in up milling below R_r = 0.6 with
-/// one moving axis F_at and F_ax fit many pairs of immersion and depth. A tool that keeps its height keeps its depth,
-/// while the immersion changes at every corner.
+/// The last axial depth that the forces determined. It is used in a cut whose forces do not determine it: in up milling
+/// below R_r = 0.6 with one moving axis, F_at and F_ax fit many pairs of immersion and depth. A tool that keeps its
+/// height keeps its depth, while the immersion changes at every corner.
 ///
-/// The depth is the mean of the last estimates, at most sixteen. Its doubt grows with the way: by 2 % per square root
-/// of a millimetre in the plane, since a raw part is not flat, and by each millimetre along the tool's axis. Beyond
-/// 30 % there is none. Not thread-safe.
+/// The depth is the mean of the last estimates, at most sixteen. Its standard deviation grows with the travel: by
+/// 2 % per square root of a millimetre in the plane, since a raw part is not flat, and by each millimetre along the
+/// tool's axis. Beyond 30 % there is no remembered depth. Not thread-safe.
 template <typename Scalar>
 class DepthMemory {
   public:
@@ -34,7 +34,7 @@ class DepthMemory {
     }
 
     /// An estimate from forces alone, in a cut that neither begins nor ends. One without a depth changes nothing.
-    /// Another depth is believed once so many estimates in a row have told it.
+    /// Another depth is accepted once `most_estimates` estimates in a row have given it.
     void learn(const EngagementEstimate<Scalar>& found) {
         if (!found.depth_valid || !(found.axial_depth_force_sd_mm < largest_relative_sd * found.axial_depth_mm)) {
             return;
@@ -58,7 +58,7 @@ class DepthMemory {
 
     void forget() { *this = {}; }
 
-    /// Found with the same K_s as the forces that it is used with: K_s is no part of its doubt.
+    /// Found with the same K_s as the forces that it is used with: the uncertainty of K_s is not part of it.
     [[nodiscard]] KnownDepth<Scalar> depth() const { return {depth_mm_, relative_sd_, false}; }
 
   private:

@@ -34,10 +34,10 @@ struct EngagementEstimate {
     bool depth_valid = false;
     Scalar axial_depth_mm{0};
     Scalar axial_depth_sd_mm{0};
-    Scalar axial_depth_force_sd_mm{0};  ///< of it, what the forces leave open: without the doubt of K_s
-    bool depth_is_remembered = false;   ///< the forces alone did not tell immersion and depth: see depth_memory.hpp
-    Scalar depth_at_low_mm{0};          ///< the depth that goes with radial_immersion_low: both err together
-    Scalar depth_at_high_mm{0};         ///< … with radial_immersion_high
+    Scalar axial_depth_force_sd_mm{0};  ///< the part due to the forces, without that due to K_s
+    bool depth_is_remembered = false;  ///< the forces alone did not determine immersion and depth: see depth_memory.hpp
+    Scalar depth_at_low_mm{0};         ///< the depth that goes with radial_immersion_low: both err together
+    Scalar depth_at_high_mm{0};        ///< the depth that goes with radial_immersion_high
 
     CutSide side = CutSide::unknown;
     Scalar misfit{0};  ///< J at the estimate; above 16 the law does not describe these forces: no estimate

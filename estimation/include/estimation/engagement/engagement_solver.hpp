@@ -53,18 +53,18 @@ class EngagementSolver {
     class Search;
 
     EngagementSolver() = default;
-    /// `side`: that of the tool where it is told; CutSide::centred has tables of its own.
+    /// `side`: that of the tool if it is declared; CutSide::centred has tables of its own.
     EngagementSolver(const CuttingLaw<Scalar>& law, const EngagementSolverSettings<Scalar>& settings,
                      CutSide side = CutSide::unknown);
 
-    /// Begins a solution. A side that is told is tried first, and the other one only where the told one fits badly
+    /// Begins a solution. A declared side is tried first, and the other one only where the declared one fits badly
     /// (J > 9): the other one is taken if its J is smaller by as much. With CutSide::unknown both down and up are tried
     /// and the one that fits better by more than 3.84 is taken; where neither does, the estimate is valid only if both
     /// give the same immersion. Forces that refute both sides give no estimate, and as the interval all immersions at
     /// which the flutes are long enough for F_at.
     ///
-    /// Where forces that a side explains tell the depth less than half as well as the `remembered` one is known, the
-    /// immersion is looked for once more with it; a depth that these forces refute is not used.
+    /// If a side explains the forces, but they determine the depth less than half as well as the `remembered` one is
+    /// known, the immersion is searched once more with it. A depth that these forces contradict is not used.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm, CutSide side,
                const KnownDepth<Scalar>& remembered = {}) const;
 

@@ -140,7 +140,7 @@ void EngagementSolver<Scalar, Nodes>::end_sides(Search& s) const {
     s.phase_ = Search::Phase::done;
 }
 
-/// The remembered depth has less than half the doubt of the one that the forces alone tell.
+/// The remembered depth has less than half the standard deviation of the one that the forces alone give.
 template <typename Scalar, int Nodes>
 bool EngagementSolver<Scalar, Nodes>::Search::memory_knows_more() const {
     const Scalar remembered_sd_mm = remembered_.relative_sd * remembered_.depth_mm;
@@ -245,7 +245,7 @@ std::size_t EngagementSolver<Scalar, Nodes>::Search::end_of_descent(std::size_t 
     }
     return node;
 }
-/// … up to which J does not fall.
+/// The last node from here on, of those scanned, up to which J does not fall.
 template <typename Scalar, int Nodes>
 std::size_t EngagementSolver<Scalar, Nodes>::Search::end_of_ascent(std::size_t node) const {
     while (node + 2 < nodes && !(J_[node + 2] < J_[node])) {
@@ -376,7 +376,7 @@ std::size_t EngagementSolver<Scalar, Nodes>::low_end(Search& s) const {
     }
     return low > 0 ? last_inside(s, low, low - 1) : low;
 }
-/// … above it.
+/// The outermost node above the estimate that lies within the interval, or the nearest one.
 template <typename Scalar, int Nodes>
 std::size_t EngagementSolver<Scalar, Nodes>::high_end(Search& s) const {
     const Table& forces = table(s.side_);
@@ -401,7 +401,8 @@ std::size_t EngagementSolver<Scalar, Nodes>::last_inside(Search& s, std::size_t 
     return s.is_inside(next) ? next : node;
 }
 
-/// Of a 95 % interval that may be lopsided: by its longer side. At R_r = 2 there is only one.
+/// Standard deviation from a 95 % interval that may be asymmetric: from its longer side. At R_r = 2 there is only one
+/// side.
 template <typename Scalar>
 Scalar sd_of_interval(Scalar low, Scalar value, Scalar high) {
     const Scalar below = value - low;
@@ -451,7 +452,7 @@ void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
     e.immersion_valid = width <= settings_.widest_interval;
 }
 
-/// Depth at the estimate and at the interval's ends; its deviation adds what the immersion's doubt and K_s leave open.
+/// Depth at the estimate and at the interval's ends; its deviation adds the uncertainty of immersion and K_s.
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     using std::sqrt;

@@ -20,7 +20,7 @@ inline constexpr Scalar threshold_of_95_percent = literal<Scalar>(3.84L);
 template <typename Scalar>
 inline constexpr Scalar misfit_of_a_wrong_model{16};
 
-/// By so much J rises at most where a remembered depth is added that still holds: three deviations.
+/// The most by which J may rise when a remembered depth that still holds is added: three standard deviations, squared.
 template <typename Scalar>
 inline constexpr Scalar misfit_of_another_depth{9};
 
@@ -29,17 +29,17 @@ template <typename Scalar>
     return found.misfit > misfit_of_a_wrong_model<Scalar>;
 }
 
-/// By so much another side than the told one must fit better: three deviations.
+/// J of the other side must be lower than that of the declared one by this much: three standard deviations, squared.
 template <typename Scalar>
 inline constexpr Scalar advantage_of_the_other_side{9};
 
-/// The told side fits so badly that the other one is worth a look.
+/// The declared side fits so badly that the other side is tried as well.
 template <typename Scalar>
 [[nodiscard]] bool may_be_the_other_side(const EngagementEstimate<Scalar>& told) {
     return told.misfit > advantage_of_the_other_side<Scalar>;
 }
 
-/// A side that was told holds until the forces clearly fit the other one.
+/// The declared side is kept unless the forces clearly fit the other one.
 template <typename Scalar>
 [[nodiscard]] EngagementEstimate<Scalar> told_or_other_side(const EngagementEstimate<Scalar>& told,
                                                             const EngagementEstimate<Scalar>& other) {

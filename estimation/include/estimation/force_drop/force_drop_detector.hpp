@@ -26,7 +26,7 @@
 ///
 /// The place is found in two steps: at every grid point of a pitch by the jump's estimate as one weighted sum (its
 /// square, summed over teeth and forces, is what the fit gains by allowing a jump), then between grid points by the
-/// least residual. A mean jump below `least_significance` of its standard deviation is none.
+/// least residual. A mean jump below `least_significance` standard deviations does not count.
 ///
 /// Of other jumps inside the window (the next tooth enters where this one leaves, at 6 teeth and immersion 0.5) the
 /// caller may give the size: they are subtracted from the signal first (OtherEdge).

@@ -251,7 +251,7 @@ Measurement<Scalar> ForceDropImmersion<Scalar, Nodes>::likely_r_av(const ForceDr
     return {true, law_.r_av_mean + share * (ratios.r_av - law_.r_av_mean), square(Scalar(1) - share) * spread, {}};
 }
 
-/// Of the residual, by the doubt in the calibrated line and the scatter about it.
+/// Variance of the residual, from the uncertainty of the calibrated line and the scatter about it.
 template <typename Scalar, int Nodes>
 Scalar ForceDropImmersion<Scalar, Nodes>::law_variance(Equation equation, const ForceDropMeasurement<Scalar>& m,
                                                        Scalar theta_rad) const {

@@ -3,13 +3,13 @@
 
 namespace millforce::estimation {
 
-/// A number that knows how well it is known, or that there is none. `valid == false` is "no estimate": value and
+/// A number with its variance, or "no estimate". `valid == false` is "no estimate": value and
 /// variance then mean nothing, and nothing downstream may speed up on it.
 template <typename Scalar>
 struct Measurement {
     bool valid = false;
     Scalar value{0};
-    Scalar variance{0};  ///< of all there is to doubt
+    Scalar variance{0};  ///< from all sources of uncertainty
     Scalar noise{0};     ///< the part of it that differs from window to window, and that averaging removes
 };
 

@@ -180,7 +180,7 @@ Scalar SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::speed_rad_s(int 
 
 /// How the speed at the window's end differs from that at its start. Both are read off a line through the two stretches
 /// before them: the same teeth, so that what repeats with each revolution cancels. Until so much has been seen, the
-/// newer half is compared with the older one, and all of it is in doubt.
+/// newer half is compared with the older one, and the whole average is uncertain.
 template <typename Scalar, int Channels, int Rates, int MaxPeriods>
 void SynchronousAverage<Scalar, Channels, Rates, MaxPeriods>::set_acceleration(Window& window) const {
     const int count = window.tooth_periods;

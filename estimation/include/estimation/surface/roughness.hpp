@@ -59,8 +59,8 @@ struct RoughnessModel {
     RoughnessMeasure measure{RoughnessMeasure::Ra};
     Scalar constant_um{0};                 ///< C; 0: there is no model
     RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
-    RoughnessValues<Scalar> minimum{};     ///< range of the tests …
-    RoughnessValues<Scalar> maximum{};     ///< … 0: not given
+    RoughnessValues<Scalar> minimum{};     ///< of the tests: lower end of the range; 0: not given
+    RoughnessValues<Scalar> maximum{};     ///< of the tests: upper end of the range; 0: not given
     RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
     Scalar tests{0};                       ///< n
     Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
@@ -81,7 +81,7 @@ inline constexpr Scalar normal_975 = literal<Scalar>(1.9599640L);
 template <typename Scalar>
 Scalar student_t_975(Scalar degrees_of_freedom);
 
-/// |F_x/F_z| with its variance. No estimate where either force is none or lies within three standard deviations of
+/// |F_x/F_z| with its variance. No estimate where either force is missing or lies within three standard deviations of
 /// zero: the ratio of such numbers has no bounded interval. Signs are the axes' business: a ball end presses down.
 template <typename Scalar>
 Measurement<Scalar> force_ratio(const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z);
@@ -121,7 +121,7 @@ class RoughnessPredictor {
     /// Cost: 5 logarithms, 3 exponentials, 1 root, some 60 products.
     [[nodiscard]] RoughnessPrediction<Scalar> predict(const RoughnessConditions<Scalar>& cut) const;
 
-    /// The same from forces as the drives give them: the doubt of both goes into the interval.
+    /// The same from forces as the drives give them: the interval includes the uncertainty of both.
     [[nodiscard]] RoughnessPrediction<Scalar> predict(RoughnessConditions<Scalar> cut, const Measurement<Scalar>& f_x,
                                                       const Measurement<Scalar>& f_z) const;
 

@@ -56,7 +56,7 @@ void CanDaemon::run(const std::atomic<bool>& stop) {
             step();
         }
     } catch (...) {
-        end(farewell_us);  // whatever happened, the machine is told to hold
+        end(farewell_us);  // whatever happened, the last override says hold
         throw;
     }
     end(farewell_us);

@@ -34,11 +34,11 @@
 /// After `stale_s` by the clock of poll() the override says hold, with a constant counter; when frames come again the
 /// tick finds the gap in their times, and its fault is latched.
 ///
-/// Supervision. A sample is complete where every configured drive, and what is beside the bus, told everything. The
-/// tick begins with the first complete one and sees complete ones only; what lacks something is left out. After five
-/// SYNC periods without a complete one the tick continues without: the feed is not raised then, and after the CNC's
-/// `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the CNC
-/// is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
+/// Supervision. A sample is complete if every configured drive and every source beside the bus gave all its values.
+/// The tick begins with the first complete one and sees complete ones only; what lacks something is left out. After
+/// five SYNC periods without a complete one the tick continues without: the feed is not raised then, and after the
+/// CNC's `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the
+/// CNC is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 

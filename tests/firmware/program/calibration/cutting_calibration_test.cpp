@@ -152,10 +152,10 @@ TEST(CuttingCalibration, writes_a_table_from_which_estimate_reads_the_same_law) 
 }
 
 TEST(CuttingCalibration, refuses_cuts_that_cannot_determine_a_parameter_and_names_the_missing_cut) {
-    CHECK(
-        contains(error_of(measured_rows([](const CutRow& r) { return r.feed_mm_s == 5.75; })),
-                 "'K_te_N_per_mm' cannot be told from 'k_s_N_per_mm2': all cuts have about 0.04014 mm feed per tooth; "
-                 "expected cuts at a second feed"));
+    CHECK(contains(
+        error_of(measured_rows([](const CutRow& r) { return r.feed_mm_s == 5.75; })),
+        "'K_te_N_per_mm' cannot be separated from 'k_s_N_per_mm2': all cuts have about 0.04014 mm feed per tooth; "
+        "expected cuts at a second feed"));
     CHECK(contains(
         error_of(header + "6.35,3,300,1,6.35,2,0.1,20\n6.35,3,300,1,6.35,5,0.2,40\n6.35,3,300,1,6.35,9,0.3,60\n"
                           "6.35,3,300,1,6.35,3,0.13,27\n"),

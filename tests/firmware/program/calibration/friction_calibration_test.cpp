@@ -165,7 +165,7 @@ TEST(FrictionCalibration, refuses_a_recording_that_lacks_feeds_or_a_direction_an
                    "'x.K_x1_positive_A_min2_per_m2' cannot be determined: 1 steady feed(s) in air in +x"));
     CHECK(contains(error({20, 40, 60, 80, -20, -20, -40}), "K_x1_negative_A_min2_per_m2"));
     CHECK(contains(error({20, 40, 60, 80, 100, 120, 140}),
-                   "'x.gravity_A' cannot be told from K_x3_A: no steady "
+                   "'x.gravity_A' cannot be separated from K_x3_A: no steady "
                    "travel in air in -x"));
     CHECK(contains(error({0, 0, 0}), "'K_x1' to 'K_x3' cannot be determined"));
 }
@@ -191,7 +191,7 @@ TEST(FrictionCalibration, refuses_a_motion_at_rest_in_one_direction_or_without_a
 
 TEST(FrictionCalibration, leaves_out_of_fit_and_file_what_the_feeds_do_not_determine) {
     const TemporaryFolder folder;
-    // 0.36 to 0.58 m/min: on so short a piece a parabola cannot be told from a line.
+    // 0.36 to 0.58 m/min: on so short a piece a parabola cannot be distinguished from a line.
     int left_out = 0;
     for (const std::vector<double>& feeds : {std::vector<double>{6.0, -6.0, 7.8, -7.8, 9.7, -9.7, 6.0, -6.0, 9.7, -9.7},
                                              {6.0, 7.8, 9.7, -6.0, -7.8, -9.7, 6.0, 9.7, -6.0, -9.7},

@@ -184,7 +184,7 @@ TEST(LocalIoFile, what_is_missing_or_told_twice_is_named_with_its_table_and_key)
     STRCMP_CONTAINS("iio.spindle.A_per_V", local_error("A_per_V = 10\n", "").c_str());
     STRCMP_CONTAINS("iio.buffer: is missing", local_error("mode = \"polled\"\n", "").c_str());
     STRCMP_CONTAINS("[iio] device", local_error("device = \"/sys/bus/iio/devices/iio:device0\"\n", "").c_str());
-    STRCMP_CONTAINS("iio.x: a tpdo of [bus.x] tells the same",
+    STRCMP_CONTAINS("iio.x: a tpdo of [bus.x] gives the same",
                     local_error("\"0x606C:32\"]", "\"0x606C:32\", \"0x6078:16\"]").c_str());
     STRCMP_CONTAINS("iio.x: its motion is missing", local_error("node_id = 6\n", "").c_str());
     STRCMP_CONTAINS("bus.x: a needed object is in none of tpdo1", local_error(", \"0x606C:32\"", "").c_str());

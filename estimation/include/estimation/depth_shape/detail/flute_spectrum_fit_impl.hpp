@@ -182,7 +182,8 @@ typename FluteSpectrumFit<Scalar, Harmonics>::Coefficients FluteSpectrumFit<Scal
     return c;
 }
 
-/// Laws and the changes of sweep, engagement and shift in one problem; the laws' coefficients come out anew.
+/// Fits the coefficients of the laws and the changes of sweep, engagement and shift in one problem. The coefficients
+/// replace the earlier ones.
 template <typename Scalar, int Harmonics>
 typename FluteSpectrumFit<Scalar, Harmonics>::JointFit FluteSpectrumFit<Scalar, Harmonics>::joint_fit(
     const State& state, const Coefficients& c, Scalar scale, const FluteKnowledge<Scalar>& knowledge) const {

@@ -75,7 +75,8 @@ constexpr Raw small_product(Raw a, Raw b) {
     return (a >> fraction_bits) * b + static_cast<Raw>(a_low) * (b >> fraction_bits) + lowest;
 }
 
-/// … of any two. Called, so that the frequent small product needs no stack.
+/// a b of any two numbers, rounded as in small_product(). Not inlined, so that the frequent small product needs no
+/// stack.
 template <typename Policy>
 [[gnu::noinline]] constexpr Raw large_product(Raw a, Raw b) {
     const bool negative = (a ^ b) < 0;

@@ -37,7 +37,7 @@ class AxisVelocity {
 
 /// Whether a spindle encoder counts what its index says: whole revolutions between two pulses, and a pulse at least
 /// every second revolution. A broken wire, lost counts or a wrong number of lines are found so; without an index wired
-/// nothing is. An encoder that failed is believed again after two good revolutions.
+/// nothing is. An encoder that failed is used again after two good revolutions.
 class EncoderWatch {
   public:
     explicit EncoderWatch(std::uint32_t counts_per_rev) : counts_per_rev_(counts_per_rev) {}
