@@ -4,7 +4,7 @@
 #include "cutting/revolution_load.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
-#include "estimation/engagement/engagement_solver_impl.hpp"
+#include "estimation_calibration/engagement_solver_in_double.hpp"
 #include "reproduce/kim_published.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/reproduction.hpp"
 
-#include "estimation/surface/roughness_impl.hpp"
 #include "estimation_calibration/roughness_fit.hpp"
+#include "estimation_calibration/roughness_in_double.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimation/surface/roughness_impl.hpp"
-
 #include "estimation/calibration/roughness_cuts.hpp"
+#include "estimation/number/student_t.hpp"
+#include "estimation_calibration/roughness_in_double.hpp"
 
 #include <CppUTest/TestHarness.h>
 
