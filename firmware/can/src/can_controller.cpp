@@ -34,7 +34,6 @@ constexpr std::uint64_t silent_after_periods = 5;
 /// The fault has long been latched then: a log with a gap of hours is not ticked through.
 constexpr std::uint64_t longest_silence_us = 10'000'000;
 constexpr std::uint64_t boot_up_period_us = 200'000;
-constexpr float at_rest_mm_s = 0.5F;
 constexpr std::uint64_t shown_for_us = 1'000'000;
 
 }  // namespace
@@ -249,11 +248,7 @@ void CanController::reset_fault_where_asked() {
 }
 
 bool CanController::is_at_rest() const {
-    const auto rests = [](float velocity_mm_s) {
-        return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
-    };
-    return has_complete_sample() &&
-           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), rests);
+    return has_complete_sample() && hal::axes_rest(sample_.axis_velocity_mm_s);
 }
 
 void CanController::judge(std::uint64_t now_us) {
