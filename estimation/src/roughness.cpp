@@ -3,8 +3,6 @@
 
 namespace millforce::estimation {
 
-template float student_t_975(float);
-template Fixed student_t_975(Fixed);
 template Measurement<float> force_ratio(const Measurement<float>&, const Measurement<float>&);
 template Measurement<Fixed> force_ratio(const Measurement<Fixed>&, const Measurement<Fixed>&);
 template class RoughnessPredictor<float>;

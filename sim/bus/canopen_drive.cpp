@@ -9,6 +9,13 @@ namespace millforce::sim {
 
 namespace {
 
+constexpr std::uint32_t nmt_id = 0x000;
+constexpr std::uint32_t sync_id = 0x080;
+constexpr std::uint32_t emergency_id = 0x080;  // + node, as those below
+constexpr std::uint32_t sdo_response_id = 0x580;
+constexpr std::uint32_t sdo_request_id = 0x600;
+constexpr std::uint32_t heartbeat_id = 0x700;
+constexpr std::uint8_t state_boot_up = 0;
 constexpr std::uint8_t state_stopped = 4;
 constexpr std::uint8_t state_operational = 5;
 constexpr std::uint8_t state_pre_operational = 127;
@@ -99,7 +106,7 @@ void CanopenDrive::boot() {
     nmt_state_ = state_pre_operational;
     syncs_since_pdo_ = {};
     next_heartbeat_us_ = time_us_;
-    send(0x700U + settings_.node_id, {0});
+    send(heartbeat_id + settings_.node_id, {state_boot_up});
 }
 
 void CanopenDrive::set_power(bool on) {
@@ -125,7 +132,7 @@ void CanopenDrive::latch_index(std::int32_t position) {
 
 void CanopenDrive::raise_emergency(std::uint16_t error_code, std::uint8_t error_register) {
     set(0x1001, 0, error_register);
-    send(0x080U + settings_.node_id, {byte(error_code, 0), byte(error_code, 1), error_register, 0, 0, 0, 0, 0});
+    send(emergency_id + settings_.node_id, {byte(error_code, 0), byte(error_code, 1), error_register, 0, 0, 0, 0, 0});
 }
 
 void CanopenDrive::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
@@ -133,11 +140,11 @@ void CanopenDrive::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
     if (!powered_ || frame.extended || frame.remote || frame.length > 8) {
         return;
     }
-    if (frame.id == 0x000 && frame.length == 2) {
+    if (frame.id == nmt_id && frame.length == 2) {
         on_nmt(frame);
-    } else if (frame.id == 0x080 && frame.length <= 1) {
+    } else if (frame.id == sync_id && frame.length <= 1) {
         on_sync();
-    } else if (frame.id == 0x600U + settings_.node_id && nmt_state_ != state_stopped) {
+    } else if (frame.id == sdo_request_id + settings_.node_id && nmt_state_ != state_stopped) {
         on_sdo(frame);
     }
 }
@@ -149,7 +156,7 @@ void CanopenDrive::poll(std::uint64_t time_us) {
         return;
     }
     next_heartbeat_us_ = time_us + period_us;
-    send(0x700U + settings_.node_id, {nmt_state_});
+    send(heartbeat_id + settings_.node_id, {nmt_state_});
 }
 
 std::vector<hal::CanFrame> CanopenDrive::take_frames() {
@@ -235,8 +242,9 @@ void CanopenDrive::answer_read(Key where) {
     }
     const Entry& entry = found->second;
     const std::uint32_t v = entry.value;
-    send(0x580U + settings_.node_id, {static_cast<std::uint8_t>(0x43U | ((4U - entry.bytes) << 2U)), byte(where, 1),
-                                      byte(where, 2), byte(where, 0), byte(v, 0), byte(v, 1), byte(v, 2), byte(v, 3)});
+    send(sdo_response_id + settings_.node_id,
+         {static_cast<std::uint8_t>(0x43U | ((4U - entry.bytes) << 2U)), byte(where, 1), byte(where, 2), byte(where, 0),
+          byte(v, 0), byte(v, 1), byte(v, 2), byte(v, 3)});
 }
 
 void CanopenDrive::answer_write(Key where, const hal::CanFrame& frame) {
@@ -262,7 +270,7 @@ void CanopenDrive::answer_write(Key where, const hal::CanFrame& frame) {
         return;
     }
     entry.value = value;
-    send(0x580U + settings_.node_id, {0x60, frame.data[1], frame.data[2], frame.data[3], 0, 0, 0, 0});
+    send(sdo_response_id + settings_.node_id, {0x60, frame.data[1], frame.data[2], frame.data[3], 0, 0, 0, 0});
 }
 
 std::uint32_t CanopenDrive::refusal_of_write(Key where, const Entry& entry, std::uint32_t value) const {
@@ -308,8 +316,8 @@ std::uint32_t CanopenDrive::refusal_of_mapping(Key where, std::uint32_t value) c
 
 void CanopenDrive::abort(Key where, std::uint32_t code) {
     ++aborts_;
-    send(0x580U + settings_.node_id, {0x80, byte(where, 1), byte(where, 2), byte(where, 0), byte(code, 0),
-                                      byte(code, 1), byte(code, 2), byte(code, 3)});
+    send(sdo_response_id + settings_.node_id, {0x80, byte(where, 1), byte(where, 2), byte(where, 0), byte(code, 0),
+                                               byte(code, 1), byte(code, 2), byte(code, 3)});
 }
 
 void CanopenDrive::send(std::uint32_t id, std::vector<std::uint8_t> bytes) {

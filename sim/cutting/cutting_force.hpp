@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/bottom_edge.hpp"
 #include "cutting/chip_thickness.hpp"
 #include "cutting/cutter.hpp"
@@ -19,7 +19,7 @@ namespace millforce::sim {
 struct EdgeResolution {
     std::size_t axial_slices = 20;  ///< over the flute length, 1…500; at most 1000 in all
     /// More slices where the lag ψ of one, or the arc κ of one on a ball, would exceed this; 0.001…0.2.
-    double largest_angle_per_slice_rad = 2.0 * std::numbers::pi / 180.0;
+    double largest_angle_per_slice_rad = 2.0 * degree;
 };
 
 struct CuttingForceOptions {

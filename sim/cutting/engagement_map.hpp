@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cutting/angle_units.hpp"
+
 #include <array>
 #include <cstddef>
-#include <numbers>
 
 namespace millforce::sim {
 
@@ -16,7 +17,7 @@ namespace millforce::sim {
 /// holds material, so that an engagement's width does not jump by whole bins.
 struct EngagementMap {
     static constexpr std::size_t bin_count = 720;
-    static constexpr double bin_rad = 2.0 * std::numbers::pi / static_cast<double>(bin_count);
+    static constexpr double bin_rad = turn / static_cast<double>(bin_count);
 
     struct Bin {
         float bottom_mm = 0.0F;

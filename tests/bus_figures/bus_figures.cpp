@@ -154,7 +154,7 @@ int measure(int seconds) {
     all = print_count("overrides, controller to CNC", controller.overrides, tally->cnc.overrides) && all;
     std::printf("samples: %llu, complete within their SYNC period: %llu; SYNCs skipped: %u; socket overruns: %u\n",
                 static_cast<unsigned long long>(controller.samples),
-                static_cast<unsigned long long>(controller.complete), machine.bus.health().syncs_skipped,
+                static_cast<unsigned long long>(controller.complete), machine.sync.skipped(),
                 machine.socket.health().overruns);
     if (all) {
         print_latency(*tally);

@@ -7,6 +7,7 @@
 
 #include "bus/machine_on_bus.hpp"
 #include "cia402/drive_bus.hpp"
+#include "cia402/sync_producer.hpp"
 #include "emergency/emergencies.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_frame.hpp"
@@ -113,7 +114,7 @@ void print_program_statuses() {
 /// SYNC and NMT start, by the master.
 void print_master() {
     cia402::BusSettings settings;
-    settings.is_master = settings.produces_sync = true;
+    settings.is_master = true;
     settings.drives[0].node_id = 1;
     settings.drives[0].rated_current_A = 12.0F;
     settings.drives[0].pdos[0].id = 0x181;
@@ -121,9 +122,14 @@ void print_master() {
     settings.drives[0].pdos[0].objects = {cia402::MappedObject{cia402::object::position_actual, 0, 32},
                                           cia402::MappedObject{cia402::object::current_actual, 0, 16}};
     cia402::DriveBus bus(settings);
+    cia402::SyncProducer sync(settings.sync_id, settings.sync_period_us);
     hal::CanFrame frame;
     for (std::uint64_t now_us = 0; now_us < 3000; now_us += 1000) {
         bus.poll(now_us);
+        if (sync.poll(now_us) && sync.take_frame(frame)) {
+            bus.on_frame(frame, now_us);
+            print(frame, {});
+        }
         while (bus.take_frame(frame)) {
             print(frame, frame.id == 0 ? Values{{"NmtCommand", 1}, {"NmtNode", 1}} : Values{});
         }

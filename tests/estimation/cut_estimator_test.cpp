@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/cut_estimator.hpp"
 
+#include "estimation/laws.hpp"
 #include "estimation/number/fixed_point.hpp"
-#include "laws.hpp"
 
 #include <CppUTest/TestHarness.h>
 

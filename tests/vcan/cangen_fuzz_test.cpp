@@ -33,7 +33,7 @@ constexpr std::uint32_t sync_period_us = 50'000;
 
 cia402::BusSettings listener_settings() {
     cia402::BusSettings settings = bus_settings(2, sync_period_us);
-    settings.is_master = settings.produces_sync = false;
+    settings.is_master = false;
     for (std::size_t role = 0; role < 2; ++role) {
         settings.drives[role].rated_current_A = 12.0F;
         settings.drives[role].heartbeat_timeout_us = 0;

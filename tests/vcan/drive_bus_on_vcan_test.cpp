@@ -58,7 +58,7 @@ void write_recording(const std::string& file) {
 
 cia402::BusSettings listener_settings(std::uint32_t period_us) {
     cia402::BusSettings settings = bus_settings(2, period_us);
-    settings.is_master = settings.produces_sync = false;
+    settings.is_master = false;
     for (std::size_t role = 0; role < 2; ++role) {
         settings.drives[role].rated_current_A = 12.0F;
         settings.drives[role].heartbeat_timeout_us = 0;
@@ -111,7 +111,7 @@ TEST(DriveBusOnVcan, cangen_with_every_id_and_length_is_counted_and_leaves_a_bus
 TEST(DriveBusOnVcan, a_recording_by_canplayer_with_every_fault_of_a_frame_is_read_as_far_as_it_is_sound) {
     const std::string file = temporary_file("recording.log");
     write_recording(file);
-    BusOnVcan machine(listener_settings(10'000));
+    BusOnVcan machine(listener_settings(10'000), false);
     machine.run_ms(20);
     const Child canplayer("canplayer -I " + file);
     machine.run_ms(1500);

@@ -27,7 +27,7 @@ TEST(DrivesAndCnc, four_drives_are_started_and_sampled_without_a_lost_count) {
         const int all = static_cast<int>(machine.samples.size());
         const int complete = samples_with_everything(machine.samples);
         std::printf("\n    four drives, SYNC every %u us: %d of %d samples complete, %u SYNCs skipped", period_us,
-                    complete, all, machine.bus.health().syncs_skipped);
+                    complete, all, machine.sync.skipped());
         CHECK(complete > all / 4);
         check_counts(machine.samples);
         UNSIGNED_LONGS_EQUAL(0, machine.socket.health().overruns);

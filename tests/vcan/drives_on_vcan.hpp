@@ -16,6 +16,7 @@
 #include "bus/canopen_drive.hpp"
 #include "bus_peers.hpp"
 #include "cia402/drive_bus.hpp"
+#include "cia402/sync_producer.hpp"
 
 /// Simulated drives in a process of their own, and the driver's bus on a socket.
 
@@ -143,7 +144,6 @@ inline cia402::DriveSettings drive_settings(std::size_t role) {
 inline cia402::BusSettings bus_settings(std::size_t drives, std::uint32_t period_us) {
     cia402::BusSettings settings;
     settings.is_master = true;
-    settings.produces_sync = true;
     settings.sync_period_us = period_us;
     settings.collect_us = period_us;
     for (std::size_t role = 0; role < drives; ++role) {
@@ -155,7 +155,11 @@ inline cia402::BusSettings bus_settings(std::size_t drives, std::uint32_t period
 /// The driver's whole way: socket, bus, samples.
 class BusOnVcan {
   public:
-    explicit BusOnVcan(const cia402::BusSettings& settings) : bus(settings), socket(socket_settings(bus)) {}
+    explicit BusOnVcan(const cia402::BusSettings& settings, bool produces_sync = true)
+        : bus(settings),
+          socket(socket_settings(bus)),
+          sync(settings.sync_id, settings.sync_period_us),
+          produces_sync_(produces_sync) {}
 
     void run_ms(int duration_ms) {
         const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * static_cast<unsigned>(duration_ms);
@@ -183,6 +187,7 @@ class BusOnVcan {
     std::vector<hal::DriveSample> samples{};
     std::function<void(const hal::DriveSample&)> on_sample = [this](const auto& sample) { samples.push_back(sample); };
     FrameCounts counts{};  ///< SYNCs that went out, PDOs that came
+    cia402::SyncProducer sync;
 
     /// Fetches what is there, and sends nothing.
     void drain() {
@@ -205,16 +210,27 @@ class BusOnVcan {
     }
     void step() {
         std::uint64_t now_us = socketcan::monotonic_us();
-        socket.wait(bus.next_event_us(now_us) - now_us);
+        socket.wait(next_event_us(now_us) - now_us);
         now_us = socketcan::monotonic_us();
         socket.poll(now_us);
         drain();
-        bus.poll(socketcan::monotonic_us());
-        take_sample();
+        now_us = socketcan::monotonic_us();
+        bus.poll(now_us);
         hal::CanFrame frame;
-        while (bus.take_frame(frame)) {
-            counts.syncs += socket.send(frame) && is_sync(frame) ? 1U : 0U;
+        const bool sends_sync = produces_sync_ && sync.poll(now_us) && sync.take_frame(frame);
+        if (sends_sync) {
+            bus.on_frame(frame, now_us);
         }
+        take_sample();
+        counts.syncs += sends_sync && socket.send(frame) ? 1U : 0U;
+        while (bus.take_frame(frame)) {
+            socket.send(frame);
+        }
+    }
+    [[nodiscard]] std::uint64_t next_event_us(std::uint64_t now_us) const {
+        const std::uint64_t of_bus_us = bus.next_event_us(now_us);
+        const bool has_begun = produces_sync_ && sync.next_us() != 0;
+        return has_begun ? std::max(now_us, std::min(of_bus_us, sync.next_us())) : of_bus_us;
     }
     void take_sample() {
         hal::DriveSample sample;
@@ -222,6 +238,8 @@ class BusOnVcan {
             on_sample(sample);
         }
     }
+
+    bool produces_sync_;
 };
 
 }  // namespace millforce::vcan

@@ -28,10 +28,7 @@ std::uint8_t complete_sample(const BusSettings& settings) {
 }  // namespace
 
 DriveBus::DriveBus(const BusSettings& settings)
-    : settings_(settings),
-      complete_(complete_sample(settings)),
-      sync_clock_(settings.sync_period_us),
-      sync_producer_(settings.sync_id, settings.sync_period_us) {
+    : settings_(settings), complete_(complete_sample(settings)), sync_clock_(settings.sync_period_us) {
     health_.sync_lost = true;
     if (check(settings) != SettingsError::none) {
         settings_ = {};
@@ -80,10 +77,6 @@ void DriveBus::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
 void DriveBus::on_sync(const hal::CanFrame& frame, std::uint64_t time_us) {
     if (frame.length > 1) {
         rejects_.add(Reject::sync_length);
-        return;
-    }
-    if (settings_.produces_sync) {
-        rejects_.add(Reject::sync_foreign);
         return;
     }
     if (had_sync_ && time_us < sync_time_us_ + settings_.sync_period_us / 2) {
@@ -182,18 +175,11 @@ void DriveBus::poll(std::uint64_t time_us) {
     if (cycle_open_ && time_us >= sync_time_us_ + settings_.collect_us) {
         hand_over();
     }
-    if (settings_.produces_sync && sync_producer_.poll(time_us)) {
-        health_.syncs_skipped = sync_producer_.skipped();
-        begin_cycle(time_us);
-    }
     const std::uint64_t patience_us = sync_lost_after_periods * settings_.sync_period_us;
     health_.sync_lost = !had_sync_ || time_us > sync_time_us_ + patience_us;
 }
 
 bool DriveBus::take_frame(hal::CanFrame& frame) {
-    if (sync_producer_.take_frame(frame)) {
-        return true;
-    }
     for (DriveNode& node : nodes_) {
         if (node.node_id() != 0 && node.take_frame(frame)) {
             return true;
@@ -220,9 +206,6 @@ hal::SourceState DriveBus::state() const {
 
 std::uint64_t DriveBus::next_event_us(std::uint64_t now_us) const {
     std::uint64_t next_us = now_us + settings_.sync_period_us;
-    if (settings_.produces_sync) {
-        next_us = had_sync_ && sync_producer_.next_us() < next_us ? sync_producer_.next_us() : next_us;
-    }
     if (cycle_open_ && sync_time_us_ + settings_.collect_us < next_us) {
         next_us = sync_time_us_ + settings_.collect_us;
     }

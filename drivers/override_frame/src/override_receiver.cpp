@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "override_frame/override_receiver.hpp"
 
-#include "nmt_states.hpp"
+#include "hal/cia301.hpp"
 
 namespace millforce::override_frame {
+
+namespace cob_id = hal::cia301::cob_id;
+using hal::cia301::NmtState;
 
 void OverrideReceiver::reject(ReceiveError error) {
     std::uint32_t& count = errors_[static_cast<std::size_t>(error)];
@@ -11,7 +14,7 @@ void OverrideReceiver::reject(ReceiveError error) {
 }
 
 void OverrideReceiver::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
-    if (frame.id == heartbeat_id + settings_.node_id && !frame.extended && !frame.remote) {
+    if (frame.id == cob_id::heartbeat + settings_.node_id && !frame.extended && !frame.remote) {
         on_heartbeat(frame);
         return;
     }
@@ -39,7 +42,7 @@ void OverrideReceiver::on_heartbeat(const hal::CanFrame& frame) {
         reject(ReceiveError::heartbeat_malformed);
         return;
     }
-    if (frame.data[0] != nmt_operational) {
+    if (frame.data[0] != byte_of(NmtState::operational)) {
         trusted_frames_ = 0;
     }
 }

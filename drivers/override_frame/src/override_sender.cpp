@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "override_frame/override_sender.hpp"
 
-#include "nmt_states.hpp"
+#include "hal/cia301.hpp"
 
 namespace millforce::override_frame {
 
+namespace cob_id = hal::cia301::cob_id;
+using hal::cia301::NmtState;
+
 bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id) {
-    return frame.id == heartbeat_id + node_id && !frame.extended && !frame.remote && frame.length == 1 &&
-           frame.data[0] == nmt_boot_up;
+    return frame.id == cob_id::heartbeat + node_id && !frame.extended && !frame.remote && frame.length == 1 &&
+           frame.data[0] == byte_of(NmtState::boot_up);
 }
 
 void OverrideSender::update(const hal::FeedOverride& feed_override, std::uint64_t time_us) {
@@ -39,9 +42,9 @@ void OverrideSender::poll(std::uint64_t time_us) {
 
 std::uint8_t OverrideSender::nmt_state() const {
     if (!has_override_) {
-        return nmt_pre_operational;
+        return byte_of(NmtState::pre_operational);
     }
-    return ticks_ ? nmt_operational : nmt_stopped;
+    return ticks_ ? byte_of(NmtState::operational) : byte_of(NmtState::stopped);
 }
 
 bool OverrideSender::take_frame(hal::CanFrame& frame) {
@@ -55,9 +58,9 @@ bool OverrideSender::take_frame(hal::CanFrame& frame) {
     }
     heartbeat_due_ = !booted_;  // the boot-up is followed by the state
     frame = {};
-    frame.id = heartbeat_id + settings_.node_id;
+    frame.id = cob_id::heartbeat + settings_.node_id;
     frame.length = 1;
-    frame.data[0] = booted_ ? nmt_state() : nmt_boot_up;
+    frame.data[0] = booted_ ? nmt_state() : byte_of(NmtState::boot_up);
     booted_ = true;
     return true;
 }

@@ -2,7 +2,7 @@
 // What a CuttingFit reports: the law, its standard deviations, and the parameters that the cuts leave open.
 #include "cutting_fit_solver.hpp"
 
-#include "estimation/surface/roughness_impl.hpp"
+#include "estimation/number/student_t.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -67,7 +67,7 @@ CanControllerSettings can_controller_settings(const MachineParameters<float>& ma
         settings.drives.drives[k] = drive_settings(p.drives[k], rated_A, objects[k]);
     }
     settings.drives.is_master = p.role == BusRole::master;
-    settings.drives.produces_sync = p.produces_sync;
+    settings.produces_sync = p.produces_sync;
     settings.drives.sync_id = p.sync_id;
     settings.drives.sync_period_us = microseconds_of(p.sync_period_ms);
     settings.drives.collect_us = microseconds_of(p.collect_time_ms);

@@ -11,12 +11,6 @@ namespace millforce::firmware {
 
 namespace {
 
-/// SYNC is watched by its echo: the bus itself only listens for it.
-cia402::BusSettings listening_for_sync(cia402::BusSettings settings) {
-    settings.produces_sync = false;
-    return settings;
-}
-
 std::uint32_t own_heartbeat_id(const CanControllerSettings& settings) {
     return cia402::cob_id::heartbeat + settings.feed_override.node_id;
 }
@@ -34,7 +28,6 @@ constexpr std::uint64_t silent_after_periods = 5;
 /// The fault has long been latched then: a log with a gap of hours is not ticked through.
 constexpr std::uint64_t longest_silence_us = 10'000'000;
 constexpr std::uint64_t boot_up_period_us = 200'000;
-constexpr float at_rest_mm_s = 0.5F;
 constexpr std::uint64_t shown_for_us = 1'000'000;
 
 }  // namespace
@@ -46,7 +39,7 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
       is_running_(settings.begins_at_once),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
-      bus_(listening_for_sync(settings.drives)),
+      bus_(settings.drives),
       sync_(settings.drives.sync_id, settings.drives.sync_period_us),
       program_receiver_(settings.program),
       sender_(settings.feed_override),
@@ -64,7 +57,7 @@ void CanController::begin() {
     is_running_ = true;
     // In their places: some kB each would not fit the stack of a small processor.
     std::destroy_at(&bus_);
-    std::construct_at(&bus_, listening_for_sync(settings_.drives));
+    std::construct_at(&bus_, settings_.drives);
     program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
     if (has_begun_) {
         std::destroy_at(&tick_);
@@ -102,7 +95,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
     }
     advance_to(time_us);
     const bool is_sync = frame.id == settings_.drives.sync_id;
-    if (is_sync && settings_.drives.produces_sync && !is_own) {
+    if (is_sync && settings_.produces_sync && !is_own) {
         foreign_syncs_ += foreign_syncs_ < UINT32_MAX ? 1U : 0U;
         foreign_sync_us_ = time_us;
         return;
@@ -127,7 +120,7 @@ bool CanController::has_complete_sample() const {
 }
 
 void CanController::poll(std::uint64_t now_us) {
-    if (settings_.drives.produces_sync && is_running_ && !stopped_) {
+    if (settings_.produces_sync && is_running_ && !stopped_) {
         sync_.poll(now_us);
     }
     watch_silence(now_us);
@@ -249,11 +242,7 @@ void CanController::reset_fault_where_asked() {
 }
 
 bool CanController::is_at_rest() const {
-    const auto rests = [](float velocity_mm_s) {
-        return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
-    };
-    return has_complete_sample() &&
-           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), rests);
+    return has_complete_sample() && hal::axes_rest(sample_.axis_velocity_mm_s);
 }
 
 void CanController::judge(std::uint64_t now_us) {
@@ -287,7 +276,7 @@ bool CanController::take_frame(hal::CanFrame& frame) {
 
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
     std::uint64_t next_us = now_us + std::min(settings_.feed_override.period_us, settings_.drives.sync_period_us);
-    if (settings_.drives.produces_sync && is_running_ && !stopped_) {
+    if (settings_.produces_sync && is_running_ && !stopped_) {
         next_us = std::min(next_us, sync_.next_us());
     }
     return std::max(next_us, now_us);

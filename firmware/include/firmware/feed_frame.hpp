@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimation/cutting/cut_geometry.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/number/measurement.hpp"
 
 namespace millforce::firmware {
@@ -17,8 +18,8 @@ namespace millforce::firmware {
 template <typename Scalar>
 class FeedFrame {
   public:
-    static constexpr Scalar slowest_mm_s = static_cast<Scalar>(0.1L);
-    static constexpr Scalar averaging_s = static_cast<Scalar>(0.25L);
+    static constexpr Scalar slowest_mm_s = estimation::literal<Scalar>(0.1L);
+    static constexpr Scalar averaging_s = estimation::literal<Scalar>(0.25L);
 
     struct Pose {
         bool valid = false;   ///< the feed moves
@@ -62,7 +63,7 @@ class FeedFrame {
     }
 
   private:
-    static constexpr Scalar widest = static_cast<Scalar>(0.0523L);  // sin 3°
+    static constexpr Scalar widest = estimation::literal<Scalar>(0.0523L);  // sin 3°
     static constexpr Scalar whole_turn = Scalar(2) * estimation::pi<Scalar>;
 
     void take_direction(Pose& pose) {

@@ -7,6 +7,7 @@
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
 #include "estimation/force_drop/force_drop_law.hpp"
+#include "estimation/number/literal.hpp"
 #include "estimation/surface/roughness.hpp"
 
 #include <array>
@@ -21,11 +22,11 @@ namespace millforce::firmware {
 /// The CNC and its override input.
 template <typename Scalar>
 struct CncParameters {
-    Scalar override_min{static_cast<Scalar>(0.1L)};
-    Scalar override_max{static_cast<Scalar>(1.5L)};
-    Scalar override_latency_s{static_cast<Scalar>(0.01L)};
+    Scalar override_min{estimation::literal<Scalar>(0.1L)};
+    Scalar override_max{estimation::literal<Scalar>(1.5L)};
+    Scalar override_latency_s{estimation::literal<Scalar>(0.01L)};
     Scalar acceleration_mm_s2{2000};
-    Scalar stale_s{static_cast<Scalar>(0.05L)};
+    Scalar stale_s{estimation::literal<Scalar>(0.05L)};
     Scalar sample_rate_hz{1000};
 };
 
@@ -66,7 +67,7 @@ struct BusParameters {
     bool produces_sync{false};
     std::uint16_t sync_id{0x080};
     Scalar sync_period_ms{1};
-    Scalar collect_time_ms{static_cast<Scalar>(0.8L)};
+    Scalar collect_time_ms{estimation::literal<Scalar>(0.8L)};
     std::uint16_t override_id{0x1FE};
     std::uint8_t override_node_id{126};
     Scalar override_period_ms{2};
@@ -122,11 +123,11 @@ struct ToolParameters {
     estimation::CutSide side{estimation::CutSide::unknown};
     Scalar centre_offset_mm{0};
     Scalar tooth_force_limit_N{0};
-    Scalar break_share{static_cast<Scalar>(1.5L)};
+    Scalar break_share{estimation::literal<Scalar>(1.5L)};
     Scalar declared_axial_depth_mm{0};
-    Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
-    estimation::CuttingLaw<Scalar> law{.K_s_relative_sd = static_cast<Scalar>(0.05L),
-                                       .r_1_relative_sd = static_cast<Scalar>(0.05L)};
+    Scalar law_relative_sd{estimation::literal<Scalar>(0.02L)};
+    estimation::CuttingLaw<Scalar> law{.K_s_relative_sd = estimation::literal<Scalar>(0.05L),
+                                       .r_1_relative_sd = estimation::literal<Scalar>(0.05L)};
     control::FeedControllerParameters<Scalar> control{};
     bool monitor_only{false};
     estimation::RoughnessModel<Scalar> roughness{};

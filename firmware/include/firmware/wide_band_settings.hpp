@@ -3,6 +3,7 @@
 
 #include "estimation/depth_shape/depth_monitor.hpp"
 #include "estimation/force_drop/force_drop.hpp"
+#include "estimation/number/literal.hpp"
 #include "firmware/parameters.hpp"
 
 /// Settings of the wide-band methods, worked out from the parameters.
@@ -54,7 +55,7 @@ estimation::ForceDropSettings<Scalar> force_drop_settings(const Parameters<Scala
         settings.detector.response.corner_hz = p.tool.force_sensor.low_pass_hz;
         settings.zero_drift_sd_N = p.tool.force_sensor.zero_drift_sd_N;
     } else {
-        settings.detector.response.corner_hz = static_cast<Scalar>(0.22L) * p.machine.cnc.sample_rate_hz;
+        settings.detector.response.corner_hz = estimation::literal<Scalar>(0.22L) * p.machine.cnc.sample_rate_hz;
         for (std::size_t k = 0; k < 2; ++k) {
             const Scalar ripple_N = p.machine.axes[k].K_x4_N_per_A * p.machine.axes[k].friction_ripple_A;
             settings.mean_force_sd_N = ripple_N > settings.mean_force_sd_N ? ripple_N : settings.mean_force_sd_N;
@@ -66,7 +67,7 @@ estimation::ForceDropSettings<Scalar> force_drop_settings(const Parameters<Scala
 /// Depths to 55 % on either side of the nominal one, so that a variation of 50 % is not at the end of the search.
 template <typename Scalar>
 estimation::DepthRange<Scalar> depth_range_about(Scalar nominal_mm, Scalar largest_mm) {
-    constexpr Scalar reach = static_cast<Scalar>(0.55L);
+    constexpr Scalar reach = estimation::literal<Scalar>(0.55L);
     const Scalar high_mm = (Scalar(1) + reach) * nominal_mm;
     return {(Scalar(1) - reach) * nominal_mm, high_mm < largest_mm ? high_mm : largest_mm};
 }

@@ -9,7 +9,6 @@ namespace millforce::firmware {
 namespace {
 
 constexpr std::uint32_t gap_us = 10'000;
-constexpr float at_rest_mm_s = 0.5F;
 constexpr float no_estimate = std::numeric_limits<float>::quiet_NaN();
 
 Parameters<float> capped(Parameters<float> parameters, float largest_override) {
@@ -72,12 +71,9 @@ void LinkController::bridge_gap(std::uint32_t time_us, const hal::ProgramStatus&
 }
 
 void LinkController::reset_where_asked(const local_link::SampleMessage& message) {
-    const auto rests = [](float velocity_mm_s) {
-        return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
-    };
     const bool is_asked = message.reset && !was_reset_;
     was_reset_ = message.reset;
-    if (is_asked && std::all_of(message.axis_velocity_mm_s.begin(), message.axis_velocity_mm_s.end(), rests)) {
+    if (is_asked && hal::axes_rest(message.axis_velocity_mm_s)) {
         tick_.reset_fault();
     }
 }

@@ -4,7 +4,7 @@
 #include "calibration/axis_motion.hpp"
 #include "calibration/calibration_report.hpp"
 #include "calibration/motion_friction.hpp"
-#include "estimation/surface/roughness_impl.hpp"
+#include "estimation/number/student_t.hpp"
 #include "estimation_calibration/friction_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"

@@ -3,7 +3,8 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/duplicate_rows.hpp"
-#include "estimation/surface/roughness_impl.hpp"
+#include "estimation/number/student_t.hpp"
+#include "estimation_calibration/roughness_in_double.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"

@@ -78,7 +78,7 @@ int run_on_bus(const RunOptions& options) {
                         "machine that is on the bus alone",
                         options.machine));
     }
-    if (options.pace.lock_step && !bus.drives.produces_sync) {
+    if (options.pace.lock_step && !bus.produces_sync) {
         throw InputError(fmt::format("--lock-step: {}: bus.produces_sync = false, expected true", options.machine));
     }
     const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};

@@ -211,7 +211,7 @@ std::optional<MachineBus> machine_bus(const std::string& file, const firmware::M
         return std::nullopt;
     }
     check_bus(file, settings.drives);
-    return MachineBus{settings.drives, settings.feed_override, settings.program, local};
+    return MachineBus{settings.drives, settings.produces_sync, settings.feed_override, settings.program, local};
 }
 
 }  // namespace millforce::host

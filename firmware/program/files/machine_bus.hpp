@@ -12,6 +12,7 @@ namespace millforce::host {
 /// this computer that belong to it.
 struct MachineBus {
     cia402::BusSettings drives{};
+    bool produces_sync = false;
     override_frame::OverrideSenderSettings feed_override{};
     program_status::ProgramStatusReceiverSettings program{};
     LocalIoKeys local{};

@@ -180,8 +180,7 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
     Listener listener(on_tick, ticks_);
     CandumpLines lines(settings_.log);
     firmware::CanControllerSettings settings;
-    settings.drives = settings_.bus.drives;
-    settings.drives.produces_sync = false;  // every SYNC of the log counts
+    settings.drives = settings_.bus.drives;  // produces_sync stays false: every SYNC of the log counts
     settings.feed_override = settings_.bus.feed_override;
     settings.program = settings_.bus.program;
     settings.begins_at_once = !has_start_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cia402/drive_bus.hpp>
+#include <cia402/sync_producer.hpp>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -42,19 +43,37 @@ inline DriveSettings axis_drive(std::uint8_t node_id) {
     return drive;
 }
 
-/// Spindle at node 1, x at node 2; the driver is master and produces SYNC.
+/// Spindle at node 1, x at node 2; the driver is master.
 inline BusSettings two_drives() {
     BusSettings settings;
     settings.is_master = true;
-    settings.produces_sync = true;
     settings.drives[0] = spindle_drive(1);
     settings.drives[1] = axis_drive(2);
     return settings;
 }
 
+/// A SYNC that this side sends; the bus takes it as it goes out.
+class OwnSync {
+  public:
+    explicit OwnSync(const BusSettings& settings) : producer_(settings.sync_id, settings.sync_period_us) {}
+
+    /// True where one goes out, in `frame`.
+    bool poll(DriveBus& bus, std::uint64_t now_us, hal::CanFrame& frame) {
+        if (!producer_.poll(now_us) || !producer_.take_frame(frame)) {
+            return false;
+        }
+        bus.on_frame(frame, now_us);
+        return true;
+    }
+
+  private:
+    SyncProducer producer_;
+};
+
 class BusBench {
   public:
-    explicit BusBench(const BusSettings& settings) : bus(settings) {
+    explicit BusBench(const BusSettings& settings, bool produces_sync = true)
+        : bus(settings), produces_sync_(produces_sync), sync_(settings) {
         master_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { bus.on_frame(frame, t); });
     }
 
@@ -85,6 +104,9 @@ class BusBench {
     void step() {
         bus.poll(now_us);
         hal::CanFrame frame;
+        if (produces_sync_ && sync_.poll(bus, now_us, frame)) {
+            wire.send(master_, frame, now_us);
+        }
         while (bus.take_frame(frame)) {
             wire.send(master_, frame, now_us);
         }
@@ -101,6 +123,8 @@ class BusBench {
         }
     }
 
+    bool produces_sync_;
+    OwnSync sync_;
     int master_ = 0;
     std::vector<int> places_{};
 };
@@ -108,7 +132,8 @@ class BusBench {
 /// With both drives powered and heartbeats at 20 ms.
 class TwoDrives : public BusBench {
   public:
-    explicit TwoDrives(const BusSettings& settings = two_drives()) : BusBench(settings) {
+    explicit TwoDrives(const BusSettings& settings = two_drives(), bool produces_sync = true)
+        : BusBench(settings, produces_sync) {
         add_drive({1, 12.0, 8.0, 20});
         add_drive({2, 10.0, 6.0, 20});
     }

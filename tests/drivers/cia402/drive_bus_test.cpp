@@ -263,10 +263,9 @@ TEST(DriveBus, an_aborted_write_is_a_refusal_with_its_code_and_is_tried_again) {
 TEST(DriveBus, a_listener_sends_nothing_and_reads_what_the_cnc_started) {
     BusSettings settings = two_drives();
     settings.is_master = false;
-    settings.produces_sync = false;
     settings.drives[0].rated_current_A = 12.0F;
     settings.drives[1].rated_current_A = 10.0F;
-    TwoDrives machine(settings);
+    TwoDrives machine(settings, false);
     const int cnc = machine.wire.attach([](const hal::CanFrame&, std::uint64_t) {});
     machine.spindle().set_current_A(6.0);
     machine.run_ms(5);
@@ -381,18 +380,4 @@ TEST(DriveBus, by_event_pdos_are_used_until_they_are_stale) {
     DOUBLES_EQUAL(6.0, machine.samples.back().spindle_current_A, 1e-5);
     machine.run_ms(5);
     CHECK_FALSE(has(machine.samples.back(), hal::Present::spindle_current));
-}
-
-TEST(DriveBus, a_producer_that_was_polled_late_sends_one_sync_not_a_burst) {
-    DriveBus bus(two_drives());
-    hal::CanFrame sent;
-    int syncs = 0;
-    for (const std::uint64_t now_us : {1000ULL, 2000ULL, 9500ULL, 9600ULL, 10'000ULL}) {
-        bus.poll(now_us);
-        while (bus.take_frame(sent)) {
-            syncs += sent.id == cob_id::sync ? 1 : 0;
-        }
-    }
-    LONGS_EQUAL(4, syncs);
-    UNSIGNED_LONGS_EQUAL(6, bus.health().syncs_skipped);
 }

@@ -65,6 +65,7 @@ TEST(HostileFrames, every_id_and_every_length_is_used_or_counted) {
 TEST(HostileFrames, fuzz_never_gives_a_value_that_is_not_finite_or_beyond_its_limit) {
     std::mt19937 random(20240711);
     DriveBus bus(two_drives());
+    OwnSync sync(two_drives());
     std::uint64_t now_us = 0;
     hal::DriveSample sample;
     int samples = 0;
@@ -73,6 +74,7 @@ TEST(HostileFrames, fuzz_never_gives_a_value_that_is_not_finite_or_beyond_its_li
         now_us += random() % 100;
         bus.poll(now_us);
         hal::CanFrame sent;
+        sync.poll(bus, now_us, sent);
         while (bus.take_frame(sent)) {
             CHECK(sent.length <= 8 && sent.id <= 0x7FF);
         }
@@ -106,12 +108,14 @@ TEST(HostileFrames, a_running_bus_keeps_its_drives_while_strangers_shout) {
 TEST(HostileFrames, times_that_run_backwards_or_leap_do_no_harm) {
     std::mt19937_64 random(11);
     DriveBus bus(two_drives());
+    OwnSync sync(two_drives());
     for (int k = 0; k < 100'000; ++k) {
         const std::uint64_t time_us = random() >> (random() % 64U);
         bus.poll(time_us);
         std::mt19937 content(static_cast<unsigned>(random()));
         bus.on_frame(nearly_right(content), time_us);
         hal::CanFrame sent;
+        sync.poll(bus, time_us, sent);
         int frames = 0;
         while (bus.take_frame(sent)) {
             ++frames;

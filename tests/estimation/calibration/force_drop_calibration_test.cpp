@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation_calibration/force_drop_calibration.hpp"
 
-#include "estimation/face_mill_signal.hpp"
+#include "estimation/force_drop/face_mill_signal.hpp"
 
 #include <CppUTest/TestHarness.h>
 

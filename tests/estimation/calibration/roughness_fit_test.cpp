@@ -2,7 +2,7 @@
 #include "estimation_calibration/roughness_fit.hpp"
 
 #include "estimation/calibration/roughness_cuts.hpp"
-#include "estimation/surface/roughness_impl.hpp"
+#include "estimation_calibration/roughness_in_double.hpp"
 
 #include <Eigen/LU>  // before CppUTest, which makes `new` a macro
 

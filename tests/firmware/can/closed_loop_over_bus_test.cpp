@@ -26,7 +26,7 @@ std::vector<std::string> replayed(const ControllerOnLoopback& run, const sim::Sc
                                   std::uint64_t late_us = 0) {
     firmware::CanControllerSettings settings =
         controller_settings(host::read_machine_bus(scenario.machine_file).value());
-    settings.drives.produces_sync = false;
+    settings.produces_sync = false;
     TickLog ticks;
     firmware::CanController controller(settings, scenario.parameters, &ticks);
     for (const LoggedFrame& logged : run.log) {

@@ -46,6 +46,7 @@ class TickLog final : public firmware::TickListener {
 inline firmware::CanControllerSettings controller_settings(const host::MachineBus& bus) {
     firmware::CanControllerSettings settings;
     settings.drives = bus.drives;
+    settings.produces_sync = bus.produces_sync;
     settings.feed_override = bus.feed_override;
     settings.program = bus.program;
     return settings;

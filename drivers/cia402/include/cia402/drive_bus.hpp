@@ -10,7 +10,6 @@
 #include "cia402/drive_settings.hpp"
 #include "cia402/rejects.hpp"
 #include "cia402/sync_clock.hpp"
-#include "cia402/sync_producer.hpp"
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/drive_source.hpp"
@@ -19,11 +18,12 @@
 ///
 ///     while (...) {
 ///         bus.on_frame(frame, frame_time_us);        // each received frame
-///         bus.poll(now_us);                          // at least once per SYNC period; as producer at next_event_us()
+///         bus.poll(now_us);                          // at least once per SYNC period
 ///         while (bus.take_frame(frame)) { ... }      // send; what cannot be sent is dropped, the bus repeats itself
 ///         if (bus.take_sample(sample)) { ... }       // run the tick
 ///     }
 ///
+/// SYNC comes by on_frame(), whoever produces it: a SyncProducer of this computer, too, by its echo from the bus.
 /// What another source knows of a SYNC period (BusSettings::beside_bus) is given by add() once the SYNC is there.
 ///
 /// A pure state machine: no clock, no operating system, no heap, no exceptions. Times are µs of any clock that does not
@@ -37,9 +37,8 @@
 namespace millforce::cia402 {
 
 struct BusHealth {
-    bool sync_lost = false;  ///< no SYNC for three periods (consumer), or none yet
+    bool sync_lost = false;  ///< no SYNC for three periods, or none yet
     std::uint32_t syncs = 0;
-    std::uint32_t syncs_skipped = 0;       ///< producer: poll() came a period or more too late
     std::uint32_t samples_untaken = 0;     ///< a sample was overwritten by the next
     std::uint32_t samples_incomplete = 0;  ///< handed over with a PDO missing
 };
@@ -63,7 +62,7 @@ class DriveBus final : public hal::DriveSource {
     [[nodiscard]] hal::SourceState state() const override;
     /// Drives have not answered the last SYNC yet.
     [[nodiscard]] bool is_collecting() const { return cycle_open_; }
-    /// When poll() has something to do at the latest: the next SYNC, or the end of collection.
+    /// When poll() has something to do at the latest: within a SYNC period, or at the end of collection.
     [[nodiscard]] std::uint64_t next_event_us(std::uint64_t now_us) const;
 
     /// Ids that on_frame() can use, for the controller's or the kernel's filters; returns how many.
@@ -88,7 +87,6 @@ class DriveBus final : public hal::DriveSource {
     RejectCounters rejects_{};
     BusHealth health_{};
     SyncClock sync_clock_;
-    SyncProducer sync_producer_;
     hal::DriveSample sample_{};
     hal::DriveSample beside_bus_{};  ///< of the SYNC period in work
     bool has_beside_bus_ = false;

@@ -81,7 +81,6 @@ struct BusSettings {
     /// Master: reads and writes objects at start (SDO) and starts the nodes (NMT). Else a listener that sends nothing
     /// of the two: the CNC is the master, and all rated values are given.
     bool is_master = false;
-    bool produces_sync = false;
     std::uint32_t sync_id = cob_id::sync;
     std::uint32_t sync_period_us = 1000;
     /// A sample is handed over when all PDOs of its SYNC have arrived, at the latest after this time.

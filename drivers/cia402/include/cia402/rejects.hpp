@@ -22,7 +22,6 @@ enum class Reject : std::uint8_t {
     position_step,        ///< a position or count moved more than the drive can
     units_disagree,       ///< position and velocity give different speeds: one of the units is wrong
     sync_length,          ///< SYNC carries 0 or 1 bytes
-    sync_foreign,         ///< SYNC by another while this driver produces it
     sync_early,           ///< less than half a period after the last: a duplicate
     heartbeat_malformed,  ///< not one byte, or no NMT state
     emergency_malformed,  ///< not eight bytes

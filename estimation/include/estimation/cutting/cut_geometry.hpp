@@ -40,7 +40,7 @@ EngagementAngles<Scalar> engagement_angles(CutSide side, Scalar radial_immersion
         case CutSide::up:
             return {Scalar(0), acos(Scalar(1) - immersion)};
         case CutSide::centred: {
-            const Scalar half = immersion * Scalar(0.5);
+            const Scalar half = halved(immersion);
             return {acos(clamp(centre_offset_in_radii + half, Scalar(-1), Scalar(1))),
                     acos(clamp(centre_offset_in_radii - half, Scalar(-1), Scalar(1)))};
         }

@@ -89,7 +89,7 @@ EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles
     if (!(delta > Scalar(0))) {
         return {};
     }
-    const Scalar half = delta * Scalar(0.5);
+    const Scalar half = halved(delta);
     const Scalar middle = angles.entry_rad + half;
     const Scalar sine_of_delta = sin(delta);
     EngagementIntegrals<Scalar> result;
@@ -97,8 +97,8 @@ EngagementIntegrals<Scalar> engagement_integrals(EngagementAngles<Scalar> angles
     result.mean_sine = sin(middle) * (sin(half) / half);
     result.c = result.mean_sine * delta;
     result.d = Scalar(2) * cos(middle) * sin(half);
-    result.s = Scalar(0.5) * sin(middle + middle) * sine_of_delta;
-    result.b = Scalar(0.5) * (delta - cos(middle + middle) * sine_of_delta);
+    result.s = halved(sin(middle + middle)) * sine_of_delta;
+    result.b = halved(delta - cos(middle + middle) * sine_of_delta);
     return result;
 }
 

@@ -72,7 +72,8 @@ int ForceIndexFinder<Scalar, Channels, Bins>::sharpest(Scalar sign, Scalar middl
 template <typename Scalar, int Channels, int Bins>
 Scalar ForceIndexFinder<Scalar, Channels, Bins>::begin_of_valley(Scalar valley, int valley_bin, int lowest,
                                                                  int highest) const {
-    const Scalar level = at(lowest) + literal<Scalar>(0.003L) * (at(highest) - at(lowest));
+    constexpr Scalar share_of_floor = literal<Scalar>(0.003L);  // of the range: no force of a flute, but ripple
+    const Scalar level = at(lowest) + share_of_floor * (at(highest) - at(lowest));
     int floor_bins = 0;
     while (floor_bins < Bins && at(valley_bin - span_ - floor_bins) <= level) {
         ++floor_bins;
@@ -84,17 +85,21 @@ Scalar ForceIndexFinder<Scalar, Channels, Bins>::begin_of_valley(Scalar valley, 
     return Scalar(begin < 0 ? begin + Bins : begin);
 }
 
-/// The hump of the bend around a bin, as its centre.
+/// The hump of the bend around a bin, as the centre of what stands above 0.6 of it: its flanks belong to what is beside
+/// the corner.
 template <typename Scalar, int Channels, int Bins>
 Scalar ForceIndexFinder<Scalar, Channels, Bins>::corner(Scalar sign, int b) const {
+    constexpr Scalar share_of_top{0.6F};
     const Scalar most = sign * bend(b);
-    return centre(b, [&](int near) { return sign * bend(near) - Scalar(0.6F) * most; });
+    return centre(b, [&](int near) { return sign * bend(near) - share_of_top * most; });
 }
 
-/// The maximum as the centre of what stands above 0.98 of it, counted from the middle of the profile's range.
+/// The maximum as the centre of what stands above 0.98 of it, counted from the middle of the profile's range: one bin
+/// alone would be the noise's choice, and lower down the slopes beside it differ.
 template <typename Scalar, int Channels, int Bins>
 Scalar ForceIndexFinder<Scalar, Channels, Bins>::smooth_peak(int highest, Scalar middle) const {
-    const Scalar level = middle + literal<Scalar>(0.98L) * (at(highest) - middle);
+    constexpr Scalar share_of_peak = literal<Scalar>(0.98L);
+    const Scalar level = middle + share_of_peak * (at(highest) - middle);
     return centre(highest, [&](int b) { return at(b) - level; });
 }
 

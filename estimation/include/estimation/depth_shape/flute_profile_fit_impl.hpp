@@ -110,7 +110,8 @@ Phasor<Scalar> FluteProfileFit<Scalar, Harmonics>::response(const Spectrum& spec
 /// A harmonic of which the low-pass leaves less than a fifth is not used: its response is not known well enough.
 template <typename Scalar, int Harmonics>
 bool FluteProfileFit<Scalar, Harmonics>::passes(const Spectrum& spectrum, int k) const {
-    return squared_length(response(spectrum, k)) > literal<Scalar>(0.04L);
+    constexpr Scalar least_squared = literal<Scalar>(0.04L);  // (1/5)²
+    return squared_length(response(spectrum, k)) > least_squared;
 }
 
 template <typename Scalar, int Harmonics>

@@ -91,6 +91,9 @@ class ForceDrop {
     using Closures = std::array<Closure, closing_nodes + 2 * closing_halvings>;
 
     static constexpr Scalar place_sd_rad = literal<Scalar>(0.03L);
+    /// How far off the first θ may be, with the other edge still in the drop: it is searched for within this share of θ
+    /// to either side. The closing nodes are then about place_sd_rad apart at a θ of 1 rad.
+    static constexpr Scalar first_share_in_doubt = literal<Scalar>(0.2L);
 
     Closure close_at(Scalar theta_rad, Scalar feed_per_tooth_mm, const ForceJump<Scalar>& first);
     [[nodiscard]] static Scalar misfit(const Closure& closure, Scalar least_residual_N2);

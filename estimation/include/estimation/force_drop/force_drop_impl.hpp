@@ -79,7 +79,7 @@ void ForceDrop<Scalar, Bins>::estimate_profile(Scalar feed_per_tooth_mm) {
         return;
     }
     estimate_from(jump_, feed_per_tooth_mm, first_rad);
-    const Scalar reach = literal<Scalar>(0.2L) * first_rad;
+    const Scalar reach = first_share_in_doubt * first_rad;
     if (other_edge_acts_between(first_rad - reach, first_rad + reach)) {
         close_other_edge(first_rad, reach, feed_per_tooth_mm);
     }
@@ -186,8 +186,11 @@ std::size_t ForceDrop<Scalar, Bins>::best_of(const Closures& tried) {
 /// other tooth takes along at its exit points as the jump does, and the two are harder to distinguish.
 template <typename Scalar, int Bins>
 bool ForceDrop<Scalar, Bins>::is_ambiguous(const Closures& tried, const Closure& best) const {
-    constexpr Scalar far_rad = literal<Scalar>(0.12L);
-    const Scalar nearly = measurement_.side == CutSide::up ? Scalar(0.5F) : Scalar(1.25F);
+    constexpr Scalar far_rad = literal<Scalar>(0.12L);  // four times place_sd_rad: no neighbour of the best
+    // A misfit is a sum of squared deviations, and exp(−Δ/2) the likelihood beside the best: 0.78 and 0.54 of it.
+    constexpr Scalar nearly_in_up_milling{0.5F};
+    constexpr Scalar nearly_in_down_milling{1.25F};
+    const Scalar nearly = measurement_.side == CutSide::up ? nearly_in_up_milling : nearly_in_down_milling;
     const Scalar least = least_residual_N2(tried);
     bool ambiguous = false;
     for (const Closure& closure : tried) {

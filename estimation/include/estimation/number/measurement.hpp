@@ -18,7 +18,7 @@ constexpr Scalar square(Scalar value) {
     return value * value;
 }
 
-/// In fixed point a shift (found by ADL), not a product.
+/// By a product: a division costs several.
 template <typename Scalar>
 constexpr Scalar halved(Scalar value) {
     return value * Scalar(0.5F);

@@ -72,15 +72,6 @@ struct RoughnessModel {
     static constexpr std::size_t pair(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
 };
 
-/// The two-sided 95 % quantile of the normal distribution.
-template <typename Scalar>
-inline constexpr Scalar normal_975 = literal<Scalar>(1.9599640L);
-
-/// The two-sided 95 % quantile of Student's t. Cornish–Fisher to the fourth order (Abramowitz & Stegun 26.7.5), exact
-/// for 1 and 2 degrees of freedom; from 3 on within 0.13 %, from 10 on within 0.002 %. NaN below 1.
-template <typename Scalar>
-Scalar student_t_975(Scalar degrees_of_freedom);
-
 /// |F_x/F_z| with its variance. No estimate where either force is missing or lies within three standard deviations of
 /// zero: the ratio of such numbers has no bounded interval. Signs are the axes' business: a ball end presses down.
 template <typename Scalar>
@@ -164,8 +155,6 @@ class RoughnessPredictor {
     bool has_interval_ = false;
 };
 
-extern template float student_t_975(float);
-extern template Fixed student_t_975(Fixed);
 extern template Measurement<float> force_ratio(const Measurement<float>&, const Measurement<float>&);
 extern template Measurement<Fixed> force_ratio(const Measurement<Fixed>&, const Measurement<Fixed>&);
 extern template class RoughnessPredictor<float>;

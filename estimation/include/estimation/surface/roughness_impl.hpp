@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of roughness.hpp. src/roughness.cpp instantiates them for float and Fixed; calibration takes them for double.
+// Bodies of roughness.hpp. src/roughness.cpp instantiates them for float and Fixed, the calibration for double.
 
 #include "estimation/number/elementary.hpp"
 #include "estimation/number/finite.hpp"
+#include "estimation/number/student_t.hpp"
 #include "estimation/surface/roughness.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace millforce::estimation {
-
-template <typename Scalar>
-Scalar student_t_975(Scalar degrees_of_freedom) {
-    const Scalar nu = degrees_of_freedom;
-    if (!(nu >= Scalar(1))) {
-        return std::numeric_limits<Scalar>::quiet_NaN();
-    }
-    if (nu < Scalar(3)) {
-        return nu < Scalar(2) ? literal<Scalar>(12.706205L) : literal<Scalar>(4.302653L);
-    }
-    const Scalar x = Scalar(1) / nu;
-    return normal_975<Scalar> + x * (literal<Scalar>(2.3722712L) +
-                                     x * (literal<Scalar>(2.8224986L) +
-                                          x * (literal<Scalar>(2.5558497L) + x * literal<Scalar>(1.5895341L))));
-}
 
 template <typename Scalar>
 Measurement<Scalar> force_ratio(const Measurement<Scalar>& f_x, const Measurement<Scalar>& f_z) {

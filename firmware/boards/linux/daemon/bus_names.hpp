@@ -33,11 +33,10 @@ constexpr const char* name(socketcan::LinkState state) {
 
 constexpr const char* name(cia402::Reject reason) {
     constexpr const char* names[] = {
-        "foreign_id",          "not_standard_data", "frame_length",        "pdo_length",
-        "pdo_not_operational", "pdo_late",          "pdo_repeated",        "current_range",
-        "velocity_range",      "position_step",     "units_disagree",      "sync_length",
-        "sync_foreign",        "sync_early",        "heartbeat_malformed", "emergency_malformed",
-        "sdo_malformed",       "sdo_unexpected",    "sdo_value_range"};
+        "foreign_id",     "not_standard_data", "frame_length",   "pdo_length",          "pdo_not_operational",
+        "pdo_late",       "pdo_repeated",      "current_range",  "velocity_range",      "position_step",
+        "units_disagree", "sync_length",       "sync_early",     "heartbeat_malformed", "emergency_malformed",
+        "sdo_malformed",  "sdo_unexpected",    "sdo_value_range"};
     static_assert(sizeof names / sizeof names[0] == cia402::reject_reasons);
     return names[static_cast<std::size_t>(reason) % cia402::reject_reasons];
 }

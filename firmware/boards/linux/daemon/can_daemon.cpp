@@ -19,6 +19,7 @@ constexpr std::uint64_t farewell_us = 40'000;
 firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
     firmware::CanControllerSettings settings;
     settings.drives = bus.drives;
+    settings.produces_sync = bus.produces_sync;
     settings.feed_override = bus.feed_override;
     settings.program = bus.program;
     return settings;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stm32_h405/analogue_controller.hpp"
 
-#include <algorithm>
-
+#include "hal/cia301.hpp"
 #include "hal/tick_watch.hpp"
 
 namespace millforce::stm32_h405 {
 
+namespace cia301 = hal::cia301;
 using emergency::error_code;
 using emergency::Reason;
 
 namespace {
 
 constexpr std::uint32_t can_patience = 100'000;  // polls until the CAN controller counts as absent
-constexpr float at_rest_mm_s = 0.5F;
 
 float seconds(std::uint64_t microseconds) {
     return static_cast<float>(microseconds) * 1e-6F;
@@ -113,10 +112,7 @@ void AnalogueController::run_tick(std::uint64_t now_us) {
 }
 
 bool AnalogueController::is_at_rest() const {
-    return sample_.present == drives_.complete() &&
-           std::all_of(sample_.axis_velocity_mm_s.begin(), sample_.axis_velocity_mm_s.end(), [](float velocity_mm_s) {
-               return velocity_mm_s < at_rest_mm_s && velocity_mm_s > -at_rest_mm_s;
-           });
+    return sample_.present == drives_.complete() && hal::axes_rest(sample_.axis_velocity_mm_s);
 }
 
 hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
@@ -144,14 +140,12 @@ bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {
 }
 
 bool AnalogueController::send_last_words(Reason reason, std::uint32_t detail) {
-    constexpr std::uint32_t heartbeat_id = 0x700;
-    constexpr std::uint8_t stopped = 4;
     output_.hold = true;
     ++output_.heartbeat;
     hal::CanFrame heartbeat;
-    heartbeat.id = heartbeat_id + wiring_.feed_override.node_id;
+    heartbeat.id = cia301::cob_id::heartbeat + wiring_.feed_override.node_id;
     heartbeat.length = 1;
-    heartbeat.data[0] = stopped;
+    heartbeat.data[0] = byte_of(cia301::NmtState::stopped);
     return can_.send(override_frame::encode(output_, wiring_.feed_override.id)) && can_.send(heartbeat) &&
            can_.send(emergencies_.frame_of(reason, error_code(reason), detail));
 }

@@ -46,6 +46,7 @@ namespace millforce::firmware {
 
 struct CanControllerSettings {
     cia402::BusSettings drives{};  ///< check(drives) == none
+    bool produces_sync = false;    ///< else the CNC or a drive does
     override_frame::OverrideSenderSettings feed_override{};
     program_status::ProgramStatusReceiverSettings program{};
     /// Begin with the first frame: a replay of a log that holds no boot-up.

@@ -59,7 +59,7 @@ TEST(MachineBusFile, every_mapping_order_width_and_unit_arrives_as_written) {
     const MachineBus read_bus = read(bus).value();
     const cia402::DriveSettings& drive = read_bus.drives.drives[0];
     CHECK(read_bus.drives.is_master);
-    CHECK_FALSE(read_bus.drives.produces_sync);
+    CHECK_FALSE(read_bus.produces_sync);
     UNSIGNED_LONGS_EQUAL(0x81, read_bus.drives.sync_id);
     UNSIGNED_LONGS_EQUAL(1000, read_bus.drives.sync_period_us);
     UNSIGNED_LONGS_EQUAL(0x185, drive.pdos[0].id);

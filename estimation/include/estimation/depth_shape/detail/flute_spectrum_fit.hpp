@@ -11,7 +11,7 @@
 
 /// Weighted least squares of a measured profile's Fourier lines against FluteSpectrum, around one starting point.
 /// The force law's coefficients are linear: at each point they are solved for, and what is minimised over sweep,
-/// engagement and shift is what they leave (variable projection, Gauss–Newton with halved steps). Bodies:
+/// engagement and shift is what they leave (variable projection, Gauss–Newton with steps shortened). Bodies:
 /// flute_spectrum_fit_impl.hpp.
 
 namespace millforce::estimation {

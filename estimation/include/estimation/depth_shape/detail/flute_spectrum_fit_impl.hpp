@@ -239,10 +239,11 @@ template <typename Scalar, int Harmonics>
 bool FluteSpectrumFit<Scalar, Harmonics>::step(const Point& change, const FluteLimits<Scalar>& limits,
                                                const FluteKnowledge<Scalar>& knowledge, Scalar scale, State& state,
                                                Minimum& minimum) const {
-    constexpr int most_halvings = 5;
+    constexpr int most_tries = 5;
+    constexpr Scalar shorter = literal<Scalar>(0.4L);  // the last try is 1/40 of the step: with halves it were 1/16
     constexpr Scalar longest_rad = literal<Scalar>(0.2L);
     Scalar share{1};
-    for (int halving = 0; halving < most_halvings; ++halving) {
+    for (int k = 0; k < most_tries; ++k) {
         Point trial = minimum.point;
         for (int j = 0; j < 3; ++j) {
             const Scalar moved = trial(j) + share * clamp(change(j), -longest_rad, longest_rad);
@@ -257,7 +258,7 @@ bool FluteSpectrumFit<Scalar, Harmonics>::step(const Point& change, const FluteL
             state = at_trial;
             return go_on;
         }
-        share *= literal<Scalar>(0.4L);
+        share *= shorter;
     }
     return false;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/cutting/peak_factors.hpp"
 
-#include "laws.hpp"
+#include "estimation/laws.hpp"
 
 #include <CppUTest/TestHarness.h>
 

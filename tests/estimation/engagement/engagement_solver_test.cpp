@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/engagement/engagement_solver_impl.hpp"
 
-#include "laws.hpp"
+#include "estimation/laws.hpp"
 
 #include <CppUTest/TestHarness.h>
 

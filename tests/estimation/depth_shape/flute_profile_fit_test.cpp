@@ -2,8 +2,8 @@
 #include "estimation/depth_shape/flute_profile_fit.hpp"
 
 #include "estimation/depth_shape/depth_monitor.hpp"
+#include "estimation/depth_shape/flute_force.hpp"
 #include "estimation/depth_shape/flute_profile_impl.hpp"
-#include "flute_force.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/force_drop/force_drop_immersion.hpp"
 
-#include "face_mill_signal.hpp"
+#include "estimation/force_drop/face_mill_signal.hpp"
 
 #include <CppUTest/TestHarness.h>
 

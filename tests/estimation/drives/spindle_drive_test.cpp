@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimation/drives/spindle_drive.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+
+using namespace millforce::estimation;
+
+namespace {
+
+SpindleDriveParameters<double> paper_spindle() {
+    SpindleDriveParameters<double> p;
+    p.K_t1_Nm_per_A = 196.61 * 0.004;  // Kim & Chung Eq. 8 at R = 4 mm
+    p.K_t2_Nm = -1911.0 * 0.004;
+    return p;
+}
+
+SpindleDrive<double>::Average at_current(double current_A, double speed_rad_s = 131.9) {
+    return {.current_A = current_A, .speed_rad_s = speed_rad_s, .samples = 40.0, .present = true};
+}
+
+}  // namespace
+
+TEST_GROUP(SpindleDrive){};
+
+TEST(SpindleDrive, gives_the_papers_force_and_none_at_its_idle_current) {
+    const SpindleDrive<double> drive(paper_spindle());
+    DOUBLES_EQUAL(196.61 * 15.0 - 1911.0, drive.tangential_force_N(at_current(15.0), 4.0).value, 1e-6);
+    DOUBLES_EQUAL(0.0, drive.tangential_force_N(at_current(9.7197), 4.0).value, 0.05);
+}
+
+TEST(SpindleDrive, takes_the_rotors_inertia_out) {
+    auto p = paper_spindle();
+    p.inertia_kg_m2 = 0.01;
+    const SpindleDrive<double> drive(p);
+    auto braking = at_current(12.0);
+    braking.acceleration_rad_s2 = -20.0;  // the rotor gives 0.2 N·m to the cut
+    DOUBLES_EQUAL(0.2 / 0.004,
+                  drive.tangential_force_N(braking, 4.0).value - drive.tangential_force_N(at_current(12.0), 4.0).value,
+                  1e-6);
+}
+
+TEST(SpindleDrive, gives_less_torque_per_ampere_in_field_weakening) {
+    auto p = paper_spindle();
+    p.K_t2_Nm = 0.0;
+    p.base_speed_rad_s = 200.0;
+    const SpindleDrive<double> drive(p);
+    const double below = drive.tangential_force_N(at_current(10.0, 150.0), 4.0).value;
+    const double above = drive.tangential_force_N(at_current(10.0, 400.0), 4.0).value;
+    DOUBLES_EQUAL(0.5, above / below, 1e-9);
+}
+
+TEST(SpindleDrive, learns_its_idle_torque_in_air_and_doubts_it_again_with_time) {
+    SpindleDrive<double> drive(paper_spindle());
+    const double before = drive.tangential_force_N(at_current(9.0), 4.0).variance;
+    for (int k = 0; k < 50; ++k) {
+        drive.rezero(at_current(9.0));
+    }
+    const auto rezeroed = drive.tangential_force_N(at_current(9.0), 4.0);
+    DOUBLES_EQUAL(0.0, rezeroed.value, 10.0);
+    CHECK(rezeroed.variance < before);
+    drive.predict(100.0);
+    CHECK(drive.tangential_force_N(at_current(9.0), 4.0).variance > rezeroed.variance);
+}
+
+TEST(SpindleDrive, does_not_take_an_inertia_that_is_off_for_idle_torque_while_it_runs_up) {
+    auto p = paper_spindle();
+    p.inertia_kg_m2 = 0.004;
+    SpindleDrive<double> drive(p);
+    auto running_up = at_current(9.7197 + 1.1 * 20.0 / p.K_t1_Nm_per_A);
+    running_up.acceleration_rad_s2 = 5000.0;  // 20 N·m by the inertia that is told, a tenth less than the true one
+    drive.rezero(running_up);
+    CHECK(std::abs(drive.drift_Nm()) < 0.02);
+}
+
+TEST(SpindleDrive, does_not_learn_a_dead_current_as_idle_torque) {
+    SpindleDrive<double> drive(paper_spindle());  // idle torque known to 0.2 N·m of 7.6 N·m
+    drive.rezero(at_current(0.0));
+    CHECK(drive.is_implausible());
+    DOUBLES_EQUAL(0.0, drive.drift_Nm(), 1e-12);
+    CHECK_FALSE(drive.tangential_force_N(at_current(15.0), 4.0).valid);
+    drive.rezero(at_current(9.8));
+    CHECK_FALSE(drive.is_implausible());
+    CHECK(drive.tangential_force_N(at_current(15.0), 4.0).valid);
+}
+
+TEST(SpindleDrive, has_no_estimate_without_current_or_rotation) {
+    const SpindleDrive<double> drive(paper_spindle());
+    auto absent = at_current(12.0);
+    absent.present = false;
+    CHECK_FALSE(drive.tangential_force_N(absent, 4.0).valid);
+    CHECK_FALSE(drive.tangential_force_N(at_current(12.0, 0.0), 4.0).valid);
+}
