@@ -35,7 +35,7 @@ Outcome run(const Part& part, SignalFault fault, std::uint64_t seed);
 
 /// What the runs of one fault came to.
 struct Tally {
-    int runs = 0;         ///< in which the fault began before the part's end
+    int runs = 0;          ///< in which the fault began before the part's end
     int broken_parts = 0;  ///< a tooth broke
     int over = 0;          ///< peak more than 10 % beyond the limit
     int faults = 0;        ///< latched at the end

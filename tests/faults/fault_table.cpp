@@ -8,8 +8,8 @@
 
 #include "faults/campaign.hpp"
 
-/// Prints what faults at the tick's input lead to: fault_table [RUNS] [FIRST_SEED] [PART…], RUNS for each fault and part;
-/// a part's name with :spindle is the machine whose axes' currents nobody reads.
+/// Prints what faults at the tick's input lead to: fault_table [RUNS] [FIRST_SEED] [PART…], RUNS for each fault and
+/// part; a part's name with :spindle is the machine whose axes' currents nobody reads.
 
 namespace {
 

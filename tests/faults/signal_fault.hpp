@@ -65,7 +65,7 @@ class FaultyMachine : public sim::OverrideSource {
 
     /// What the controller did about it. It has reacted where it holds the feed, or has a fault.
     struct Reaction {
-        bool has_begun = false;   ///< the part was not over before
+        bool has_begun = false;  ///< the part was not over before
         bool has_reacted = false;
         double after_s = 0.0;
         std::uint8_t fault = 0;  ///< control::Fault
