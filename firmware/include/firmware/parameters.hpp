@@ -97,7 +97,7 @@ struct ForceSensorParameters {
 /// Radial immersion from force drops. The law's `valid` is left to who uses it: no largest immersion, no law.
 template <typename Scalar>
 struct ForceDropParameters {
-    estimation::ForceDropLaw<Scalar> law{.largest_immersion = Scalar(0)};
+    estimation::ForceDropLaw<Scalar> law{};
     std::uint16_t revolutions{4};
 };
 
@@ -125,8 +125,7 @@ struct ToolParameters {
     Scalar break_share{static_cast<Scalar>(1.5L)};
     Scalar declared_axial_depth_mm{0};
     Scalar law_relative_sd{static_cast<Scalar>(0.02L)};
-    estimation::CuttingLaw<Scalar> law{.K_s_relative_sd = static_cast<Scalar>(0.05L),
-                                       .r_1_relative_sd = static_cast<Scalar>(0.05L)};
+    estimation::CuttingLaw<Scalar> law{};
     control::FeedControllerParameters<Scalar> control{};
     bool monitor_only{false};
     estimation::RoughnessModel<Scalar> roughness{};
