@@ -8,6 +8,7 @@
 #include "estimation/drives/spindle_drive.hpp"
 #include "estimation/force_drop/force_drop_law.hpp"
 #include "estimation/surface/roughness.hpp"
+#include "hal/drive_wiring.hpp"
 
 #include <array>
 #include <cstddef>
@@ -29,9 +30,9 @@ struct CncParameters {
     Scalar sample_rate_hz{1000};
 };
 
-enum class CurrentSource : std::uint8_t { current, torque };
-enum class CurrentBasis : std::uint8_t { rms, peak };
-enum class VelocitySource : std::uint8_t { velocity, position };
+using hal::CurrentBasis;
+using hal::CurrentSource;
+using hal::VelocitySource;
 enum class BusRole : std::uint8_t { listener, master };
 
 /// One drive on the bus. Which objects its PDOs carry is text in machine.toml, and no part of this.
@@ -64,14 +65,14 @@ template <typename Scalar>
 struct BusParameters {
     BusRole role{BusRole::listener};
     bool produces_sync{false};
-    std::uint16_t sync_id{0x080};
+    std::uint16_t sync_id{hal::default_sync_id};
     Scalar sync_period_ms{1};
     Scalar collect_time_ms{static_cast<Scalar>(0.8L)};
-    std::uint16_t override_id{0x1FE};
-    std::uint8_t override_node_id{126};
+    std::uint16_t override_id{hal::default_override_id};
+    std::uint8_t override_node_id{hal::default_override_node_id};
     Scalar override_period_ms{2};
     Scalar override_heartbeat_ms{100};
-    std::uint16_t program_status_id{0x1FD};
+    std::uint16_t program_status_id{hal::default_program_status_id};
     Scalar program_status_timeout_ms{100};
     std::array<BusDriveParameters<Scalar>, 4> drives{};  ///< spindle, x, y, z
 };

@@ -8,6 +8,7 @@
 
 #include "bus/canopen_drive.hpp"
 #include "bus/loopback_bus.hpp"
+#include "bus_settings.hpp"
 #include "can_frames.hpp"
 
 /// The driver as master or listener and simulated drives on one bus in memory.
@@ -29,7 +30,7 @@ inline PdoMapping first_pdo(std::uint8_t node_id) {
 }
 
 inline DriveSettings spindle_drive(std::uint8_t node_id) {
-    DriveSettings drive;
+    DriveSettings drive = test::a_drive();
     drive.node_id = node_id;
     drive.pdos[0] = first_pdo(node_id);
     return drive;
@@ -37,14 +38,14 @@ inline DriveSettings spindle_drive(std::uint8_t node_id) {
 
 inline DriveSettings axis_drive(std::uint8_t node_id) {
     DriveSettings drive = spindle_drive(node_id);
-    drive.velocity_source = VelocitySource::position_difference;
+    drive.velocity_source = VelocitySource::position;
     drive.position_mm_per_unit = 0.001F;
     return drive;
 }
 
 /// Spindle at node 1, x at node 2; the driver is master and produces SYNC.
 inline BusSettings two_drives() {
-    BusSettings settings;
+    BusSettings settings = test::a_bus();
     settings.is_master = true;
     settings.produces_sync = true;
     settings.drives[0] = spindle_drive(1);

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "hal/drive_wiring.hpp"
+
 /// Numbers of CiA 301 (CANopen) and CiA 402 (drives) that the driver uses.
 
 namespace millforce::cia402 {
@@ -24,7 +26,7 @@ inline constexpr std::uint16_t current_actual = 0x6078;      ///< I16, per mille
 /// CAN identifiers of the predefined connection set; those with a plus add the node id 1…127.
 namespace cob_id {
 inline constexpr std::uint32_t nmt = 0x000;
-inline constexpr std::uint32_t sync = 0x080;
+inline constexpr std::uint32_t sync = hal::default_sync_id;
 inline constexpr std::uint32_t emergency = 0x080;     ///< +
 inline constexpr std::uint32_t tpdo1 = 0x180;         ///< +, then 0x280, 0x380, 0x480
 inline constexpr std::uint32_t sdo_response = 0x580;  ///< +, server to client
