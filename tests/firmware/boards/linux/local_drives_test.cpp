@@ -22,7 +22,7 @@ class Bench {
         tree.write("adc/in_voltage_scale", "2.0\n");  // mV
         tree.write("count", "4000\n");
         bus.local.device = tree.name("adc");
-        bus.local.mode = 1.0;
+        bus.local.mode = ConverterMode::polled;
         bus.local.drives[0] = {
             .current_channel = "voltage0", .count_file = tree.name("count"), .A_per_V = 10.0, .zero_V = 1.0};
         bus.local.drives[1] = {.current_channel = "voltage3", .count_file = "", .A_per_V = -2.0};
