@@ -220,6 +220,8 @@ estimation::CuttingLaw<double> closed_law(const AverageChipLaw& law) {
     closed.p_s = law.p_s;
     closed.k_1 = law.k_1;
     closed.p_1 = law.p_1;
+    closed.K_s_relative_sd = 0.0;  // the plant cuts by it
+    closed.r_1_relative_sd = 0.0;
     return closed;
 }
 

@@ -6,6 +6,7 @@
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
 #include "estimation_calibration/engagement_solver_in_double.hpp"
+#include "firmware/parameters.hpp"
 #include "reproduce/kim_published.hpp"
 
 #include <fmt/format.h>
@@ -291,6 +292,7 @@ void tally_engagements(const KimCampaign& campaign, const KimUnknownTool& tool, 
     const auto rows = host::forces_of_cuts(stretches, campaign.calibrated);
     estimation::EngagementSolverSettings<double> settings;
     settings.teeth = KimStandardCut::flutes;
+    settings.law_relative_sd = firmware::ToolParameters<double>{}.law_relative_sd;
     const estimation::EngagementSolver<double> solver(tool.fit.law, settings);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto found = solver.solve(measured_forces(rows[k], stretches[2 * k + 1], campaign),

@@ -10,6 +10,7 @@
 #include "firmware/tick.hpp"
 #include "instructions/machine_and_tool.hpp"
 #include "override_frame/override_sender.hpp"
+#include "override_sender_settings.hpp"
 #include "vcan/drives_on_vcan.hpp"
 
 /// Frames lost and the time from SYNC to override, on vcan0: four simulated drives, the controller with the real tick
@@ -79,7 +80,7 @@ class Controller {
 
   private:
     static override_frame::OverrideSenderSettings sender_settings() {
-        override_frame::OverrideSenderSettings settings;
+        override_frame::OverrideSenderSettings settings = test::an_override_sender();
         settings.period_us = 0;
         return settings;
     }

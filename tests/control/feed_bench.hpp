@@ -12,14 +12,27 @@
 
 namespace millforce::control::bench {
 
-using Controller = FeedController<float>;
-using Parameters = FeedControllerParameters<float>;
 using Input = ControlInput<float>;
 using Output = ControlOutput<float>;
 
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float beyond_all = std::numeric_limits<float>::infinity();
 inline constexpr float two_pi = 6.28318530718F;
+
+/// The defaults, and a tool and a CNC: what the firmware's controller_parameters() adds.
+struct Parameters : FeedControllerParameters<float> {
+    Parameters() {
+        tooth_force_limit_N = 1000.0F;
+        teeth = 4.0F;
+        override_min = 0.1F;
+        override_max = 1.5F;
+        stale_s = 0.05F;
+    }
+};
+
+struct Controller : FeedController<float> {
+    explicit Controller(const bench::Parameters& parameters = {}) : FeedController(parameters) {}
+};
 
 /// 400 rad/s with 4 teeth: 254.6 teeth per second, so that 20 mm/s is 0.0785 mm per tooth.
 inline Input in_contact() {

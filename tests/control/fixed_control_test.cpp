@@ -19,6 +19,8 @@ namespace {
 FeedControllerParameters<Fixed> in_fixed(const Parameters& p) {
     FeedControllerParameters<Fixed> q;
     q.tooth_force_limit_N = Fixed(p.tooth_force_limit_N);
+    q.teeth = Fixed(p.teeth);
+    q.stale_s = Fixed(p.stale_s);
     q.override_min = Fixed(p.override_min);
     q.override_max = Fixed(p.override_max);
     q.recovery_per_rev = Fixed(p.recovery_per_rev);

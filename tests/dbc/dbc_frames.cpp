@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "bus/machine_on_bus.hpp"
+#include "bus_settings.hpp"
 #include "cia402/drive_bus.hpp"
 #include "cia402/sync_producer.hpp"
 #include "emergency/emergencies.hpp"
 #include "override_frame/override_sender.hpp"
+#include "override_sender_settings.hpp"
 #include "program_status/program_status_frame.hpp"
 
 /// Frames of every kind that millforce.dbc names, by the code that sends them, each with the values that went in:
@@ -66,7 +68,7 @@ void print_own_emergencies() {
 
 /// Boot-up, pre-operational, operational, stopped.
 void print_heartbeats() {
-    override_frame::OverrideSender sender{override_frame::OverrideSenderSettings{}};
+    override_frame::OverrideSender sender{test::an_override_sender()};
     hal::CanFrame frame;
     std::array<double, 4> states{0, 127, 5, 4};
     std::size_t place = 0;
@@ -113,7 +115,7 @@ void print_program_statuses() {
 
 /// SYNC and NMT start, by the master.
 void print_master() {
-    cia402::BusSettings settings;
+    cia402::BusSettings settings = test::a_bus();
     settings.is_master = true;
     settings.drives[0].node_id = 1;
     settings.drives[0].rated_current_A = 12.0F;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/cut_estimator.hpp"
 
+#include "estimation/four_flutes.hpp"
 #include "estimation/laws.hpp"
 #include "estimation/number/fixed_point.hpp"
 
@@ -44,7 +45,7 @@ class Cut {
 
 template <typename Scalar>
 CutEstimator<Scalar> fresh_estimator(CutSide side = CutSide::down) {
-    CutEstimatorSettings<Scalar> settings;
+    CutEstimatorSettings<Scalar> settings = millforce::tests::estimator_of_four_flutes<Scalar>();
     settings.side = side;
     settings.encoder_counts_per_rev = 65536;
     SpindleDriveParameters<Scalar> spindle;

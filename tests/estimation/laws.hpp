@@ -5,7 +5,7 @@
 
 namespace millforce::tests {
 
-/// Kim & Chung Table 2: carbide, 4 flutes, Ø8 mm, SM45C.
+/// Kim & Chung Table 2: carbide, 4 flutes, Ø8 mm, SM45C. Known exactly.
 template <typename Scalar>
 estimation::CuttingLaw<Scalar> carbide_in_SM45C() {
     estimation::CuttingLaw<Scalar> law;
@@ -13,6 +13,8 @@ estimation::CuttingLaw<Scalar> carbide_in_SM45C() {
     law.p_s = Scalar(-0.2557L);
     law.k_1 = Scalar(0.2242L);
     law.p_1 = Scalar(-0.1546L);
+    law.K_s_relative_sd = Scalar(0);
+    law.r_1_relative_sd = Scalar(0);
     return law;
 }
 

@@ -15,6 +15,7 @@
 
 #include "bus/canopen_drive.hpp"
 #include "bus_peers.hpp"
+#include "bus_settings.hpp"
 #include "cia402/drive_bus.hpp"
 #include "cia402/sync_producer.hpp"
 
@@ -129,20 +130,20 @@ inline void run_drives(const std::string& interface, int count, FrameCounts* cou
 
 inline cia402::DriveSettings drive_settings(std::size_t role) {
     using namespace cia402;
-    DriveSettings drive;
+    DriveSettings drive = test::a_drive();
     drive.node_id = static_cast<std::uint8_t>(role + 1);
     drive.heartbeat_timeout_us = 200'000;
     drive.pdos[0].id = 0x181 + static_cast<std::uint32_t>(role);
     drive.pdos[0].object_count = 3;
     drive.pdos[0].objects = {MappedObject{object::position_actual, 0, 32}, MappedObject{object::current_actual, 0, 16},
                              MappedObject{object::statusword, 0, 16}};
-    drive.velocity_source = VelocitySource::position_difference;
+    drive.velocity_source = VelocitySource::position;
     drive.position_mm_per_unit = 0.0001F;
     return drive;
 }
 
 inline cia402::BusSettings bus_settings(std::size_t drives, std::uint32_t period_us) {
-    cia402::BusSettings settings;
+    cia402::BusSettings settings = test::a_bus();
     settings.is_master = true;
     settings.sync_period_us = period_us;
     settings.collect_us = period_us;

@@ -4,6 +4,7 @@
 #include "bus_peers.hpp"
 #include "override_frame/override_receiver.hpp"
 #include "override_frame/override_sender.hpp"
+#include "override_sender_settings.hpp"
 
 /// The two ends of the override's way over a bus.
 
@@ -12,7 +13,7 @@ namespace millforce::vcan {
 /// A controller that ticks once a millisecond and says 80 %.
 inline void run_controller() {
     socketcan::CanSocket socket(on(controller_interface()));
-    override_frame::OverrideSender sender{override_frame::OverrideSenderSettings{}};
+    override_frame::OverrideSender sender{test::an_override_sender()};
     for (std::uint32_t heartbeat = 1;; ++heartbeat) {
         const std::uint64_t now_us = socketcan::monotonic_us();
         socket.poll(now_us);

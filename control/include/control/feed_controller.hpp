@@ -34,7 +34,7 @@ class FeedController {
   public:
     using Parameters = FeedControllerParameters<Scalar>;
 
-    explicit FeedController(const Parameters& parameters = {});
+    explicit FeedController(const Parameters& parameters);
 
     [[nodiscard]] CutState state() const { return states_.state(); }
 

@@ -15,14 +15,16 @@ namespace millforce::control {
 
 using estimation::literal;
 
+/// Defaults of the table's [control]. What belongs to the tool, the CNC or the machine stands elsewhere in the
+/// firmware's parameters, with its default, and is 0 here until it is set: such parameters are refused.
 template <typename Scalar>
 struct FeedControllerParameters {
-    Scalar tooth_force_limit_N{1000};  ///< F_tooth,max
+    Scalar tooth_force_limit_N{0};  ///< F_tooth,max
     Scalar setpoint_share{
         literal<Scalar>(0.97L)};       ///< of the limit that steady cutting is held at; the rest is for noise
     Scalar caution_sd{Scalar(0.75F)};  ///< standard deviations of the tooth's force that are counted on top of it
-    Scalar override_min{literal<Scalar>(0.1L)};
-    Scalar override_max{Scalar(1.5F)};
+    Scalar override_min{0};
+    Scalar override_max{0};
     Scalar recovery_per_rev{Scalar(0.25F)};                  ///< fraction of the remaining rise taken per revolution
     Scalar slew_up_per_s{2};                                 ///< largest rise of the override per second
     Scalar slew_down_per_s{40};                              ///< largest fall
@@ -44,8 +46,8 @@ struct FeedControllerParameters {
     Scalar overload_revolutions{3};                 ///< for so long, though the override already falls
     Scalar Ra_limit_um{0};                          ///< that the predicted R_a's upper bound may reach; 0: none
     Scalar no_estimate_hold_s{Scalar(0.5F)};        ///< in cut without estimate for longer: state hold
-    Scalar stale_s{literal<Scalar>(0.05L)};         ///< without a sample for longer: fault
-    Scalar teeth{4};
+    Scalar stale_s{0};                              ///< without a sample for longer: fault
+    Scalar teeth{0};
     bool monitor_only{false};  ///< estimate and watch, leave the override to the operator
 };
 

@@ -86,7 +86,7 @@ DriveReading DriveNode::read(std::uint64_t sync_time_us, RejectCounters& rejects
 }
 
 void DriveNode::read_current(std::uint64_t now_us, DriveReading& reading, RejectCounters& rejects) const {
-    const bool by_torque = settings_.current_source == CurrentSource::torque_actual;
+    const bool by_torque = settings_.current_source == CurrentSource::torque;
     const Signal signal = by_torque ? Signal::torque : Signal::current;
     if (!is_fresh(signal, now_us)) {
         return;
@@ -181,7 +181,7 @@ void DriveNode::read_velocity(std::uint64_t now_us, DriveReading& reading, Rejec
     float way_mm = 0.0F;
     float elapsed_s = 0.0F;
     const bool has_way = moved_mm(now_us, way_mm, elapsed_s);
-    const bool by_position = settings_.velocity_source == VelocitySource::position_difference;
+    const bool by_position = settings_.velocity_source == VelocitySource::position;
     if (by_position ? !has_way : !is_fresh(Signal::velocity, now_us)) {
         return;
     }

@@ -36,7 +36,7 @@ SettingsError check_current(const DriveSettings& drive, const SignalTable& signa
     if (!drive.gives_current) {
         return SettingsError::none;
     }
-    const bool by_torque = drive.current_source == CurrentSource::torque_actual;
+    const bool by_torque = drive.current_source == CurrentSource::torque;
     if (!signals.is_mapped(by_torque ? Signal::torque : Signal::current)) {
         return SettingsError::object_missing;
     }
@@ -67,7 +67,7 @@ SettingsError check_spindle(const DriveSettings& drive, const SignalTable& signa
 }
 
 SettingsError check_axis(const DriveSettings& drive, const SignalTable& signals) {
-    const bool by_position = drive.velocity_source == VelocitySource::position_difference;
+    const bool by_position = drive.velocity_source == VelocitySource::position;
     if (!signals.is_mapped(by_position ? Signal::position : Signal::velocity)) {
         return SettingsError::object_missing;
     }

@@ -40,7 +40,7 @@ SdoRequest mapping_step(const PdoMapping& pdo, std::uint16_t number, std::uint8_
 }  // namespace
 
 bool preparation_step(const DriveSettings& settings, std::uint8_t step, SdoRequest& request) {
-    const bool by_torque = settings.current_source == CurrentSource::torque_actual;
+    const bool by_torque = settings.current_source == CurrentSource::torque;
     const float rated = by_torque ? settings.rated_torque_Nm : settings.rated_current_A;
     const bool reads = settings.gives_current && rated == 0.0F;
     if (reads && step-- == 0) {

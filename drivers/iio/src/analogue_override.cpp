@@ -49,7 +49,7 @@ bool AnalogueOverride::prepare() {
         return false;
     }
     const bool fits =
-        scale_mV > 0.0F && settings_.lowest_V <= settings_.highest_V && settings_.lowest_raw <= settings_.highest_raw;
+        scale_mV > 0.0F && settings_.lowest_V < settings_.highest_V && settings_.lowest_raw < settings_.highest_raw;
     if (!fits) {
         fault.error = scale_mV > 0.0F ? IioError::settings : IioError::not_a_number;
         fail(fault);

@@ -17,24 +17,26 @@ namespace millforce::estimation {
 template <typename Scalar>
 inline constexpr Scalar usual_feed_exponent = literal<Scalar>(0.75L);
 
+/// What the firmware sets from the machine's and the tool's parameters has its default there (parameters.hpp), and is 0
+/// here until it is set.
 template <typename Scalar>
 struct CutEstimatorSettings {
-    Scalar teeth{4};
-    Scalar cutter_radius_mm{5};
+    Scalar teeth{0};
+    Scalar cutter_radius_mm{0};
     Scalar helix_rad{0};
     Scalar runout_mm{0};  ///< largest difference of two teeth's radii
     CutSide side = CutSide::unknown;
     Scalar centre_offset_in_radii{0};
-    Scalar largest_depth_mm{10};  ///< longest depth of cut of the tool's flutes
-    Scalar nominal_feed_per_tooth_mm{literal<Scalar>(0.05L)};
+    Scalar largest_depth_mm{0};  ///< longest depth of cut of the tool's flutes
+    Scalar nominal_feed_per_tooth_mm{0};
     Scalar assumed_immersion{1};  ///< used for peaks (never to speed up) until an immersion is known
     Scalar surge_immersion{0};    ///< see FeedControllerParameters::surge_radial_immersion
     Scalar turn_immersion{0};     ///< see FeedControllerParameters::turn_radial_immersion
-    Scalar tooth_force_limit_N{1000};
+    Scalar tooth_force_limit_N{0};
     Scalar declared_depth_mm{0};  ///< axial depth that the program declares; 0: not declared
-    Scalar law_relative_sd{literal<Scalar>(0.02L)};
+    Scalar law_relative_sd{0};
     Scalar min_samples{12};
-    std::uint32_t encoder_counts_per_rev = 4096;
+    std::uint32_t encoder_counts_per_rev = 0;
 };
 
 /// One drive sample, as plain numbers.

@@ -42,7 +42,6 @@ class CutEstimator {
     /// float.
     static constexpr int solver_steps_per_slice = 4;
 
-    CutEstimator() = default;
     CutEstimator(const CutEstimatorSettings<Scalar>& settings, const SpindleDriveParameters<Scalar>& spindle,
                  const std::array<FeedDriveParameters<Scalar>, 3>& axes, const CuttingLaw<Scalar>& law);
 
@@ -104,8 +103,8 @@ class CutEstimator {
     void publish();
     void rezero_drives();
 
-    EncoderAngle<Scalar> encoder_{};
-    Averager average_{};
+    EncoderAngle<Scalar> encoder_;
+    Averager average_;
     Scalar since_period_s_{0};
     Scalar since_prediction_s_{0};  // of the drifts, to the end of the last tooth period
     int periods_ended_ = 0;         // that no estimate has taken up

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware_can/bus_settings.hpp"
 
-#include <cmath>
-
 namespace millforce::firmware {
 
 namespace {
 
 /// Transmission type of a PDO that comes when something changes (CiA 301).
 constexpr std::uint8_t event_driven = 254;
-
-/// To the nearest; the table's ranges keep the values positive.
-std::uint32_t whole(float value) {
-    return static_cast<std::uint32_t>(std::llround(value));
-}
-std::uint32_t microseconds_of(float milliseconds) {
-    return whole(milliseconds * 1e3F);
-}
 
 cia402::DriveSettings drive_settings(const BusDriveParameters<float>& p, float rated_current_A,
                                      const DriveObjects& objects) {
@@ -30,17 +20,14 @@ cia402::DriveSettings drive_settings(const BusDriveParameters<float>& p, float r
         pdo.id = pdo.object_count > 0 ? id : 0;
         pdo.transmission_type = p.tpdo_every[k] != 0 ? p.tpdo_every[k] : event_driven;
     }
-    drive.current_source = p.current_source == CurrentSource::torque ? cia402::CurrentSource::torque_actual
-                                                                     : cia402::CurrentSource::current_actual;
-    drive.current_basis =
-        p.current_basis == CurrentBasis::peak ? cia402::CurrentBasis::peak : cia402::CurrentBasis::rms;
+    drive.current_source = p.current_source;
+    drive.current_basis = p.current_basis;
     drive.current_reversed = p.current_reversed;
     drive.rated_current_A = rated_current_A;
     drive.rated_torque_Nm = p.rated_torque_Nm;
     drive.torque_constant_Nm_per_A = p.torque_constant_Nm_per_A;
     drive.largest_share_of_rated = p.largest_share_of_rated;
-    drive.velocity_source = p.velocity_source == VelocitySource::position ? cia402::VelocitySource::position_difference
-                                                                          : cia402::VelocitySource::velocity_actual;
+    drive.velocity_source = p.velocity_source;
     drive.velocity_mm_s_per_unit = p.velocity_mm_s_per_unit;
     drive.position_mm_per_unit = p.position_mm_per_unit;
     drive.largest_velocity_mm_s = p.largest_velocity_mm_s;
@@ -51,7 +38,7 @@ cia402::DriveSettings drive_settings(const BusDriveParameters<float>& p, float r
     drive.largest_count_step = p.largest_count_step;
     drive.count_reversed = p.count_reversed;
     drive.heartbeat_timeout_us = microseconds_of(p.heartbeat_timeout_ms);
-    drive.heartbeat_period_ms = static_cast<std::uint16_t>(whole(p.heartbeat_period_ms));
+    drive.heartbeat_period_ms = static_cast<std::uint16_t>(nearest_whole(p.heartbeat_period_ms));
     drive.write_mapping = p.write_mapping;
     drive.stale_us = microseconds_of(p.stale_ms);
     return drive;
@@ -71,12 +58,8 @@ CanControllerSettings can_controller_settings(const MachineParameters<float>& ma
     settings.drives.sync_id = p.sync_id;
     settings.drives.sync_period_us = microseconds_of(p.sync_period_ms);
     settings.drives.collect_us = microseconds_of(p.collect_time_ms);
-    settings.feed_override.id = p.override_id;
-    settings.feed_override.node_id = p.override_node_id;
-    settings.feed_override.period_us = microseconds_of(p.override_period_ms);
-    settings.feed_override.heartbeat_period_us = microseconds_of(p.override_heartbeat_ms);
-    settings.program.id = p.program_status_id;
-    settings.program.timeout_us = microseconds_of(p.program_status_timeout_ms);
+    settings.feed_override = override_sender_settings(p);
+    settings.program = program_status_settings(p);
     return settings;
 }
 

@@ -9,13 +9,15 @@
 #include "estimation/force_drop/force_drop_law.hpp"
 #include "estimation/number/literal.hpp"
 #include "estimation/surface/roughness.hpp"
+#include "hal/drive_wiring.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-/// The parameters of a machine and a tool: plain structures with their defaults, which stand nowhere else. Keys and
-/// ranges: parameter_fields.hpp. On a host: parameter_table.hpp of the program, with units and sentences.
+/// The parameters of a machine and a tool: plain structures with their defaults, each once, here or in the structures
+/// of drives, laws and control that they hold. What is worked out from them has none of its own. Keys and ranges:
+/// parameter_fields.hpp. On a host: parameter_table.hpp of the program, with units and sentences.
 
 namespace millforce::firmware {
 
@@ -30,9 +32,9 @@ struct CncParameters {
     Scalar sample_rate_hz{1000};
 };
 
-enum class CurrentSource : std::uint8_t { current, torque };
-enum class CurrentBasis : std::uint8_t { rms, peak };
-enum class VelocitySource : std::uint8_t { velocity, position };
+using hal::CurrentBasis;
+using hal::CurrentSource;
+using hal::VelocitySource;
 enum class BusRole : std::uint8_t { listener, master };
 
 /// One drive on the bus. Which objects its PDOs carry is text in machine.toml, and no part of this.
@@ -65,14 +67,14 @@ template <typename Scalar>
 struct BusParameters {
     BusRole role{BusRole::listener};
     bool produces_sync{false};
-    std::uint16_t sync_id{0x080};
+    std::uint16_t sync_id{hal::default_sync_id};
     Scalar sync_period_ms{1};
     Scalar collect_time_ms{estimation::literal<Scalar>(0.8L)};
-    std::uint16_t override_id{0x1FE};
-    std::uint8_t override_node_id{126};
+    std::uint16_t override_id{hal::default_override_id};
+    std::uint8_t override_node_id{hal::default_override_node_id};
     Scalar override_period_ms{2};
     Scalar override_heartbeat_ms{100};
-    std::uint16_t program_status_id{0x1FD};
+    std::uint16_t program_status_id{hal::default_program_status_id};
     Scalar program_status_timeout_ms{100};
     std::array<BusDriveParameters<Scalar>, 4> drives{};  ///< spindle, x, y, z
 };
@@ -98,7 +100,7 @@ struct ForceSensorParameters {
 /// Radial immersion from force drops. The law's `valid` is left to who uses it: no largest immersion, no law.
 template <typename Scalar>
 struct ForceDropParameters {
-    estimation::ForceDropLaw<Scalar> law{.largest_immersion = Scalar(0)};
+    estimation::ForceDropLaw<Scalar> law{};
     std::uint16_t revolutions{4};
 };
 
@@ -126,8 +128,7 @@ struct ToolParameters {
     Scalar break_share{estimation::literal<Scalar>(1.5L)};
     Scalar declared_axial_depth_mm{0};
     Scalar law_relative_sd{estimation::literal<Scalar>(0.02L)};
-    estimation::CuttingLaw<Scalar> law{.K_s_relative_sd = estimation::literal<Scalar>(0.05L),
-                                       .r_1_relative_sd = estimation::literal<Scalar>(0.05L)};
+    estimation::CuttingLaw<Scalar> law{};
     control::FeedControllerParameters<Scalar> control{};
     bool monitor_only{false};
     estimation::RoughnessModel<Scalar> roughness{};

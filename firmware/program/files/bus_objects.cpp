@@ -190,7 +190,7 @@ DriveObjects read_drive_objects(TomlFile::Table& table) {
     for (std::size_t k = 0; k < objects.pdos.size(); ++k) {
         read_mapping(table, fmt::format("tpdo{}", k + 1), objects.pdos[k]);
     }
-    objects.count = read_address(table, "count_object", {cia402::DriveSettings{}.count_object});
+    objects.count = read_address(table, "count_object", objects.count);
     objects.index_count = read_address(table, "index_count_object", {});
     objects.index_number = read_address(table, "index_number_object", {});
     return objects;

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
 #include <optional>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "files/parameter_choices.hpp"
@@ -16,7 +17,6 @@ namespace millforce::host {
 
 namespace {
 
-constexpr double required = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest_raw = 2147483647.0;
 
 }  // namespace
@@ -26,6 +26,8 @@ constexpr double largest_raw = 2147483647.0;
 // NOLINTBEGIN(bugprone-macro-parentheses): a lambda is one expression already
 #define MILLFORCE_KEY(member) [](LocalIoKeys& k, std::size_t) -> auto& { return k.member; }
 #define MILLFORCE_LOCAL(member) [](LocalIoKeys& k, std::size_t drive) -> auto& { return k.drives[drive].member; }
+#define MILLFORCE_VALUE(member) [](LocalIoKeys& k, std::size_t) -> LocalField { return &k.member; }
+#define MILLFORCE_LOCAL_VALUE(member) [](LocalIoKeys& k, std::size_t drive) -> LocalField { return &k.drives[drive].member; }
 // NOLINTEND(bugprone-macro-parentheses)
 
 const std::array<LocalTextRow, 7> local_texts{{
@@ -38,32 +40,32 @@ const std::array<LocalTextRow, 7> local_texts{{
     {"feed_hold_line", "chip", "\"/dev/gpiochip0\"", "Chip of the lines for feed release and life pulse.", MILLFORCE_KEY(chip)},
 }};
 
-const std::array<LocalNumberRow, 22> local_numbers{{
-    {"iio", "mode", "", 0.0, 0.0, 1.0, "Every value from the buffer, sampled by the device's trigger; or one value per SYNC from in_…_raw.", MILLFORCE_KEY(mode), "buffered|polled"},
-    {"iio", "configures", "", 1.0, 0.0, 1.0, "Switch on the buffer's elements and the buffer; else the system has done so.", MILLFORCE_KEY(configures), "false|true"},
-    {"iio", "buffer_scans", "1", 1024.0, 2.0, 1048576.0, "Length of the buffer.", MILLFORCE_KEY(buffer_scans)},
-    {"iio", "sample_period_us", "µs", 0.0, 0.0, 1e6, "Period of the device's samples, to detect gaps; 0: gaps are not detected.", MILLFORCE_KEY(sample_period_us)},
-    {"iio", "stale_ms", "ms", 20.0, 1.0, 10000.0, "If no value comes for this long, the converter counts as silent.", MILLFORCE_KEY(stale_ms)},
+const std::array<LocalValueRow, 22> local_values{{
+    {"iio", "mode", "", 0.0, 1.0, "Every value from the buffer, sampled by the device's trigger; or one value per SYNC from in_…_raw.", MILLFORCE_VALUE(mode), may_be_left_out, "buffered|polled"},
+    {"iio", "configures", "", 0.0, 1.0, "Switch on the buffer's elements and the buffer; else the system has done so.", MILLFORCE_VALUE(configures)},
+    {"iio", "buffer_scans", "1", 2.0, 1048576.0, "Length of the buffer.", MILLFORCE_VALUE(buffer_scans)},
+    {"iio", "sample_period_us", "µs", 0.0, 1e6, "Period of the device's samples, to detect gaps; 0: gaps are not detected.", MILLFORCE_VALUE(sample_period_us)},
+    {"iio", "stale_ms", "ms", 1.0, 10000.0, "If no value comes for this long, the converter counts as silent.", MILLFORCE_VALUE(stale_ms)},
 
-    {"iio.drive", "A_per_V", "A/V", required, -1e5, 1e5, "Motor current, rms, per volt at the converter; negative: the sensor counts against the motor.", MILLFORCE_LOCAL(A_per_V)},
-    {"iio.drive", "zero_V", "V", 0.0, -100.0, 100.0, "Voltage at 0 A.", MILLFORCE_LOCAL(zero_V)},
-    {"iio.drive", "largest_A", "A", 100.0, 1e-3, 1e4, "A larger current is not used.", MILLFORCE_LOCAL(largest_A)},
-    {"iio.drive", "mm_per_count", "mm", 0.0, -100.0, 100.0, "Axes: travel per count; negative: the count falls in + direction.", MILLFORCE_LOCAL(mm_per_count)},
-    {"iio.drive", "count_modulus", "1", 0.0, 0.0, 4294967295.0, "Counts after which the counter starts again at 0, its `ceiling` plus 1; 0: 2³².", MILLFORCE_LOCAL(count_modulus)},
-    {"iio.drive", "largest_count_step", "1", 1048576.0, 1.0, 1073741824.0, "A step of more counts per SYNC is not used.", MILLFORCE_LOCAL(largest_count_step)},
-    {"iio.drive", "count_reversed", "", 0.0, 0.0, 1.0, "Spindle: the count falls in the cutting direction (M3).", MILLFORCE_LOCAL(count_reversed), "false|true"},
+    {"iio.drive", "A_per_V", "A/V", -1e5, 1e5, "Motor current, rms, per volt at the converter; negative: the sensor counts against the motor.", MILLFORCE_LOCAL_VALUE(A_per_V), must_be_given},
+    {"iio.drive", "zero_V", "V", -100.0, 100.0, "Voltage at 0 A.", MILLFORCE_LOCAL_VALUE(zero_V)},
+    {"iio.drive", "largest_A", "A", 1e-3, 1e4, "A larger current is not used.", MILLFORCE_LOCAL_VALUE(largest_A)},
+    {"iio.drive", "mm_per_count", "mm", -100.0, 100.0, "Axes: travel per count; negative: the count falls in + direction.", MILLFORCE_LOCAL_VALUE(mm_per_count)},
+    {"iio.drive", "count_modulus", "1", 0.0, 4294967295.0, "Counts after which the counter starts again at 0, its `ceiling` plus 1; 0: 2³².", MILLFORCE_LOCAL_VALUE(count_modulus)},
+    {"iio.drive", "largest_count_step", "1", 1.0, 1073741824.0, "A step of more counts per SYNC is not used.", MILLFORCE_LOCAL_VALUE(largest_count_step)},
+    {"iio.drive", "count_reversed", "", 0.0, 1.0, "Spindle: the count falls in the cutting direction (M3).", MILLFORCE_LOCAL_VALUE(count_reversed)},
 
-    {"override_voltage", "V_per_ratio", "V", 5.0, -100.0, 100.0, "Voltage per override of 1 (100 %).", MILLFORCE_KEY(V_per_ratio)},
-    {"override_voltage", "zero_V", "V", 0.0, -100.0, 100.0, "Voltage at an override of 0.", MILLFORCE_KEY(voltage_zero_V)},
-    {"override_voltage", "lowest_V", "V", 0.0, -100.0, 100.0, "Lowest voltage for an override.", MILLFORCE_KEY(lowest_V)},
-    {"override_voltage", "highest_V", "V", 10.0, -100.0, 100.0, "Highest voltage for an override.", MILLFORCE_KEY(highest_V)},
-    {"override_voltage", "safe_V", "V", 0.0, -100.0, 100.0, "Voltage at which the CNC stops the feed: at hold, at any fault, without ticks.", MILLFORCE_KEY(safe_V)},
-    {"override_voltage", "lowest_raw", "1", 0.0, -largest_raw, largest_raw, "Lowest value of the converter.", MILLFORCE_KEY(lowest_raw)},
-    {"override_voltage", "highest_raw", "1", 4095.0, -largest_raw, largest_raw, "Highest value of the converter.", MILLFORCE_KEY(highest_raw)},
+    {"override_voltage", "V_per_ratio", "V", -100.0, 100.0, "Voltage per override of 1 (100 %).", MILLFORCE_VALUE(V_per_ratio)},
+    {"override_voltage", "zero_V", "V", -100.0, 100.0, "Voltage at an override of 0.", MILLFORCE_VALUE(voltage_zero_V)},
+    {"override_voltage", "lowest_V", "V", -100.0, 100.0, "Lowest voltage for an override.", MILLFORCE_VALUE(lowest_V)},
+    {"override_voltage", "highest_V", "V", -100.0, 100.0, "Highest voltage for an override.", MILLFORCE_VALUE(highest_V)},
+    {"override_voltage", "safe_V", "V", -100.0, 100.0, "Voltage at which the CNC stops the feed: at hold, at any fault, without ticks.", MILLFORCE_VALUE(safe_V)},
+    {"override_voltage", "lowest_raw", "1", -largest_raw, largest_raw, "Lowest value of the converter.", MILLFORCE_VALUE(lowest_raw)},
+    {"override_voltage", "highest_raw", "1", -largest_raw, largest_raw, "Highest value of the converter.", MILLFORCE_VALUE(highest_raw)},
 
-    {"feed_hold_line", "release_line", "", 0.0, 0.0, 1023.0, "Offset on the chip of the line that releases the feed.", MILLFORCE_KEY(release_line)},
-    {"feed_hold_line", "pulse_line", "", 1.0, 0.0, 1023.0, "Offset of the line that pulses at 100 Hz while ticks come.", MILLFORCE_KEY(pulse_line)},
-    {"feed_hold_line", "active_low", "", 0.0, 0.0, 1.0, "Release is a low level.", MILLFORCE_KEY(active_low), "false|true"},
+    {"feed_hold_line", "release_line", "", 0.0, 1023.0, "Offset on the chip of the line that releases the feed.", MILLFORCE_VALUE(release_line)},
+    {"feed_hold_line", "pulse_line", "", 0.0, 1023.0, "Offset of the line that pulses at 100 Hz while ticks come.", MILLFORCE_VALUE(pulse_line)},
+    {"feed_hold_line", "active_low", "", 0.0, 1.0, "Release is a low level.", MILLFORCE_VALUE(active_low)},
 }};
 // clang-format on
 
@@ -78,13 +80,19 @@ std::vector<std::string> tables_of(std::string_view table) {
     return {std::string(table)};
 }
 
-void read_number(const LocalNumberRow& row, TomlFile::Table& table, double& field) {
-    if (row.choices != nullptr) {
-        field = static_cast<double>(
-            table.choice(row.key, words_of(row.choices), static_cast<std::size_t>(row.default_value)));
-    } else if (table.exists() || !std::isnan(row.default_value)) {
-        field = table.number(row.key, row.minimum, row.maximum,
-                             std::isnan(row.default_value) ? std::nullopt : std::optional(row.default_value));
+/// What stands in the field already is the default.
+template <typename Field>
+void read_value(const LocalValueRow& row, TomlFile::Table& table, Field& field) {
+    const std::optional<Field> fallback = row.is_required ? std::nullopt : std::optional(field);
+    if constexpr (std::is_same_v<Field, bool>) {
+        field = table.choice(row.key, {"false", "true"}, field ? 1 : 0) == 1;  // true, or in quotes
+    } else if constexpr (std::is_enum_v<Field>) {
+        field = static_cast<Field>(table.choice(row.key, words_of(row.choices), static_cast<std::size_t>(field)));
+    } else if constexpr (std::is_integral_v<Field>) {
+        field = static_cast<Field>(table.integer(row.key, static_cast<std::int64_t>(row.minimum),
+                                                 static_cast<std::int64_t>(row.maximum), fallback));
+    } else {
+        field = table.number(row.key, row.minimum, row.maximum, fallback);
     }
 }
 
@@ -113,7 +121,7 @@ void check_devices(const LocalIoKeys& keys, const TableOf& table_of) {
     if (!keys.device.empty() && !has_channel) {
         table_of("iio").fail("device", "has no channel, expected [iio.spindle], [iio.x] … with current_channel");
     }
-    if (has_channel && keys.mode < 0.5 && keys.buffer.empty()) {
+    if (has_channel && keys.mode == ConverterMode::buffered && keys.buffer.empty()) {
         table_of("iio").fail("buffer",
                              "is missing, expected its file, e.g. \"/dev/iio:device0\", or mode = \"polled\"");
     }
@@ -150,10 +158,13 @@ LocalIoKeys read_local_io(const TableOf& table_of) {
             row.field(keys, k) = table_of(tables[k]).text(row.key, "");
         }
     }
-    for (const LocalNumberRow& row : local_numbers) {
+    for (const LocalValueRow& row : local_values) {
         const auto tables = tables_of(row.table);
         for (std::size_t k = 0; k < tables.size(); ++k) {
-            read_number(row, table_of(tables[k]), row.field(keys, k));
+            TomlFile::Table& table = table_of(tables[k]);
+            if (table.exists()) {
+                std::visit([&](auto* field) { read_value(row, table, *field); }, row.field(keys, k));
+            }
         }
     }
     for (std::size_t drive = 0; drive < keys.drives.size(); ++drive) {

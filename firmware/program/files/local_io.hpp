@@ -3,13 +3,19 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <variant>
 
 /// Inputs and outputs of this computer, apart from the bus: machine.toml's tables [iio], [iio.spindle], [iio.x] …,
 /// [override_voltage] and [feed_hold_line]. They name files of Linux, so they are no part of a chip's parameters; their
-/// keys are described here, once, for the reader and for `millforce parameters`.
+/// keys are described here, once, for the reader and for `millforce parameters`. Defaults stand in these structures
+/// alone.
 
 namespace millforce::host {
+
+/// How the converter's values are fetched.
+enum class ConverterMode : std::uint8_t { buffered, polled };
 
 /// One motor's current by a converter, and where it is wired its encoder by a counter.
 struct LocalDriveKeys {
@@ -19,9 +25,9 @@ struct LocalDriveKeys {
     double zero_V = 0.0;
     double largest_A = 100.0;
     double mm_per_count = 0.0;
-    double count_modulus = 0.0;
-    double largest_count_step = 1'048'576.0;
-    double count_reversed = 0.0;
+    std::uint32_t count_modulus = 0;
+    std::uint32_t largest_count_step = 1'048'576;
+    bool count_reversed = false;
 
     [[nodiscard]] bool is_used() const { return !current_channel.empty(); }
     [[nodiscard]] bool has_counter() const { return !count_file.empty(); }
@@ -30,9 +36,9 @@ struct LocalDriveKeys {
 struct LocalIoKeys {
     std::string device;
     std::string buffer;
-    double mode = 0.0;  ///< index into iio::AdcMode
-    double configures = 1.0;
-    double buffer_scans = 1024.0;
+    ConverterMode mode = ConverterMode::buffered;
+    bool configures = true;
+    std::uint32_t buffer_scans = 1024;
     double sample_period_us = 0.0;
     double stale_ms = 20.0;
     std::array<LocalDriveKeys, 4> drives{};  ///< spindle, x, y, z
@@ -44,30 +50,33 @@ struct LocalIoKeys {
     double lowest_V = 0.0;
     double highest_V = 10.0;
     double safe_V = 0.0;
-    double lowest_raw = 0.0;
-    double highest_raw = 4095.0;
+    std::int32_t lowest_raw = 0;
+    std::int32_t highest_raw = 4095;
 
     std::string chip;
-    double release_line = 0.0;
-    double pulse_line = 1.0;
-    double active_low = 0.0;
+    std::uint32_t release_line = 0;
+    std::uint32_t pulse_line = 1;
+    bool active_low = false;
 
     [[nodiscard]] bool has_inputs() const;
     [[nodiscard]] bool has_voltage() const { return !voltage_device.empty(); }
     [[nodiscard]] bool has_lines() const { return !chip.empty(); }
 };
 
-/// A number, or a word if there are choices.
-struct LocalNumberRow {
+/// A key's field. Its type says what the key holds: a flag, a choice, a whole number, a number.
+using LocalField = std::variant<bool*, ConverterMode*, std::uint32_t*, std::int32_t*, double*>;
+
+/// A key whose value is no text. Its default is that of a LocalIoKeys as it is constructed.
+struct LocalValueRow {
     const char* table;  ///< "iio.drive" stands for each of "iio.spindle", "iio.x" …
     const char* key;
     const char* unit;
-    double default_value;  ///< NaN: required if the table exists
     double minimum;
     double maximum;
     const char* sentence;
-    double& (*field)(LocalIoKeys& keys, std::size_t drive);
-    const char* choices = nullptr;
+    LocalField (*field)(LocalIoKeys& keys, std::size_t drive);
+    bool is_required = false;       ///< if the table exists
+    const char* choices = nullptr;  ///< the words of a choice, separated by '|'
 };
 
 /// A file, a channel.
@@ -80,7 +89,7 @@ struct LocalTextRow {
 };
 
 extern const std::array<LocalTextRow, 7> local_texts;
-extern const std::array<LocalNumberRow, 22> local_numbers;
+extern const std::array<LocalValueRow, 22> local_values;
 inline constexpr std::array<const char*, 4> local_drive_tables{"iio.spindle", "iio.x", "iio.y", "iio.z"};
 
 }  // namespace millforce::host

@@ -6,6 +6,10 @@
 
 namespace millforce::host {
 
+/// Of a row of the parameters' tables.
+inline constexpr bool must_be_given = true;
+inline constexpr bool may_be_left_out = false;
+
 /// The words of a parameter row's choices, "down|up" → {"down", "up"}.
 std::vector<std::string> words_of(const char* choices);
 

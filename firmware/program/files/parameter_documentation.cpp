@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
+#include <string_view>
+#include <variant>
 
 #include "files/local_io.hpp"
 #include "files/parameter_choices.hpp"
@@ -34,13 +35,23 @@ const char* name_of(ParameterType type) {
     return "";
 }
 
-std::string default_of(const ParameterRow& row) {
+/// What a key holds, of whatever table its row is.
+struct KeyValue {
+    ParameterType type;
+    bool is_required;
+    double default_value;
+    double minimum;
+    double maximum;
+    const char* choices;
+};
+
+std::string default_of(const KeyValue& row) {
     if (row.is_required) {
         return "required";
     }
     switch (row.type) {
         case ParameterType::flag:
-            return row.default_value > 0.5F ? "true" : "false";
+            return row.default_value > 0.5 ? "true" : "false";
         case ParameterType::enumeration:
             return words_of(row.choices)[static_cast<std::size_t>(row.default_value)];
         case ParameterType::integer:
@@ -51,7 +62,7 @@ std::string default_of(const ParameterRow& row) {
     return fmt::format("{:g}", row.default_value);
 }
 
-std::string range_of(const ParameterRow& row) {
+std::string range_of(const KeyValue& row) {
     switch (row.type) {
         case ParameterType::flag:
             return "false, true";
@@ -64,6 +75,13 @@ std::string range_of(const ParameterRow& row) {
     }
     return fmt::format("{:g} … {:g}", row.minimum, row.maximum);
 }
+
+std::string key_row(const char* key, const char* unit, const char* sentence, const KeyValue& value) {
+    return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key, name_of(value.type), unit, default_of(value),
+                       range_of(value), sentence);
+}
+
+constexpr const char* key_columns = "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
 
 std::string heading_of(const std::string& table) {
     if (table == "axis") {
@@ -82,9 +100,7 @@ class Headings {
             return;
         }
         table_ = table;
-        text_ +=
-            fmt::format("\n### {}\n\n| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n",
-                        heading_of(table_));
+        text_ += fmt::format("\n### {}\n\n{}", heading_of(table_), key_columns);
     }
 
   private:
@@ -97,8 +113,8 @@ void document_file(firmware::ParameterFile file, std::string& text) {
     for (const ParameterRow& row : parameter_table()) {
         if (row.file == file) {
             headings.enter(row.table);
-            text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, name_of(row.type), row.unit,
-                                default_of(row), range_of(row), row.sentence);
+            text += key_row(row.key, row.unit, row.sentence,
+                            {row.type, row.is_required, row.default_value, row.minimum, row.maximum, row.choices});
         }
     }
 }
@@ -116,30 +132,29 @@ std::string heading_of_local(const std::string& table) {
     return table == "iio.drive" ? "[iio.spindle], [iio.x], [iio.y], [iio.z]" : "[" + table + "]";
 }
 
-std::string default_of(const LocalNumberRow& row) {
-    if (std::isnan(row.default_value)) {
-        return "required";
-    }
-    return row.choices != nullptr ? words_of(row.choices)[static_cast<std::size_t>(row.default_value)]
-                                  : fmt::format("{:g}", row.default_value);
+/// With the default as the structure has it.
+KeyValue value_of(const LocalValueRow& row) {
+    LocalIoKeys defaults;
+    return std::visit(
+        [&row]<typename Field>(const Field* field) {
+            return KeyValue{type_of<Field>(), row.is_required, static_cast<double>(*field),
+                            row.minimum,      row.maximum,     row.choices};
+        },
+        row.field(defaults, 0));
 }
 
 void document_local_io(std::string& text) {
     text += "\n### Inputs and outputs of this computer, for `millforce run` on Linux\n";
     for (const char* table : {"iio", "iio.drive", "override_voltage", "feed_hold_line"}) {
-        text += fmt::format("\n### {}\n\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n",
-                            heading_of_local(table));
+        text += fmt::format("\n### {}\n\n{}", heading_of_local(table), key_columns);
         for (const LocalTextRow& row : local_texts) {
             if (std::string_view(row.table) == table) {
-                text += fmt::format("| `{}` |  | none | `{}` | {} |\n", row.key, row.form, row.sentence);
+                text += fmt::format("| `{}` | text |  | none | `{}` | {} |\n", row.key, row.form, row.sentence);
             }
         }
-        for (const LocalNumberRow& row : local_numbers) {
+        for (const LocalValueRow& row : local_values) {
             if (std::string_view(row.table) == table) {
-                text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, default_of(row),
-                                    row.choices != nullptr ? joined_words(row.choices)
-                                                           : fmt::format("{:g} … {:g}", row.minimum, row.maximum),
-                                    row.sentence);
+                text += key_row(row.key, row.unit, row.sentence, value_of(row));
             }
         }
     }

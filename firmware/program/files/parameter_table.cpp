@@ -5,7 +5,9 @@
 
 #include <array>
 #include <stdexcept>
-#include <type_traits>
+#include <string_view>
+
+#include "files/parameter_choices.hpp"
 
 namespace millforce::host {
 
@@ -23,8 +25,6 @@ struct ParameterText {
     bool is_required = false;
     const char* choices = nullptr;  ///< names of the values 0, 1, … of an enumeration, separated by '|'
 };
-constexpr bool must_be_given = true;
-constexpr bool may_be_left_out = false;
 
 // The rows are data; one row a line keeps them readable as the table that they are.
 // clang-format off
@@ -280,17 +280,6 @@ const ParameterText& text_of(const ParameterName& name) {
         }
     }
     throw std::logic_error(fmt::format("{}.{} has no row in the parameter table", name.table, name.key));
-}
-
-template <typename Field>
-constexpr ParameterType type_of() {
-    if constexpr (std::is_same_v<Field, bool>) {
-        return ParameterType::flag;
-    } else if constexpr (std::is_enum_v<Field>) {
-        return ParameterType::enumeration;
-    } else {
-        return std::is_integral_v<Field> ? ParameterType::integer : ParameterType::number;
-    }
 }
 
 using Rows = std::array<ParameterRow, parameter_texts.size()>;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 
 #include "firmware/parameter_fields.hpp"
 
@@ -21,6 +22,17 @@ enum class ParameterType : unsigned char {
     flag,         ///< false or true
     enumeration,  ///< one of a few names
 };
+
+template <typename Field>
+constexpr ParameterType type_of() {
+    if constexpr (std::is_same_v<Field, bool>) {
+        return ParameterType::flag;
+    } else if constexpr (std::is_enum_v<Field>) {
+        return ParameterType::enumeration;
+    } else {
+        return std::is_integral_v<Field> ? ParameterType::integer : ParameterType::number;
+    }
+}
 
 struct ParameterRow {
     firmware::ParameterFile file;

@@ -160,7 +160,7 @@ void CandumpReplay::take_rated_values() {
     settings_.bus.drives.is_master = false;
     for (std::size_t role = 0; role < cia402::drive_capacity; ++role) {
         cia402::DriveSettings& drive = settings_.bus.drives.drives[role];
-        const bool by_torque = drive.current_source == cia402::CurrentSource::torque_actual;
+        const bool by_torque = drive.current_source == cia402::CurrentSource::torque;
         float& rated = by_torque ? drive.rated_torque_Nm : drive.rated_current_A;
         const std::uint32_t told = by_torque ? rated_torque_mNm_[role] : rated_current_mA_[role];
         if (drive.node_id == 0 || !drive.gives_current || rated > 0.0F) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bus_settings.hpp"
 #include "candump/log_line.hpp"
 #include "cia402/drive_bus.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 /// A listener with one drive, the spindle at node 1.
 cia402::BusSettings spindle_alone() {
-    cia402::BusSettings settings;
+    cia402::BusSettings settings = test::a_bus();
     cia402::DriveSettings& spindle = settings.drives[0];
     spindle.node_id = 1;
     spindle.rated_current_A = 10.0F;

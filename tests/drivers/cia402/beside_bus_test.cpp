@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bus_settings.hpp"
 #include "cia402/drive_bus.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -13,7 +14,7 @@ constexpr std::uint8_t whole = of_spindle | hal::axis_mask(0);
 
 /// A drive of the bus that gives the velocity of x and no current; all of the spindle comes by another source.
 BusSettings velocity_of_x() {
-    BusSettings settings;
+    BusSettings settings = test::a_bus();
     settings.beside_bus = whole;
     DriveSettings& x = settings.drives[1];
     x.node_id = 2;
@@ -111,7 +112,7 @@ TEST(BesideBus, what_comes_after_its_sample_was_handed_over_is_not_the_next_ones
 }
 
 TEST(BesideBus, without_a_drive_on_the_bus_the_sample_is_all_from_elsewhere_and_waits_for_nobody) {
-    BusSettings settings;
+    BusSettings settings = test::a_bus();
     settings.beside_bus = of_spindle;
     DriveBus bus(settings);
     CHECK(bus.state() == hal::SourceState::waiting);

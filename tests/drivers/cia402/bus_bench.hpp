@@ -9,6 +9,7 @@
 
 #include "bus/canopen_drive.hpp"
 #include "bus/loopback_bus.hpp"
+#include "bus_settings.hpp"
 #include "can_frames.hpp"
 
 /// The driver as master or listener and simulated drives on one bus in memory.
@@ -30,7 +31,7 @@ inline PdoMapping first_pdo(std::uint8_t node_id) {
 }
 
 inline DriveSettings spindle_drive(std::uint8_t node_id) {
-    DriveSettings drive;
+    DriveSettings drive = test::a_drive();
     drive.node_id = node_id;
     drive.pdos[0] = first_pdo(node_id);
     return drive;
@@ -38,14 +39,14 @@ inline DriveSettings spindle_drive(std::uint8_t node_id) {
 
 inline DriveSettings axis_drive(std::uint8_t node_id) {
     DriveSettings drive = spindle_drive(node_id);
-    drive.velocity_source = VelocitySource::position_difference;
+    drive.velocity_source = VelocitySource::position;
     drive.position_mm_per_unit = 0.001F;
     return drive;
 }
 
 /// Spindle at node 1, x at node 2; the driver is master.
 inline BusSettings two_drives() {
-    BusSettings settings;
+    BusSettings settings = test::a_bus();
     settings.is_master = true;
     settings.drives[0] = spindle_drive(1);
     settings.drives[1] = axis_drive(2);

@@ -202,7 +202,7 @@ TEST(DriveBus, writes_any_mapping_to_the_drive_and_decodes_it) {
     BusSettings settings = two_drives();
     DriveSettings& x = settings.drives[1];
     x.write_mapping = true;
-    x.velocity_source = VelocitySource::velocity_actual;
+    x.velocity_source = VelocitySource::velocity;
     x.velocity_mm_s_per_unit = 0.01F;
     x.pdos[0].object_count = 2;
     x.pdos[0].objects = {mapped(object::current_actual, 16), mapped(object::position_actual, 32)};
@@ -229,7 +229,7 @@ TEST(DriveBus, a_velocity_in_another_unit_than_configured_is_found_by_the_positi
     BusSettings settings = two_drives();
     DriveSettings& x = settings.drives[1];
     x.write_mapping = true;
-    x.velocity_source = VelocitySource::velocity_actual;
+    x.velocity_source = VelocitySource::velocity;
     x.velocity_mm_s_per_unit = 0.01F;
     x.pdos[0].object_count = 2;
     x.pdos[0].objects = {mapped(object::current_actual, 16), mapped(object::position_actual, 32)};
@@ -297,7 +297,7 @@ TEST(DriveBus, currents_of_a_drive_rated_in_peak_amperes_become_rms) {
 TEST(DriveBus, a_drive_that_tells_torque_alone_gives_its_current_by_the_torque_constant) {
     BusSettings settings = two_drives();
     DriveSettings& spindle = settings.drives[0];
-    spindle.current_source = CurrentSource::torque_actual;
+    spindle.current_source = CurrentSource::torque;
     spindle.torque_constant_Nm_per_A = 0.8F;
     spindle.write_mapping = true;
     spindle.pdos[0].objects[1] = mapped(object::torque_actual, 16);

@@ -25,7 +25,7 @@ BusSettings whole_machine() {
     for (std::uint8_t node = 2; node <= 4; ++node) {
         DriveSettings axis = axis_drive(node);
         axis.write_mapping = true;
-        axis.velocity_source = VelocitySource::velocity_actual;
+        axis.velocity_source = VelocitySource::velocity;
         axis.velocity_mm_s_per_unit = 0.001F;
         axis.position_mm_per_unit = 0.0001F;
         axis.pdos[0].object_count = 2;

@@ -23,6 +23,8 @@ TEST_GROUP(AnalogueOverride) {
         AnalogueOverrideSettings settings;
         settings.device = dac.path("");
         set(settings.channel, "voltage0");
+        settings.V_per_ratio = 5.0F;
+        settings.highest_raw = 4095;
         settings.lowest_V = 0.5F;
         settings.highest_V = 7.5F;
         settings.safe_V = 0.25F;

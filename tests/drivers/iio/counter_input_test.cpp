@@ -102,7 +102,7 @@ TEST(SampleJoin, of_files_alone_is_a_whole_sample) {
     device.write("device/in_voltage0_raw", "2548\n");
     device.write("device/in_voltage3_raw", "250\n");
     AdcCurrents adc(settings);
-    CounterInput spindle({device.path("spindle_count")});
+    CounterInput spindle({device.path("spindle_count"), 0, 1000});
     CounterInput x({device.path("x_count"), 0, 1000, false, 0.01F});
     hal::DriveSample sample;
     for (int k = 0; k < 3; ++k) {

@@ -97,11 +97,15 @@ class FakeAdc : public FakeTree {
         settings.buffer = path("buffer");
         set(settings.channels[0].name, "voltage0");
         settings.channels[0].A_per_V = 10.0F;
+        settings.channels[0].largest_A = 100.0F;
         set(settings.channels[1].name, "voltage3");
         settings.channels[1].A_per_V = -2.0F;
         settings.channels[1].zero_V = 0.5F;
         settings.channels[1].largest_A = 4.0F;
         settings.sample_period_us = 100;
+        settings.configures = true;
+        settings.buffer_scans = 1024;
+        settings.stale_us = 20'000;
         return settings;
     }
 

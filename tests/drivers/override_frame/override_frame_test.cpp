@@ -9,6 +9,7 @@
 
 #include "override_frame/override_receiver.hpp"
 #include "override_frame/override_sender.hpp"
+#include "override_sender_settings.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -23,7 +24,7 @@ hal::FeedOverride override_of(float ratio, std::uint32_t heartbeat) {
 
 /// A controller that ticks every millisecond and a CNC that listens.
 struct Link {
-    OverrideSender sender{OverrideSenderSettings{}};
+    OverrideSender sender{test::an_override_sender()};
     OverrideReceiver receiver{OverrideReceiverSettings{}};
     std::uint64_t now_us = 1'000'000;
     std::uint32_t heartbeat = 65'500;
@@ -203,7 +204,7 @@ TEST(OverrideLink, a_heartbeat_that_says_stopped_ends_the_trust_at_once) {
 }
 
 TEST(OverrideLink, boots_as_a_canopen_node_does) {
-    OverrideSender sender{OverrideSenderSettings{}};
+    OverrideSender sender{test::an_override_sender()};
     hal::CanFrame frame;
     sender.poll(0);
     CHECK(sender.take_frame(frame));

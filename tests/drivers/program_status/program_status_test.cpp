@@ -16,6 +16,8 @@ using namespace millforce::program_status;
 
 namespace {
 
+constexpr ProgramStatusReceiverSettings settings{.id = default_id, .timeout_us = 100'000};
+
 ProgramStatusFrame status_of(float feed_mm_min, std::uint16_t counter, bool reset = false) {
     ProgramStatusFrame status;
     status.program.programmed_feed_mm_s = feed_mm_min / 60.0F;
@@ -77,7 +79,7 @@ TEST(ProgramStatus, a_frame_that_is_not_sound_is_refused_by_reason) {
 }
 
 TEST(ProgramStatus, is_not_known_before_the_first_frame_and_held_after_the_last) {
-    ProgramStatusReceiver receiver({});
+    ProgramStatusReceiver receiver(settings);
     CHECK(receiver.source(0) == ProgramSource::never_heard);
     DOUBLES_EQUAL(0.0, receiver.program(0).programmed_feed_mm_s, 0.0);
     CHECK(receiver.on_frame(frame_of(1500, 1), 1'000'000));
@@ -89,7 +91,7 @@ TEST(ProgramStatus, is_not_known_before_the_first_frame_and_held_after_the_last)
 }
 
 TEST(ProgramStatus, a_counter_that_stands_still_or_goes_back_is_no_sign_of_life) {
-    ProgramStatusReceiver receiver({});
+    ProgramStatusReceiver receiver(settings);
     CHECK(receiver.on_frame(frame_of(1500, 65535), 0));
     CHECK(receiver.on_frame(frame_of(1400, 0), 10'000));
     CHECK_FALSE(receiver.on_frame(frame_of(1300, 0), 20'000));
@@ -103,7 +105,7 @@ TEST(ProgramStatus, a_counter_that_stands_still_or_goes_back_is_no_sign_of_life)
 }
 
 TEST(ProgramStatus, a_reset_is_asked_once_per_press) {
-    ProgramStatusReceiver receiver({});
+    ProgramStatusReceiver receiver(settings);
     CHECK(receiver.on_frame(frame_of(1500, 1, true), 0));  // pressed before we heard of it: no press
     CHECK_FALSE(receiver.take_reset());
     CHECK(receiver.on_frame(frame_of(1500, 2, false), 1));
@@ -115,7 +117,7 @@ TEST(ProgramStatus, a_reset_is_asked_once_per_press) {
 
 TEST(ProgramStatus, random_frames_are_refused_or_within_their_ranges) {
     std::mt19937 random(5);
-    ProgramStatusReceiver receiver({});
+    ProgramStatusReceiver receiver(settings);
     std::uint64_t taken = 0;
     for (std::uint64_t k = 0; k < 300'000; ++k) {
         hal::CanFrame frame;

@@ -3,6 +3,7 @@
 
 #include "estimation/cutting/peak_table_impl.hpp"
 #include "estimation/engagement/engagement_solver_impl.hpp"
+#include "estimation/four_flutes.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -19,7 +20,7 @@ CuttingLaw<float> steel() {
 }
 
 PeakFactorSettings<float> tool() {
-    PeakFactorSettings<float> s;
+    PeakFactorSettings<float> s = millforce::tests::peaks_of_four_flutes<float>();
     s.helix_rad = pi<float> / 6.0F;
     return s;
 }
@@ -35,10 +36,10 @@ float depth_for(float tangential_N, float immersion) {
 TEST_GROUP(EngagementPeaks){};
 
 TEST(EngagementPeaks, bound_the_tooth_of_any_cut_that_has_the_tangential_force_where_the_axis_forces_lie) {
-    EngagementSolverSettings<float> settings;
+    EngagementSolverSettings<float> settings = millforce::tests::solver_of_four_flutes<float>();
     settings.flute_length_mm = 22.0F;
     const EngagementSolver<float> solver(steel(), settings);
-    EngagementPeaks<float> peaks(steel(), {.peak = tool(), .largest_depth_mm = 22.0F});
+    EngagementPeaks<float> peaks(steel(), {.peak = tool(), .largest_depth_mm = 22.0F, .assumed_immersion = 1.0F});
     for (const float F_at_N : {100.0F, 300.0F, 600.0F}) {
         AverageForceMeasurement<float> m;
         m.tangential_N = {true, F_at_N, 25.0F};

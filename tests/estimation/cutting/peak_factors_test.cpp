@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/cutting/peak_factors.hpp"
 
+#include "estimation/four_flutes.hpp"
 #include "estimation/laws.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -14,9 +15,7 @@ using millforce::tests::carbide_in_SM45C;
 namespace {
 
 PeakFactorSettings<double> four_flutes(double helix_deg = 30.0) {
-    PeakFactorSettings<double> s;
-    s.teeth = 4.0;
-    s.cutter_radius_mm = 5.0;
+    PeakFactorSettings<double> s = millforce::tests::peaks_of_four_flutes<double>();
     s.helix_rad = helix_deg * pi<double> / 180.0;
     return s;
 }
@@ -104,9 +103,7 @@ TEST_GROUP(ToothPeakTable){};
 
 TEST(ToothPeakTable, interpolates_within_one_percent_of_the_direct_search) {
     ToothPeakTable<float> table;
-    PeakFactorSettings<float> s;
-    s.teeth = 4.0F;
-    s.cutter_radius_mm = 5.0F;
+    PeakFactorSettings<float> s = millforce::tests::peaks_of_four_flutes<float>();
     s.helix_rad = 0.5235988F;
     table.build(carbide_in_SM45C<float>(), s);
     double worst = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/engagement/engagement_solver_impl.hpp"
 
+#include "estimation/four_flutes.hpp"
 #include "estimation/laws.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -44,7 +45,7 @@ AverageForceMeasurement<double> measured(const Cut& cut, double sd_N, std::mt199
 
 template <int Nodes = 41>
 EngagementSolver<double, Nodes> solver(double law_relative_sd = 0.0) {
-    EngagementSolverSettings<double> settings;
+    EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
     settings.law_relative_sd = law_relative_sd;
     return {carbide_in_SM45C<double>(), settings};
 }
@@ -152,7 +153,7 @@ TEST(EngagementSolver, has_no_estimate_where_neither_side_explains_the_forces) {
 }
 
 TEST(EngagementSolver, gives_no_depth_beyond_the_flutes) {
-    EngagementSolverSettings<double> settings;
+    EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
     settings.flute_length_mm = 5.0;
     const EngagementSolver<double> short_flutes(carbide_in_SM45C<double>(), settings);
     for (const double immersion : {0.1, 0.5, 1.0, 1.8}) {
@@ -276,7 +277,7 @@ TEST(EngagementSolver, needs_no_feed_force_where_the_immersion_is_told) {
 TEST(EngagementSolver, doubts_the_depth_by_the_doubt_in_K_s) {
     auto law = carbide_in_SM45C<double>();
     law.K_s_relative_sd = 0.1;
-    const EngagementSolver<double> doubtful(law, {});
+    const EngagementSolver<double> doubtful(law, millforce::tests::solver_of_four_flutes<double>());
     const auto e = doubtful.solve(measured({}, 1.0), 0.05, CutSide::down);
     DOUBLES_EQUAL(0.1, e.axial_depth_sd_mm / e.axial_depth_mm, 0.02);
 }
@@ -320,7 +321,7 @@ TEST(EngagementSolver, states_a_deviation_that_reaches_to_the_farther_end_of_a_l
 TEST(EngagementSolver, counts_that_an_edge_force_is_a_larger_share_where_K_s_is_smaller_than_told) {
     auto told = linear_edge_law(1650.0, 22.0, 620.0, 28.0);
     told.K_s_relative_sd = 0.15;
-    const EngagementSolver<double> solver_of_told(told, {});
+    const EngagementSolver<double> solver_of_told(told, millforce::tests::solver_of_four_flutes<double>());
     for (const double K_s_ratio : {0.75, 1.3}) {
         auto truth = told;
         truth.k_s_N_per_mm2 *= K_s_ratio;

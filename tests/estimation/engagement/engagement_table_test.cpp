@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/engagement/engagement_solver_impl.hpp"
 
+#include "estimation/four_flutes.hpp"
 #include "estimation/laws.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -31,7 +32,7 @@ TEST_GROUP(EngagementTable){};
 
 TEST(EngagementTable, tells_the_forces_of_the_closed_law) {
     const auto law = law_with_edges_and_doubt();
-    const EngagementSolver<double> solver(law, {});
+    const EngagementSolver<double> solver(law, millforce::tests::solver_of_four_flutes<double>());
     for (const CutSide side : {CutSide::down, CutSide::up}) {
         const auto& table = solver.table(side);
         for (const double feed_mm : {0.01, 0.05, 0.3}) {
@@ -58,7 +59,8 @@ TEST(EngagementTable, tells_the_forces_of_the_closed_law) {
 }
 
 TEST(EngagementTable, is_taken_at_its_end_beyond_it) {
-    const EngagementSolver<double> solver(law_with_edges_and_doubt(), {});
+    const EngagementSolver<double> solver(law_with_edges_and_doubt(),
+                                          millforce::tests::solver_of_four_flutes<double>());
     const auto& table = solver.table(CutSide::down);
     const auto feed = table.feed(0.05);
     CHECK(table.at(-1.0, feed).tangential_N == table.at(0.2, feed).tangential_N);
@@ -66,7 +68,8 @@ TEST(EngagementTable, is_taken_at_its_end_beyond_it) {
 }
 
 TEST(EngagementTable, a_solution_in_slices_is_the_solution_at_once) {
-    const EngagementSolver<double> solver(law_with_edges_and_doubt(), {});
+    const EngagementSolver<double> solver(law_with_edges_and_doubt(),
+                                          millforce::tests::solver_of_four_flutes<double>());
     AverageForceMeasurement<double> forces;
     forces.tangential_N = {true, 250.0, 25.0};
     forces.x_N = {true, -120.0, 36.0};

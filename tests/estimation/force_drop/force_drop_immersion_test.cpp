@@ -45,6 +45,7 @@ ForceDropMeasurement<float> measured(const FaceMillSignal& signal, CutSide side,
 ForceDropLaw<float> exact_law(double e_t_mm = 0.0, double e_r_mm = 0.0) {
     ForceDropLaw<float> law;
     law.valid = true;
+    law.largest_immersion = 0.95F;
     law.e_t_mm = static_cast<float>(e_t_mm);
     law.e_r_mm = static_cast<float>(e_r_mm);
     return law;

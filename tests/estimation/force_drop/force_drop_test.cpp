@@ -18,6 +18,7 @@ using Estimate = ForceDropEstimate<float>;
 ForceDropLaw<float> law_with_edges(double e_t_mm, double e_r_mm) {
     ForceDropLaw<float> law;
     law.valid = true;
+    law.largest_immersion = 0.95F;
     law.e_t_mm = static_cast<float>(e_t_mm);
     law.e_r_mm = static_cast<float>(e_r_mm);
     law.r_scatter = 0.01F;

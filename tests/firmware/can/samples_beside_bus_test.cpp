@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vector>
 
+#include "firmware_can/bus_settings.hpp"
 #include "firmware_can/can_controller.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -13,7 +14,7 @@ namespace {
 constexpr std::uint64_t start_us = 1'700'000'000'000'000;
 
 firmware::CanControllerSettings nothing_on_the_bus() {
-    firmware::CanControllerSettings settings;
+    firmware::CanControllerSettings settings = firmware::can_controller_settings({}, {});
     settings.drives.beside_bus =
         hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) | hal::axis_mask(0);
     settings.begins_at_once = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/bottom_edge.hpp"
 #include "cutting/cutting_force.hpp"
 #include "files/input_error.hpp"
@@ -14,7 +15,6 @@ using namespace millforce::sim;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 
 BottomEdge edge_of_guan() {
     return {.shear_stress_N_mm2 = 500.0,

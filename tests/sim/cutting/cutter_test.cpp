@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/cutter.hpp"
 #include "cutting/cutting_coefficients.hpp"
 #include "cutting/cutting_force.hpp"
@@ -17,7 +18,6 @@ using namespace millforce::sim;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 std::string refusal_of(const Cutter& cutter) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/oblique_cutting.hpp"
 #include "files/input_error.hpp"
 #include "random_numbers.hpp"
@@ -14,7 +15,6 @@ using namespace millforce::sim;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 
 ObliqueCut random_oblique_cut(RandomNumbers& random) {
     return {.shear_stress_N_mm2 = random.between(200.0, 1200.0),

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "closed_form_average.hpp"
+#include "cutting/angle_units.hpp"
 #include "cutting/revolution_load.hpp"
 #include "random_numbers.hpp"
 
@@ -15,7 +16,6 @@ using namespace millforce::sim;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 
 struct RandomCut {
     Cutter cutter;

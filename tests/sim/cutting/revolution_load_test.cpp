@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/revolution_load.hpp"
 #include "files/input_error.hpp"
 
@@ -14,7 +15,6 @@ using namespace millforce::sim;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 constexpr CuttingCoefficients steel{
     .K_tc_N_mm2 = 1800.0, .K_rc_N_mm2 = 700.0, .K_ac_N_mm2 = 200.0, .K_te_N_mm = 25.0, .K_re_N_mm = 30.0};
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/revolution_load.hpp"
 #include "random_numbers.hpp"
 
@@ -13,7 +14,6 @@ using namespace millforce::sim;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
 constexpr CuttingCoefficients chip_only{.K_tc_N_mm2 = 1800.0, .K_rc_N_mm2 = 700.0, .K_ac_N_mm2 = 200.0};
 constexpr ChipModel all_models[] = {ChipModel::circular, ChipModel::offset_circle, ChipModel::trochoidal};
 

@@ -8,8 +8,10 @@
 #include "cia402/objects.hpp"
 #include "cia402/pdo_mapping.hpp"
 #include "hal/drive_sample.hpp"
+#include "hal/drive_wiring.hpp"
 
-/// How the drives of a machine are wired to the bus, mapped and scaled. Plain data; check() before use.
+/// How the drives of a machine are wired to the bus, mapped and scaled. Plain data; check() before use. The firmware's
+/// parameters have the defaults (parameters.hpp); here what must be given is 0, and refused until it is set.
 
 namespace millforce::cia402 {
 
@@ -17,21 +19,9 @@ namespace millforce::cia402 {
 enum class DriveRole : std::uint8_t { spindle, x_axis, y_axis, z_axis };
 inline constexpr std::size_t drive_capacity = 1 + hal::axis_count;
 
-enum class CurrentSource : std::uint8_t {
-    current_actual,  ///< 0x6078, per mille of rated current 0x6075
-    torque_actual,   ///< 0x6077, per mille of rated torque 0x6076, over the torque constant
-};
-
-/// What a drive's rated current means. Samples carry A rms.
-enum class CurrentBasis : std::uint8_t {
-    rms,
-    peak,  ///< amplitude of the phase current: √2 times rms
-};
-
-enum class VelocitySource : std::uint8_t {
-    velocity_actual,      ///< 0x606C
-    position_difference,  ///< of 0x6064 between two SYNCs
-};
+using hal::CurrentBasis;
+using hal::CurrentSource;
+using hal::VelocitySource;
 
 struct ObjectAddress {
     std::uint16_t index = 0;  ///< 0: none
@@ -47,32 +37,32 @@ struct DriveSettings {
     bool gives_current = true;
     bool gives_motion = true;
 
-    CurrentSource current_source = CurrentSource::current_actual;
+    CurrentSource current_source = CurrentSource::current;
     CurrentBasis current_basis = CurrentBasis::rms;
     bool current_reversed = false;
     float rated_current_A = 0.0F;           ///< of `current_basis`; 0: read from 0x6075 (mA)
     float rated_torque_Nm = 0.0F;           ///< 0: read from 0x6076 (mN·m); only with torque_actual
     float torque_constant_Nm_per_A = 0.0F;  ///< N·m per A of `current_basis`; only with torque_actual
-    float largest_share_of_rated = 4.0F;    ///< of current or torque; beyond it the value is rejected
+    float largest_share_of_rated = 0.0F;    ///< of current or torque; beyond it the value is rejected
 
     /// Axes. The units of a drive are what its gear and factor objects make of them: calibrate, or read its manual.
-    VelocitySource velocity_source = VelocitySource::velocity_actual;
+    VelocitySource velocity_source = VelocitySource::velocity;
     float velocity_mm_s_per_unit = 0.0F;  ///< of 0x606C; negative: the drive counts against the machine axis
     float position_mm_per_unit = 0.0F;    ///< of 0x6064; with 0x606C too, the two are compared (Reject::units_disagree)
-    float largest_velocity_mm_s = 2000.0F;
+    float largest_velocity_mm_s = 0.0F;
 
     /// Spindle: the object that carries the encoder count, and what latches it at the index pulse, if anything does.
-    ObjectAddress count_object{object::position_actual, 0};
-    ObjectAddress index_count_object{};   ///< the count at the last index pulse, e.g. 0x60BA (touch probe value)
-    ObjectAddress index_number_object{};  ///< increases at each index pulse, e.g. 0x60D5 (touch probe edge counter)
-    std::uint32_t count_modulus = 0;      ///< counts after which the object starts again at 0; 0: the object's width
-    std::uint32_t largest_count_step = 1U << 20U;  ///< per SYNC period
-    bool count_reversed = false;                   ///< the count decreases in the cutting direction (M3)
+    ObjectAddress count_object{};
+    ObjectAddress index_count_object{};    ///< the count at the last index pulse, e.g. 0x60BA (touch probe value)
+    ObjectAddress index_number_object{};   ///< increases at each index pulse, e.g. 0x60D5 (touch probe edge counter)
+    std::uint32_t count_modulus = 0;       ///< counts after which the object starts again at 0; 0: the object's width
+    std::uint32_t largest_count_step = 0;  ///< per SYNC period
+    bool count_reversed = false;           ///< the count decreases in the cutting direction (M3)
 
     std::uint32_t heartbeat_timeout_us = 0;  ///< 0: the heartbeat is not watched
     std::uint16_t heartbeat_period_ms = 0;   ///< written to 0x1017 at start; 0: left as it is
     bool write_mapping = false;              ///< write `pdos` to the drive at start; else it is mapped so already
-    std::uint32_t stale_us = 20'000;         ///< age up to which a PDO that does not come at every SYNC is used
+    std::uint32_t stale_us = 0;              ///< age up to which a PDO that does not come at every SYNC is used
 };
 
 struct BusSettings {
@@ -81,10 +71,10 @@ struct BusSettings {
     /// Master: reads and writes objects at start (SDO) and starts the nodes (NMT). Else a listener that sends nothing
     /// of the two: the CNC is the master, and all rated values are given.
     bool is_master = false;
-    std::uint32_t sync_id = cob_id::sync;
-    std::uint32_t sync_period_us = 1000;
+    std::uint32_t sync_id = 0;
+    std::uint32_t sync_period_us = 0;
     /// A sample is handed over when all PDOs of its SYNC have arrived, at the latest after this time.
-    std::uint32_t collect_us = 800;
+    std::uint32_t collect_us = 0;
     /// Mask of hal::Present: what another source gives beside the bus, wholly or in part. A sample waits for it as for
     /// a PDO; without any drive on the bus it is all of the sample.
     std::uint8_t beside_bus = 0;

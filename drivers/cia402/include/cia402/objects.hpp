@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hal/cia301.hpp"
+#include "hal/drive_wiring.hpp"
 
 /// Numbers of CiA 402 (drives) that the driver uses, and those of CiA 301 by their short names.
 

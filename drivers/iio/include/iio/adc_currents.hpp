@@ -40,23 +40,24 @@ namespace millforce::iio {
 enum class AdcMode : std::uint8_t { buffered, polled };
 
 struct AdcChannel {
-    ChannelName name{};        ///< `voltage0`; empty: this drive is not wired
-    float A_per_V = 0.0F;      ///< rms; negative: the sensor counts against the motor
-    float zero_V = 0.0F;       ///< of the sensor at 0 A
-    float largest_A = 100.0F;  ///< beyond it the value is not used
+    ChannelName name{};      ///< `voltage0`; empty: this drive is not wired
+    float A_per_V = 0.0F;    ///< rms; negative: the sensor counts against the motor
+    float zero_V = 0.0F;     ///< of the sensor at 0 A
+    float largest_A = 0.0F;  ///< beyond it the value is not used
 };
 
+/// Defaults of what machine.toml gives are the program's (files/local_io.hpp).
 struct AdcSettings {
     Path device{};  ///< folder in sysfs: /sys/bus/iio/devices/iio:device0
     Path buffer{};  ///< /dev/iio:device0; buffered mode
     AdcMode mode = AdcMode::buffered;
     /// Writes which elements are on, the buffer's length and its start. Else somebody did, and the layout is only read.
     /// The trigger, and its rate, are the system's to set in either case.
-    bool configures = true;
-    std::uint32_t buffer_scans = 1024;
+    bool configures = false;
+    std::uint32_t buffer_scans = 0;
     std::array<AdcChannel, drive_capacity> channels{};  ///< spindle, x, y, z
     std::uint32_t sample_period_us = 0;                 ///< of the device, to detect gaps; 0: gaps are not detected
-    std::uint32_t stale_us = 20'000;                    ///< without a value for so long the state is `silent`
+    std::uint32_t stale_us = 0;                         ///< without a value for so long the state is `silent`
     std::uint32_t look_period_us = 100'000;             ///< between tries to open
 };
 

@@ -18,16 +18,17 @@ namespace millforce::iio {
 /// fault, when the ratio is not finite, when no ticks come, and after this object's end.
 /// A converter keeps its last value when this program is killed or its processor stops: a voltage proves nothing.
 /// A CNC that follows it must also watch a sign of life: the pulse of gpio::FeedHoldLine, or the CAN heartbeat.
+/// Defaults of what machine.toml gives are the program's (files/local_io.hpp).
 struct AnalogueOverrideSettings {
     Path device{};          ///< folder in sysfs
     ChannelName channel{};  ///< `voltage0`
-    float V_per_ratio = 5.0F;
+    float V_per_ratio = 0.0F;
     float zero_V = 0.0F;
     float lowest_V = 0.0F;
-    float highest_V = 10.0F;
+    float highest_V = 0.0F;
     float safe_V = 0.0F;  ///< at which the CNC stops the feed; not clamped to the range
     std::int32_t lowest_raw = 0;
-    std::int32_t highest_raw = 4095;
+    std::int32_t highest_raw = 0;
     std::uint32_t tick_timeout_us = 20'000;
     std::uint32_t refresh_us =
         100'000;  ///< an unchanged value is written again after so long, a missing device looked for

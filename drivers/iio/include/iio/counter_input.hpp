@@ -9,11 +9,12 @@
 namespace millforce::iio {
 
 /// An encoder at a counter of Linux, read as a file: the counter subsystem's
-/// /sys/bus/counter/devices/counter0/count0/count, or IIO's in_count0_raw.
+/// /sys/bus/counter/devices/counter0/count0/count, or IIO's in_count0_raw. Defaults are the program's
+/// (files/local_io.hpp).
 struct CounterSettings {
     Path count_file{};
-    std::uint32_t modulus = 0;  ///< counts after which it begins again at 0: the file `ceiling` plus 1; 0: 2³²
-    std::uint32_t largest_step = 1U << 20U;  ///< between two reads; beyond it the value is not used, and followed from
+    std::uint32_t modulus = 0;       ///< counts after which it begins again at 0: the file `ceiling` plus 1; 0: 2³²
+    std::uint32_t largest_step = 0;  ///< between two reads; beyond it the value is not used, and followed from
     bool reversed = false;
     float mm_per_count = 0.0F;  ///< of a feed axis; 0: of the spindle
 };

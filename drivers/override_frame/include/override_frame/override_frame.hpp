@@ -5,6 +5,7 @@
 #include <span>
 
 #include "hal/can_frame.hpp"
+#include "hal/drive_wiring.hpp"
 #include "hal/feed_override.hpp"
 
 /// The feed override on CAN: one frame of 8 bytes, little endian, with the controller's proof that it lives.
@@ -24,8 +25,8 @@
 
 namespace millforce::override_frame {
 
-inline constexpr std::uint8_t default_node_id = 126;
-inline constexpr std::uint32_t default_id = 0x180 + default_node_id;
+inline constexpr std::uint8_t default_node_id = hal::default_override_node_id;
+inline constexpr std::uint32_t default_id = hal::default_override_id;
 inline constexpr std::uint8_t frame_bytes = 8;
 inline constexpr float ratio_per_bit = 0.0001F;
 inline constexpr float largest_ratio = 6.5535F;

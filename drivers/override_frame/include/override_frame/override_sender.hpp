@@ -10,13 +10,14 @@
 
 namespace millforce::override_frame {
 
+/// The firmware's parameters have the defaults of what is 0 here (parameters.hpp).
 struct OverrideSenderSettings {
-    std::uint8_t node_id = default_node_id;
-    std::uint32_t id = default_id;
+    std::uint8_t node_id = 0;
+    std::uint32_t id = 0;
     /// Between two frames; 0: one with every tick. A change of hold or fault goes out at once.
-    std::uint32_t period_us = 2'000;
-    std::uint32_t heartbeat_period_us = 100'000;  ///< between two heartbeats
-    std::uint32_t tick_timeout_us = 20'000;       ///< without a tick for so long the heartbeat says `stopped`
+    std::uint32_t period_us = 0;
+    std::uint32_t heartbeat_period_us = 0;   ///< between two heartbeats
+    std::uint32_t tick_timeout_us = 20'000;  ///< without a tick for so long the heartbeat says `stopped`
 };
 
 /// Whether a frame is the boot-up of this controller (CiA 301): its node's heartbeat with the state 0.

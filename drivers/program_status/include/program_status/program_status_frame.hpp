@@ -5,6 +5,7 @@
 
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
+#include "hal/drive_wiring.hpp"
 
 /// What the CNC reports about its program on CAN: one frame of 8 bytes, little endian. A CNC, or a small gateway next
 /// to it, sends it every 10 ms and at once where a flag changes.
@@ -19,7 +20,7 @@
 
 namespace millforce::program_status {
 
-inline constexpr std::uint32_t default_id = 0x1FD;  // TPDO 1 of node 125
+inline constexpr std::uint32_t default_id = hal::default_program_status_id;
 inline constexpr std::uint8_t frame_bytes = 8;
 inline constexpr float feed_mm_s_per_bit = 0.01F / 60.0F;
 

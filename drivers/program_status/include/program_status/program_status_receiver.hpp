@@ -10,9 +10,10 @@
 
 namespace millforce::program_status {
 
+/// The firmware's parameters have the defaults (parameters.hpp).
 struct ProgramStatusReceiverSettings {
-    std::uint32_t id = default_id;       ///< 0: there is no such frame on the bus
-    std::uint32_t timeout_us = 100'000;  ///< without a fresh frame for so long the CNC is silent
+    std::uint32_t id = 0;          ///< 0: there is no such frame on the bus
+    std::uint32_t timeout_us = 0;  ///< without a fresh frame for so long the CNC is silent
 };
 
 enum class ReceiveError : std::uint8_t {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/cutting/cut_geometry.hpp"
+#include "estimation/number/literal.hpp"
 
 #include <cmath>
 
@@ -39,16 +40,16 @@ struct CuttingLaw {
     Scalar K_te_N_per_mm{0};  ///< tangential edge force per length of edge.
     Scalar K_re_N_per_mm{0};  ///< radial edge force per length of edge.
 
-    Scalar K_s_relative_sd{0};              ///< standard deviation of ln K_s at t_ref.
-    Scalar K_s_exponent_sd{0};              ///< its growth per unit of ln(t_a/t_ref).
-    Scalar r_1_relative_sd{0};              ///< standard deviation of ln r_1 at t_ref.
-    Scalar r_1_exponent_sd{0};              ///< its growth per unit of ln(t_a/t_ref).
-    Scalar reference_chip_thickness_mm{0};  ///< t_ref; 0: the uncertainty does not grow.
-    Scalar minimum_chip_thickness_mm{0};    ///< thinnest mean chip of the calibration cuts.
-    Scalar maximum_chip_thickness_mm{0};    ///< thickest mean chip of the calibration cuts; 0: not given.
+    Scalar K_s_relative_sd{literal<Scalar>(0.05L)};  ///< standard deviation of ln K_s at t_ref.
+    Scalar K_s_exponent_sd{0};                       ///< its growth per unit of ln(t_a/t_ref).
+    Scalar r_1_relative_sd{literal<Scalar>(0.05L)};  ///< standard deviation of ln r_1 at t_ref.
+    Scalar r_1_exponent_sd{0};                       ///< its growth per unit of ln(t_a/t_ref).
+    Scalar reference_chip_thickness_mm{0};           ///< t_ref; 0: the uncertainty does not grow.
+    Scalar minimum_chip_thickness_mm{0};             ///< thinnest mean chip of the calibration cuts.
+    Scalar maximum_chip_thickness_mm{0};             ///< thickest mean chip of the calibration cuts; 0: not given.
 };
 
-/// The linear edge law as a CuttingLaw. `K_tc` > 0.
+/// The linear edge law as a CuttingLaw, without doubt: both deviations are 0. `K_tc` > 0.
 template <typename Scalar>
 CuttingLaw<Scalar> linear_edge_law(Scalar K_tc_N_per_mm2, Scalar K_te_N_per_mm, Scalar K_rc_N_per_mm2,
                                    Scalar K_re_N_per_mm) {
@@ -57,6 +58,8 @@ CuttingLaw<Scalar> linear_edge_law(Scalar K_tc_N_per_mm2, Scalar K_te_N_per_mm, 
     law.k_1 = K_rc_N_per_mm2 / K_tc_N_per_mm2;
     law.K_te_N_per_mm = K_te_N_per_mm;
     law.K_re_N_per_mm = K_re_N_per_mm;
+    law.K_s_relative_sd = Scalar(0);
+    law.r_1_relative_sd = Scalar(0);
     return law;
 }
 

@@ -25,8 +25,8 @@ class EngagementPeaks {
 
     struct Settings {
         PeakFactorSettings<Scalar> peak{};  ///< with the side of the tool
-        Scalar largest_depth_mm{10};        ///< taken until a depth is known
-        Scalar assumed_immersion{1};        ///< taken until an immersion is known
+        Scalar largest_depth_mm{0};         ///< taken until a depth is known
+        Scalar assumed_immersion{0};        ///< taken until an immersion is known
         Scalar surge_immersion{0};
         Scalar turn_immersion{0};
     };

@@ -28,10 +28,10 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct PeakFactorSettings {
-    Scalar teeth{4};
-    Scalar cutter_radius_mm{5};
+    Scalar teeth{0};
+    Scalar cutter_radius_mm{0};
     Scalar helix_rad{0};
-    Scalar nominal_feed_per_tooth_mm{literal<Scalar>(0.05L)};
+    Scalar nominal_feed_per_tooth_mm{0};
     CutSide side = CutSide::down;
     Scalar centre_offset_in_radii{0};
 };

@@ -34,10 +34,10 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct EngagementSolverSettings {
-    Scalar teeth{4};
+    Scalar teeth{0};
     Scalar centre_offset_in_radii{0};  ///< for CutSide::centred
     /// Misfit of the closed law itself, relative to F_at, on each axis force.
-    Scalar law_relative_sd{literal<Scalar>(0.02L)};
+    Scalar law_relative_sd{0};
     Scalar largest_immersion{2};
     Scalar widest_interval{literal<Scalar>(1.2L)};  ///< a 95 % interval wider than this is no estimate
     Scalar declared_depth_mm{0};                    ///< axial depth that the program declares; 0: not declared

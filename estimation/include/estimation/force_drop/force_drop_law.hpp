@@ -65,7 +65,7 @@ struct ForceDropLaw {
     Scalar other_slope_y{0};
 
     Scalar smallest_immersion{literal<Scalar>(0.1L)};  ///< calibrated range, widened a little: no estimate outside
-    Scalar largest_immersion{literal<Scalar>(0.95L)};
+    Scalar largest_immersion{0};                       ///< 0: not calibrated
 };
 
 /// What c multiplies.

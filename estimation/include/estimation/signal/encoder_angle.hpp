@@ -37,7 +37,7 @@ struct EncoderReading {
 template <typename Scalar>
 class EncoderAngle {
   public:
-    explicit EncoderAngle(std::uint32_t counts_per_rev = 4096)
+    explicit EncoderAngle(std::uint32_t counts_per_rev)
         : counts_per_rev_(counts_per_rev),
           too_many_(static_cast<std::int32_t>(counts_per_rev / 20U * 9U)),
           rev_per_count_(Scalar(1) / static_cast<Scalar>(counts_per_rev)) {}

@@ -27,8 +27,8 @@ class SynchronousAverage {
     using RateSignals = Eigen::Matrix<Scalar, Rates, 1>;
 
     struct Settings {
-        int teeth = 4;           ///< tooth periods per revolution, 1…12
-        Scalar min_samples{12};  ///< a window has at least this many samples, rounded up to whole revolutions
+        int teeth = 0;          ///< tooth periods per revolution, 1…12
+        Scalar min_samples{0};  ///< a window has at least this many samples, rounded up to whole revolutions
         /// A longer gap between samples restarts the averages, however slowly the spindle turns.
         Scalar max_gap_s{literal<Scalar>(0.05L)};
     };
@@ -54,7 +54,7 @@ class SynchronousAverage {
         int tooth_periods = 0;  ///< of these revolutions
     };
 
-    explicit SynchronousAverage(const Settings& settings = {});
+    explicit SynchronousAverage(const Settings& settings);
 
     void restart();
 

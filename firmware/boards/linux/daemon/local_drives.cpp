@@ -15,12 +15,12 @@ namespace {
 iio::AdcSettings adc_settings(const LocalIoKeys& keys) {
     iio::AdcSettings settings;
     settings.device = local_path("iio.device", keys.device);
-    settings.mode = static_cast<iio::AdcMode>(std::lround(keys.mode));
+    settings.mode = keys.mode == ConverterMode::polled ? iio::AdcMode::polled : iio::AdcMode::buffered;
     if (settings.mode == iio::AdcMode::buffered) {
         settings.buffer = local_path("iio.buffer", keys.buffer);
     }
-    settings.configures = keys.configures > 0.5;
-    settings.buffer_scans = static_cast<std::uint32_t>(keys.buffer_scans);
+    settings.configures = keys.configures;
+    settings.buffer_scans = keys.buffer_scans;
     settings.sample_period_us = static_cast<std::uint32_t>(keys.sample_period_us);
     settings.stale_us = static_cast<std::uint32_t>(keys.stale_ms * 1e3);
     for (std::size_t place = 0; place < keys.drives.size(); ++place) {
@@ -38,9 +38,9 @@ iio::AdcSettings adc_settings(const LocalIoKeys& keys) {
 iio::CounterSettings counter_settings(const char* table, const LocalDriveKeys& drive) {
     iio::CounterSettings settings;
     settings.count_file = local_path(fmt::format("{}.count_file", table), drive.count_file);
-    settings.modulus = static_cast<std::uint32_t>(drive.count_modulus);
-    settings.largest_step = static_cast<std::uint32_t>(drive.largest_count_step);
-    settings.reversed = drive.count_reversed > 0.5;
+    settings.modulus = drive.count_modulus;
+    settings.largest_step = drive.largest_count_step;
+    settings.reversed = drive.count_reversed;
     settings.mm_per_count = static_cast<float>(drive.mm_per_count);
     return settings;
 }

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "daemon/local_settings.hpp"
 
 namespace millforce::host {
@@ -20,8 +18,8 @@ iio::AnalogueOverrideSettings voltage_settings(const LocalIoKeys& keys) {
     settings.lowest_V = static_cast<float>(keys.lowest_V);
     settings.highest_V = static_cast<float>(keys.highest_V);
     settings.safe_V = static_cast<float>(keys.safe_V);
-    settings.lowest_raw = static_cast<std::int32_t>(std::lround(keys.lowest_raw));
-    settings.highest_raw = static_cast<std::int32_t>(std::lround(keys.highest_raw));
+    settings.lowest_raw = keys.lowest_raw;
+    settings.highest_raw = keys.highest_raw;
     return settings;
 }
 
@@ -31,9 +29,9 @@ gpio::GpioChipSettings chip_settings(const LocalIoKeys& keys) {
         throw InputError(fmt::format("feed_hold_line.chip = \"{}\": expected a path of 1 to {} characters", keys.chip,
                                      settings.chip.size() - 1));
     }
-    settings.offsets = {static_cast<std::uint32_t>(keys.release_line), static_cast<std::uint32_t>(keys.pulse_line)};
+    settings.offsets = {keys.release_line, keys.pulse_line};
     settings.line_count = 2;
-    settings.active_low = keys.active_low > 0.5 ? gpio::FeedHoldLine::release_line : 0U;
+    settings.active_low = keys.active_low ? gpio::FeedHoldLine::release_line : 0U;
     return settings;
 }
 

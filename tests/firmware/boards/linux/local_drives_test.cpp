@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/local_drives.hpp"
 
+#include "bus_settings.hpp"
 #include "cia402/drive_bus.hpp"
 #include "daemon/local_outputs.hpp"
 #include "drivers/iio/fake_iio.hpp"
@@ -21,7 +22,7 @@ class Bench {
         tree.write("adc/in_voltage_scale", "2.0\n");  // mV
         tree.write("count", "4000\n");
         bus.local.device = tree.name("adc");
-        bus.local.mode = 1.0;
+        bus.local.mode = ConverterMode::polled;
         bus.local.drives[0] = {
             .current_channel = "voltage0", .count_file = tree.name("count"), .A_per_V = 10.0, .zero_V = 1.0};
         bus.local.drives[1] = {.current_channel = "voltage3", .count_file = "", .A_per_V = -2.0};
@@ -39,7 +40,7 @@ class Bench {
     static constexpr std::uint8_t all_of_bench =
         hal::mask(hal::Present::spindle_count) | hal::mask(hal::Present::spindle_current) | hal::axis_mask(0);
     iio::test::FakeTree tree{};
-    MachineBus bus{};
+    MachineBus bus{.drives = test::a_bus()};
 };
 
 /// One SYNC; what this computer reads, and the frame of x's drive; the sample that the controller makes of them.

@@ -71,7 +71,7 @@ TEST(MachineBusFile, every_mapping_order_width_and_unit_arrives_as_written) {
     CHECK((drive.pdos[2].objects[1] == cia402::MappedObject{0x60BA, 0, 32}));
     DOUBLES_EQUAL(12.0, drive.rated_current_A, 0.0);
     const cia402::DriveSettings& x = read_bus.drives.drives[1];
-    CHECK(x.current_source == cia402::CurrentSource::torque_actual);
+    CHECK(x.current_source == cia402::CurrentSource::torque);
     CHECK(x.current_basis == cia402::CurrentBasis::peak);
     DOUBLES_EQUAL(-0.002, x.velocity_mm_s_per_unit, 1e-9);
     UNSIGNED_LONGS_EQUAL(7500, x.stale_us);

@@ -3,6 +3,9 @@
 #include "files/parameter_choices.hpp"
 #include "firmware/crc32.hpp"
 #include "firmware/parameter_block.hpp"
+#include "firmware_can/bus_settings.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <set>
@@ -112,6 +115,17 @@ TEST(ParameterTable, has_all_fields_of_the_structures_but_those_worked_out_of_ot
     bytes.cover(law.c_covariance(2, 1));
     // Shorter gaps are padding.
     CHECK_TRUE(bytes.longest_gap() < sizeof(Wide));
+}
+
+TEST(ParameterTable, shows_the_object_of_the_count_that_a_drive_has_by_default) {
+    const firmware::DriveObjects defaults;
+    for (const TextRow& row : text_table()) {
+        if (std::string(row.key) == "count_object") {
+            STRCMP_EQUAL(fmt::format("0x{:04X}", defaults.count.index).c_str(), row.default_text);
+        }
+    }
+    UNSIGNED_LONGS_EQUAL(0, defaults.index_count.index);
+    UNSIGNED_LONGS_EQUAL(0, defaults.index_number.index);
 }
 
 TEST(ParameterTable, names_no_key_of_a_table_twice_for_information_neither) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware_can/bus_settings.hpp"
 #include "hal/drive_sample.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_receiver.hpp"
@@ -39,8 +40,8 @@ struct Wiring {
     bool spindle_reversed = false;
     bool has_index = true;
     stm32::CanBitRate bit_rate = stm32::CanBitRate::kbit_500;
-    override_frame::OverrideSenderSettings feed_override{};
-    program_status::ProgramStatusReceiverSettings program{};
+    override_frame::OverrideSenderSettings feed_override = firmware::override_sender_settings({});
+    program_status::ProgramStatusReceiverSettings program = firmware::program_status_settings({});
     std::uint32_t watchdog_us = 20'000;
 };
 
