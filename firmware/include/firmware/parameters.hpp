@@ -14,8 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The parameters of a machine and a tool: plain structures with their defaults, each once, here or in the structures of
-/// drives, laws and control that they hold. What is worked out from them has none of its own. Keys and ranges:
+/// The parameters of a machine and a tool: plain structures with their defaults, each once, here or in the structures
+/// of drives, laws and control that they hold. What is worked out from them has none of its own. Keys and ranges:
 /// parameter_fields.hpp. On a host: parameter_table.hpp of the program, with units and sentences.
 
 namespace millforce::firmware {
