@@ -58,8 +58,9 @@ LocalIoKeys read(const std::string& text) {
     return read_local_io(table_of);
 }
 
-const std::string one_current =
-    "[iio.x]\ncurrent_channel = \"voltage0\"\nA_per_V = 10\n[iio]\ndevice = \"adc\"\nbuffer = \"buffer\"\n";
+std::string one_current() {
+    return "[iio.x]\ncurrent_channel = \"voltage0\"\nA_per_V = 10\n[iio]\ndevice = \"adc\"\nbuffer = \"buffer\"\n";
+}
 
 std::string refusal_of(const std::string& text) {
     try {
@@ -133,7 +134,7 @@ TEST(LocalIo, has_a_name_for_each_value_of_an_enumeration_and_for_nothing_else) 
 
 TEST(LocalIo, that_a_file_leaves_out_is_as_the_structures_have_it) {
     const LocalIoKeys defaults;
-    const LocalIoKeys keys = read(one_current);
+    const LocalIoKeys keys = read(one_current());
     CHECK(keys.mode == defaults.mode);
     CHECK_EQUAL(defaults.configures, keys.configures);
     UNSIGNED_LONGS_EQUAL(defaults.buffer_scans, keys.buffer_scans);
@@ -145,7 +146,7 @@ TEST(LocalIo, that_a_file_leaves_out_is_as_the_structures_have_it) {
 }
 
 TEST(LocalIo, reads_flags_as_truth_values_or_their_words_and_counts_as_whole_numbers) {
-    const LocalIoKeys keys = read(one_current +
+    const LocalIoKeys keys = read(one_current() +
                                   "configures = false\nbuffer_scans = 512.0\nsample_period_us = 97.5\nmode = "
                                   "\"polled\"\n[feed_hold_line]\nchip = \"chip\"\npulse_line = 27\nactive_low = "
                                   "\"true\"\n[override_voltage]\ndevice = \"dac\"\nchannel = \"voltage0\"\n"
@@ -158,9 +159,9 @@ TEST(LocalIo, reads_flags_as_truth_values_or_their_words_and_counts_as_whole_num
     UNSIGNED_LONGS_EQUAL(27, keys.pulse_line);
     LONGS_EQUAL(-2048, keys.lowest_raw);
     STRCMP_CONTAINS("iio.buffer_scans = 512.5: expected an integer",
-                    refusal_of(one_current + "buffer_scans = 512.5\n").c_str());
+                    refusal_of(one_current() + "buffer_scans = 512.5\n").c_str());
     STRCMP_CONTAINS("iio.configures = 1: expected one of false, true",
-                    refusal_of(one_current + "configures = 1\n").c_str());
+                    refusal_of(one_current() + "configures = 1\n").c_str());
     UNSIGNED_LONGS_EQUAL(4'294'967'295U,
                          read("[iio]\ndevice = \"adc\"\nbuffer = \"b\"\n[iio.x]\ncurrent_channel = \"v\"\nA_per_V = "
                               "1\ncount_modulus = 4294967295\n")
