@@ -3,11 +3,11 @@
 
 #include <array>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include "commands/command_line.hpp"
 #include "commands/plant_commands.hpp"
+#include "cutting/angle_units.hpp"
 #include "cutting/revolution_load.hpp"
 #include "estimation/cutting/cut_geometry.hpp"
 #include "files/atomic_file.hpp"
@@ -60,7 +60,7 @@ int cut_table(const CutTableOptions& options) {
     const Scenario believed = read_scenario(options.scenario);
     const Scenario scenario = deviated(believed, believed.deviation, options.seed);
     const CuttingForce force(scenario.cutter, scenario.coefficients, scenario.cutting_options);
-    const double spindle_rad_s = options.spindle_speed_rpm * 2.0 * std::numbers::pi / 60.0;
+    const double spindle_rad_s = options.spindle_speed_rpm * turn / 60.0;
     const auto teeth = static_cast<double>(scenario.cutter.teeth);
     std::mt19937_64 random(options.seed);
     std::normal_distribution<double> noise(0.0, options.noise_share);
@@ -75,7 +75,7 @@ int cut_table(const CutTableOptions& options) {
             estimation::engagement_angles(side_of(scenario), 2.0 * cut.radial_width_mm / scenario.cutter.diameter_mm);
         const RevolutionLoad load = revolution_load(
             force, cut.feed_per_tooth_mm, uniform_engagement(angles.entry_rad, angles.exit_rad, cut.axial_depth_mm));
-        const double feed_mm_s = cut.feed_per_tooth_mm * teeth * spindle_rad_s / (2.0 * std::numbers::pi);
+        const double feed_mm_s = cut.feed_per_tooth_mm * teeth * spindle_rad_s / turn;
         const double torque_Nm = load.mean_torque_Nm * (1.0 + noise(random));
         const double normal_N = -load.mean_fy_N * (1.0 + noise(random));
         csv.row(std::array{scenario.cutter.diameter_mm, teeth, spindle_rad_s, cut.axial_depth_mm, cut.radial_width_mm,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linuxcnc/linuxcnc_plant.hpp"
 
+#include "cutting/angle_units.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace millforce::sim {
 
@@ -44,7 +45,7 @@ Eigen::Vector3d position_of(const millforce_plant_command& command) {
 }
 
 double speed_of(const millforce_plant_command& command) {
-    return command.spindle_rev_s * 2.0 * std::numbers::pi;
+    return command.spindle_rev_s * turn;
 }
 
 /// Axes that follow at once, as before and after a run.
@@ -86,7 +87,7 @@ millforce_plant_reply LinuxCncPlant::step(const millforce_plant_command& command
         reply.index_count = sample.spindle_index_count;
         reply.index_number = sample.spindle_index_number;
         reply.spindle_current_A = static_cast<double>(sample.spindle_current_A);
-        reply.spindle_rev_s = machine.spindle_speed_rad_s() / (2.0 * std::numbers::pi);
+        reply.spindle_rev_s = machine.spindle_speed_rad_s() / turn;
         reply.tooth_force_N = tooth_force_N_;
     }
     reply.cycle_number = command.cycle_number;

@@ -2,8 +2,8 @@
 #include "loop/scenario.hpp"
 
 #include <filesystem>
-#include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/oblique_cutting.hpp"
 #include "files/input_error.hpp"
 #include "files/parameter_files.hpp"
@@ -14,9 +14,6 @@ namespace millforce::sim {
 namespace {
 
 using Table = host::TomlFile::Table;
-
-constexpr double rad_per_deg = std::numbers::pi / 180.0;
-constexpr double rad_s_per_rpm = 2.0 * std::numbers::pi / 60.0;
 
 StockBox read_box(Table& table) {
     StockBox box;
@@ -82,11 +79,11 @@ void read_cutter(Table& root, const firmware::ToolParameters<float>& tool, Cutte
     cutter.teeth = tool.teeth;
     cutter.diameter_mm = static_cast<double>(tool.diameter_mm);
     cutter.flute_length_mm = static_cast<double>(tool.flute_length_mm);
-    cutter.helix_rad = table.number("helix_deg", 0.0, 60.0, static_cast<double>(tool.helix_deg)) * rad_per_deg;
-    cutter.rake_rad = table.number("rake_deg", -30.0, 30.0, 8.0) * rad_per_deg;
-    cutter.lead_angle_rad = table.number("lead_angle_deg", 10.0, 90.0, 90.0) * rad_per_deg;
+    cutter.helix_rad = table.number("helix_deg", 0.0, 60.0, static_cast<double>(tool.helix_deg)) * degree;
+    cutter.rake_rad = table.number("rake_deg", -30.0, 30.0, 8.0) * degree;
+    cutter.lead_angle_rad = table.number("lead_angle_deg", 10.0, 90.0, 90.0) * degree;
     cutter.runout_mm = table.number("runout_um", 0.0, 500.0, 0.0) * 1e-3;
-    cutter.runout_angle_rad = table.number("runout_angle_deg", -360.0, 360.0, 30.0) * rad_per_deg;
+    cutter.runout_angle_rad = table.number("runout_angle_deg", -360.0, 360.0, 30.0) * degree;
     table.reject_unknown_keys();
 }
 
@@ -96,8 +93,8 @@ void read_material(Table& root, Scenario& scenario) {
     if (table.has("shear_stress_N_mm2")) {
         ObliqueCut cut;
         cut.shear_stress_N_mm2 = table.number("shear_stress_N_mm2", 1.0, 1e4);
-        cut.shear_angle_rad = table.number("shear_angle_deg", 5.0, 60.0) * rad_per_deg;
-        cut.friction_angle_rad = table.number("friction_angle_deg", 0.0, 60.0) * rad_per_deg;
+        cut.shear_angle_rad = table.number("shear_angle_deg", 5.0, 60.0) * degree;
+        cut.friction_angle_rad = table.number("friction_angle_deg", 0.0, 60.0) * degree;
         cut.rake_rad = scenario.cutter.rake_rad;
         cut.inclination_rad = scenario.cutter.helix_rad;
         scenario.coefficients = oblique_cutting(cut);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "cutting/angle_units.hpp"
 #include "cutting/revolution_load.hpp"
 #include "loop/simulation.hpp"
 #include "preview/preview.hpp"
@@ -53,8 +53,7 @@ class TrueFeed {
             return no_bound;
         }
         const double highest_mm_s = override_max_ * place.programmed_feed_mm_s;
-        const double teeth_per_s =
-            place.spindle_speed_rad_s / (2.0 * std::numbers::pi) * static_cast<double>(plant_.cutter.teeth);
+        const double teeth_per_s = place.spindle_speed_rad_s / turn * static_cast<double>(plant_.cutter.teeth);
         if (place.cut.empty() || !(teeth_per_s > 0.0)) {
             return highest_mm_s;
         }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "report/page_template.hpp"
@@ -35,7 +34,7 @@ std::string fact(std::string_view name, std::string_view value) {
 }
 
 std::string facts_html(const ScenarioInfo& info) {
-    const double speed_rpm = info.spindle_speed_rad_s * 30.0 / std::numbers::pi;
+    const double speed_rpm = spindle_speed_rpm(info);
     std::string out = fact("Tool", info.tool) + fact("Material", info.material);
     out += fact("Force limit of one tooth", fmt::format("{:.0f} N", info.tooth_force_limit_N));
     if (speed_rpm > 0.0) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -96,5 +97,9 @@ struct ScenarioInfo {
     double stock_max_x_mm = 0.0;
     double stock_max_y_mm = 0.0;
 };
+
+[[nodiscard]] inline double spindle_speed_rpm(const ScenarioInfo& info) {
+    return info.spindle_speed_rad_s * 30.0 / std::numbers::pi;
+}
 
 }  // namespace millforce::sim

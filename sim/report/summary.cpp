@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 namespace millforce::sim {
 
@@ -137,7 +136,7 @@ std::string summary_table(const ScenarioInfo& info, std::span<const RunResult> r
     }
     constexpr std::size_t runs_per_block = 4;
     const std::vector<FigureRow> rows = figure_rows(runs);
-    const double speed_rpm = info.spindle_speed_rad_s * 30.0 / std::numbers::pi;
+    const double speed_rpm = spindle_speed_rpm(info);
     std::string out = fmt::format("{}\n", info.title.empty() ? info.name : info.title);
     out += fmt::format("{}; {}; ", info.tool, info.material);
     if (speed_rpm > 0.0) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/fine_integration.hpp"
 
+#include "cutting/angle_units.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -14,8 +16,6 @@ namespace brute_force {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double full_turn = 2.0 * std::numbers::pi;
 
 /// Force on the workpiece per mm² of chip section (width along `across` × thickness): `velocity` of the edge, `out` of
 /// the workpiece towards the chip, both unit vectors; the edge is inclined by `inclination` against `across`, trailing.
@@ -82,7 +82,7 @@ void add_tooth(const FineCut& cut, double tip, int axial_steps, FineForce& total
 
 /// Angles in [0, pitch] at which a tip or the top of an edge enters or leaves.
 std::vector<double> events_in_pitch(const FineCut& cut) {
-    const double pitch = full_turn / cut.teeth;
+    const double pitch = turn / cut.teeth;
     const double sweep = cut.axial_depth_mm * std::tan(cut.helix_rad) / cut.radius_mm;
     std::vector<double> events{0.0, pitch};
     for (const double angle : {cut.entry_rad, cut.exit_rad, cut.entry_rad + sweep, cut.exit_rad + sweep}) {
@@ -96,7 +96,7 @@ std::vector<double> events_in_pitch(const FineCut& cut) {
 }  // namespace brute_force
 
 double fine_chip_mm(const FineCut& cut, double phi_rad) {
-    const double pitch = brute_force::full_turn / cut.teeth;
+    const double pitch = turn / cut.teeth;
     const double R = cut.radius_mm;
     const double advance_per_rad = cut.feed_per_tooth_mm / pitch;
     // Position of the previous tooth, in the frame of the present axis, when it was at `angle`.
@@ -118,19 +118,19 @@ double fine_chip_mm(const FineCut& cut, double phi_rad) {
 
 FineForce fine_force(const FineCut& cut, double spindle_angle_rad, int axial_steps) {
     using namespace brute_force;
-    const double pitch = full_turn / cut.teeth;
+    const double pitch = turn / cut.teeth;
     FineForce total;
     for (int tooth = 0; tooth < cut.teeth; ++tooth) {
         const double behind = spindle_angle_rad - tooth * pitch;
-        const double tip = behind - full_turn * std::floor(behind / full_turn);
+        const double tip = behind - turn * std::floor(behind / turn);
         add_tooth(cut, tip, axial_steps, total);
-        add_tooth(cut, tip + full_turn, axial_steps, total);  // the tip is through its turn, the edge above still cuts
+        add_tooth(cut, tip + turn, axial_steps, total);  // the tip is through its turn, the edge above still cuts
     }
     return total;
 }
 
 FineForce fine_average(const FineCut& cut, int angle_steps, int axial_steps) {
-    const double pitch = brute_force::full_turn / cut.teeth;
+    const double pitch = turn / cut.teeth;
     const std::vector<double> events = brute_force::events_in_pitch(cut);
     FineForce mean;
     for (std::size_t part = 0; part + 1 < events.size(); ++part) {

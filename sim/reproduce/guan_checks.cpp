@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -25,7 +26,7 @@ double counted_engagement_deg(double radial_width_mm) {
     constexpr int points = 360000;
     int inside = 0;
     for (int k = 0; k < points; ++k) {
-        const double phi = pi * (k + 0.5) / points;  // the half in front of the axis
+        const double phi = std::numbers::pi * (k + 0.5) / points;  // the half in front of the axis
         inside += radius_mm - radius_mm * std::cos(phi) < radial_width_mm ? 1 : 0;
     }
     return 180.0 * inside / points;
@@ -86,7 +87,7 @@ namespace {
 double chip_error(ChipModel model, double feed_in_radii) {
     FineCut cut = fine_cut(figure_6[1]);
     cut.feed_per_tooth_mm = feed_in_radii * radius_mm;
-    const double pitch = 2.0 * pi / teeth;
+    const double pitch = turn / teeth;
     const EdgePass pass{radius_mm, radius_mm, cut.feed_per_tooth_mm / pitch, pitch};
     double largest = 0.0;
     for (int k = 0; k <= 180; ++k) {
@@ -183,13 +184,13 @@ double momentary_difference(const FineCut& cut, bool with_bottom) {
     double size_Nm = 0.0;
     std::vector<FineForce> fine;
     for (int k = 0; k < angles; ++k) {
-        fine.push_back(fine_force(cut, (k + 0.5) * 2.0 * pi / (cut.teeth * angles), axial_steps));
+        fine.push_back(fine_force(cut, (k + 0.5) * turn / (cut.teeth * angles), axial_steps));
         size_N = std::max(size_N, largest_component(fine.back()));
         size_Nm = std::max(size_Nm, fine.back().torque_Nm);
     }
     double largest = 0.0;
     for (int k = 0; k < angles; ++k) {
-        const CuttingLoad load = plant.load((k + 0.5) * 2.0 * pi / (cut.teeth * angles), cut.feed_per_tooth_mm, map);
+        const CuttingLoad load = plant.load((k + 0.5) * turn / (cut.teeth * angles), cut.feed_per_tooth_mm, map);
         largest = std::max(largest, difference_of(fine[static_cast<std::size_t>(k)], load.fx_N, load.fy_N, load.fz_N,
                                                   load.spindle_torque_Nm, size_N, size_Nm));
     }
@@ -233,8 +234,8 @@ void check_integration_at_random(Reproduction& out) {
         cut.feed_per_tooth_mm = between(0.002, 0.05) * cut.radius_mm;
         const double sweep = std::acos(1.0 - between(0.05, 1.95));
         const bool up = engine() % 2U == 0U;
-        cut.entry_rad = up ? 0.0 : pi - sweep;
-        cut.exit_rad = up ? sweep : pi;
+        cut.entry_rad = up ? 0.0 : std::numbers::pi - sweep;
+        cut.exit_rad = up ? sweep : std::numbers::pi;
         cut.flank = {between(300.0, 900.0), between(20.0, 40.0) * degree, between(10.0, 35.0) * degree,
                      between(-5.0, 15.0) * degree};
         cut.bottom_width_mm = 0.0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace millforce::sim::guan_reproduction {
 namespace {
@@ -39,8 +40,8 @@ FineCut fine_cut(const Case& cut) {
             helix_rad,
             cut.axial_depth_mm,
             feed_per_tooth_mm,
-            cut.up ? 0.0 : pi - sweep,
-            cut.up ? sweep : pi,
+            cut.up ? 0.0 : std::numbers::pi - sweep,
+            cut.up ? sweep : std::numbers::pi,
             edge,
             edge,
             bottom.width_mm};

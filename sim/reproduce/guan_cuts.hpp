@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cutting/angle_units.hpp"
 #include "cutting/cutting_force.hpp"
 #include "cutting/engagement_map.hpp"
 #include "reproduce/fine_integration.hpp"
 
 #include <array>
-#include <numbers>
 
 /// The cuts of Guan et al.'s Fig. 6, for the plant and for the fine integration.
 
 namespace millforce::sim::guan_reproduction {
-
-inline constexpr double pi = std::numbers::pi;
-inline constexpr double degree = pi / 180.0;
 
 // Section 4.
 inline constexpr int teeth = 4;

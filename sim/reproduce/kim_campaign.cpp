@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/kim_campaign.hpp"
 
+#include "cutting/angle_units.hpp"
 #include "cutting/cutting_force.hpp"
 #include "estimation/cutting/cut_geometry.hpp"
 #include "estimation_calibration/friction_fit.hpp"
@@ -15,13 +16,12 @@ namespace millforce::sim {
 
 namespace {
 
-constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 constexpr double plant_step_s = 0.25e-3;
 constexpr int steps_per_sample = 4;
 constexpr double settling_mm = 2.0;
 constexpr double screw_pitch_mm = 10.0;
 constexpr double least_measured_s = 6.0;
-constexpr double spindle_rad_s = KimStandardCut::spindle_rpm * full_turn_rad / 60.0;
+constexpr double spindle_rad_s = KimStandardCut::spindle_rpm * turn / 60.0;
 
 struct PlantForce {
     double feed_N = 0.0;
@@ -74,7 +74,7 @@ class PitchForce {
 
   private:
     static constexpr std::size_t points = 180;
-    static constexpr double pitch_rad = full_turn_rad / KimStandardCut::flutes;
+    static constexpr double pitch_rad = turn / KimStandardCut::flutes;
     bool cutting_ = false;
     std::array<PlantForce, points> table_{};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/kim_checks.hpp"
 
+#include "cutting/angle_units.hpp"
 #include "cutting/revolution_load.hpp"
 #include "estimation/drives/feed_drive.hpp"
 #include "estimation/drives/spindle_drive.hpp"
@@ -35,7 +36,7 @@ estimation::AverageForces<double> by_equation_4(const AverageChipLaw& law, doubl
     constexpr double tan_beta = 0.5;  // cancels
     const double R = KimStandardCut::radius_mm;
     const double R_a = KimStandardCut::axial_depth_mm / R;
-    const double phi_N = 2.0 * std::numbers::pi / KimStandardCut::flutes;
+    const double phi_N = turn / KimStandardCut::flutes;
     const double phi_r = std::acos(R_r - 1.0);  // entry angle
     const double t_a = t_c * R_r / (std::numbers::pi - phi_r);
     const double K = law.k_s * std::pow(t_a, law.p_s) * R * t_c / tan_beta;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce/reproduction.hpp"
 
+#include "cutting/angle_units.hpp"
 #include "estimation_calibration/roughness_fit.hpp"
 #include "estimation_calibration/roughness_in_double.hpp"
 
@@ -65,7 +66,7 @@ class Scatter {
     /// Box–Muller.
     double normal(double sd) {
         const double radius = std::sqrt(-2.0 * std::log(uniform(0.0, 1.0)));
-        return sd * radius * std::cos(uniform(0.0, 6.283185307179586));
+        return sd * radius * std::cos(uniform(0.0, turn));
     }
 
   private:

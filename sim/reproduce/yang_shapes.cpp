@@ -21,7 +21,6 @@ using estimation::FluteOverlap;
 using PlotSeries = Plot::Series;
 using Style = Plot::Series::Style;
 
-constexpr double pi = std::numbers::pi;
 constexpr int samples_per_revolution = 1440;
 constexpr std::array<const char*, 3> type_names{"I", "II", "III"};
 constexpr std::array<const char*, 4> overlap_names{"NO", "LO", "MO", "HO"};
@@ -36,7 +35,8 @@ std::vector<CuttingLoad> loads_of(const SteadyCut& cut) {
     cutter.flute_length_mm = cut.axial_depth_mm;
     const CuttingForce force(cutter, cut.coefficients);
     const double engagement_rad = std::acos(1.0 - cut.radial_depth_mm / (0.5 * cutter.diameter_mm));
-    const EngagementMap map = uniform_engagement(pi - engagement_rad, pi, cut.axial_depth_mm);
+    const EngagementMap map =
+        uniform_engagement(std::numbers::pi - engagement_rad, std::numbers::pi, cut.axial_depth_mm);
     std::vector<CuttingLoad> loads;
     loads.reserve(samples_per_revolution);
     for (int i = 0; i < samples_per_revolution; ++i) {
@@ -253,7 +253,7 @@ SteadyCut cut_of(const FluteShape& shape) {
     cut.cutter.runout_mm = 0.0;
     cut.axial_depth_mm = depths.axial_mm;
     cut.radial_depth_mm = depths.radial_mm;
-    cut.tip_angle_rad = pi - angles.engagement_rad;
+    cut.tip_angle_rad = std::numbers::pi - angles.engagement_rad;
     return cut;
 }
 
