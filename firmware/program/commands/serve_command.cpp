@@ -9,6 +9,7 @@
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "control/cut_state.hpp"
+#include "daemon/line_printer.hpp"
 #include "daemon/service.hpp"
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
@@ -34,10 +35,10 @@ struct ServeOptions {
 /// Tells of a fault as it comes and goes.
 class FaultTeller {
   public:
-    void follow(const hal::FeedOverride& output) {
+    void follow(const hal::FeedOverride& output, LinePrinter& printer) {
         if (output.fault != fault_) {
             fault_ = output.fault;
-            print_line(stderr, fmt::format("millforce: fault: {}", control::name(static_cast<control::Fault>(fault_))));
+            printer.print(fmt::format("millforce: fault: {}", control::name(static_cast<control::Fault>(fault_))));
         }
     }
 
@@ -48,9 +49,9 @@ class FaultTeller {
 /// Tells when a part map is dropped.
 class MapTeller {
   public:
-    void follow(const MapFollower& follower) {
+    void follow(const MapFollower& follower, LinePrinter& printer) {
         if (follower.ahead().is_refuted() && !was_refuted_) {
-            print_line(stderr, "millforce: the part map does not fit this cut: on without it");
+            printer.print("millforce: the part map does not fit this cut: on without it");
         }
         was_refuted_ = follower.ahead().is_refuted();
     }
@@ -59,7 +60,8 @@ class MapTeller {
     bool was_refuted_ = false;
 };
 
-void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower) {
+void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower,
+                LinePrinter& printer) {
     FaultTeller faults;
     MapTeller maps;
     while (server.has_peer()) {
@@ -70,16 +72,16 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller, const 
         local_link::OverrideBytes answer{};
         const local_link::MessageError error = controller.on_message(bytes, answer);
         if (error != local_link::MessageError::none) {
-            print_line(stderr, fmt::format("millforce: invalid message of {} bytes ({}): connection closed",
-                                           bytes.size(), name(error)));
+            printer.print(fmt::format("millforce: invalid message of {} bytes ({}): connection closed", bytes.size(),
+                                      name(error)));
             server.drop_peer();
             return;
         }
         server.send(answer);
         firmware::finish_work(controller);
-        faults.follow(controller.output());
+        faults.follow(controller.output(), printer);
         if (follower != nullptr) {
-            maps.follow(*follower);
+            maps.follow(*follower, printer);
         }
     }
 }
@@ -102,19 +104,20 @@ int serve(const ServeOptions& options) {
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);
+    LinePrinter printer(stderr);
     for (const std::string& note : become_real_time()) {
         print_line(stderr, fmt::format("millforce: note: {}", note));
     }
     notify_service_manager("READY=1");
     print_line(stderr, fmt::format("millforce: {}: waiting", options.socket));
     while (server.wait_for_peer()) {
-        print_line(stderr, "millforce: connected");
+        printer.print("millforce: connected");
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller = std::make_unique<firmware::LinkController>(
             parameters, static_cast<float>(options.override_max), follower.get());
-        serve_peer(server, *controller, follower.get());
+        serve_peer(server, *controller, follower.get(), printer);
         server.drop_peer();
-        print_line(stderr, fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
+        printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
     return 0;
 }

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/line_printer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "files/console.hpp"
+
+namespace millforce::host {
+
+LinePrinter::LinePrinter(std::FILE* stream) : stream_(stream) {
+    writer_ = std::thread([this] { run(); });
+}
+
+LinePrinter::~LinePrinter() {
+    ended_.store(true);
+    has_news_.release();
+    writer_.join();
+    tell_lost(lost_);
+}
+
+void LinePrinter::print(std::string_view line) noexcept {
+    Line entry;
+    entry.length = std::min(line.size(), longest_line);
+    std::copy_n(line.begin(), entry.length, entry.text.begin());
+    entry.lost_before = lost_;
+    if (lines_.push(entry)) {
+        has_news_.release();
+    } else {
+        ++lost_;
+    }
+}
+
+void LinePrinter::run() {
+    while (!ended_.load()) {
+        has_news_.acquire();
+        write_all();
+    }
+    write_all();
+}
+
+void LinePrinter::write_all() {
+    for (Line line; lines_.pop(line);) {
+        tell_lost(line.lost_before);
+        print_line(stream_, std::string_view(line.text.data(), line.length));
+    }
+}
+
+void LinePrinter::tell_lost(std::uint64_t lost) {
+    if (lost != told_lost_) {
+        print_line(stream_, fmt::format("millforce: {} lines are missing here: nobody took them", lost - told_lost_));
+        told_lost_ = lost;
+    }
+}
+
+}  // namespace millforce::host
