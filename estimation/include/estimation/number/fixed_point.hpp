@@ -153,6 +153,7 @@ class FixedPoint {
             return detail::signed_raw((twice + 1U) >> 1U, negative);
         }
         const std::uint32_t up = exponent - of_half;
+        // Unlikely: no parameter and no signal reaches 2³¹.
         if (up > 31U) [[unlikely]] {
             return out_of_range(exponent, negative);
         }

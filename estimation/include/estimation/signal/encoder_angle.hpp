@@ -47,6 +47,7 @@ class EncoderAngle {
     EncoderReading<Scalar> update(std::uint32_t count, std::uint32_t index_count, std::uint8_t index_number) {
         EncoderReading<Scalar> reading;
         const auto turned = static_cast<std::int32_t>(count - last_count_);
+        // Likely: every sample of a turning spindle comes here, and its path shall be the one without a jump.
         if (started_ && turned > 0 && turned < too_many_) [[likely]] {
             reading.event = EncoderEvent::forward;
             reading.turned_rev = static_cast<Scalar>(turned) * rev_per_count_;
