@@ -15,7 +15,6 @@ using namespace millforce::sim;
 
 namespace {
 
-
 ObliqueCut random_oblique_cut(RandomNumbers& random) {
     return {.shear_stress_N_mm2 = random.between(200.0, 1200.0),
             .shear_angle_rad = random.between(15.0, 40.0) * degree,
