@@ -97,7 +97,10 @@ bool RunJudge::engagement_has_grown(double within_s) const {
 
 void RunJudge::follow(double time_s, const hal::FeedOverride& output, const OverrideSource& controller,
                       double trace_interval_s) {
-    stopped_s_ = output.fault != 0 && motion_.feed_mm_s < 0.1 ? stopped_s_ + 1e-3 : 0.0;
+    constexpr double stands_mm = 0.05;  // cutting forces shake a machine that stands
+    const bool stands = output.fault != 0 && motion_.path_mm - stopped_at_mm_ < stands_mm;
+    stopped_at_mm_ = stands ? stopped_at_mm_ : motion_.path_mm;
+    stopped_s_ = stands ? stopped_s_ + 1e-3 : 0.0;
     if (output.fault != 0) {
         result_.figures.fault = control::name(static_cast<control::Fault>(output.fault));
     }

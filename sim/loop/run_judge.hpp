@@ -79,6 +79,7 @@ class RunJudge {
     double use_sum_ = 0.0;
     double override_sum_ = 0.0;
     double stopped_s_ = 0.0;
+    double stopped_at_mm_ = 0.0;
 
     double immersion_error2_ = 0.0;
     double depth_error2_ = 0.0;

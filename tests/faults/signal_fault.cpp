@@ -55,8 +55,7 @@ hal::FeedOverride FaultyMachine::step(const hal::DriveSample& sample, const hal:
     has_first_ = true;
     last_us_ = sample.time_us;
     time_s_ += dt_s;
-    const bool is_wrong = settings_.fault != SignalFault::none && time_s_ >= settings_.begins_s;
-    if (!is_wrong) {
+    if (time_s_ < settings_.begins_s) {
         before_ = sample;
         return controller_.step(sample, program);
     }

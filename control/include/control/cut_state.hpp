@@ -58,10 +58,19 @@ enum class CutState : std::uint8_t {
 /// Why the controller has given up. Latched; every fault ends at the minimum override with the feed held.
 enum class Fault : std::uint8_t {
     none = 0,
-    overload = 1,         ///< the tooth's force stayed above the stop level: the feed is held before the tooth breaks
-    stale_input = 2,      ///< no drive sample with encoder and spindle current within the time limit
+    overload = 1,     ///< the tooth's force stayed above the stop level: the feed is held before the tooth breaks
+    stale_input = 2,  ///< no drive sample with encoder and spindle current within the time limit, or their clock stands
     spindle_stopped = 3,  ///< the spindle, or its encoder, stands while the tool is in cut
     bad_configuration = 4,
+    // Signals that contradict each other or physics: firmware/signal_supervisor.hpp says when.
+    signal_stuck = 5,       ///< a motor current shows the same value for far longer than it ever did
+    force_vanished = 6,     ///< the torque fell faster than any cut ends: the signal failed, or the tool broke off
+    force_jumped = 7,       ///< an axis' current jumped as no cut does
+    forces_contradict = 8,  ///< the axes carry a cut, and the spindle's current shows none
+    negative_torque = 9,    ///< the spindle's torque is below its idle torque
+    contact_in_rapid = 10,  ///< the spindle's current shows a cut in a rapid move
+    feed_mismatch = 11,     ///< the axes are faster than programmed feed and override allow
+    encoder_mismatch = 12,  ///< the spindle's count jumps in speed, or disagrees with its index pulse
 };
 
 /// Which limit holds the override down at this moment. Not a fault: a reason to show.
@@ -82,7 +91,7 @@ enum class Limit : std::uint8_t {
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
-inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::bad_configuration) + 1U;
+inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::encoder_mismatch) + 1U;
 inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::way_ahead) + 1U;
 
 constexpr const char* name(CutState state) {
@@ -91,8 +100,19 @@ constexpr const char* name(CutState state) {
 }
 
 constexpr const char* name(Fault fault) {
-    constexpr const char* names[fault_count] = {"none", "overload", "stale_input", "spindle_stopped",
-                                                "bad_configuration"};
+    constexpr const char* names[fault_count] = {"none",
+                                                "overload",
+                                                "stale_input",
+                                                "spindle_stopped",
+                                                "bad_configuration",
+                                                "signal_stuck",
+                                                "force_vanished",
+                                                "force_jumped",
+                                                "forces_contradict",
+                                                "negative_torque",
+                                                "contact_in_rapid",
+                                                "feed_mismatch",
+                                                "encoder_mismatch"};
     return names[static_cast<unsigned>(fault) % fault_count];
 }
 

@@ -125,6 +125,9 @@ void CutStates<Scalar>::watch_input(const Parameters& parameters, const ControlI
     if (!estimation::is_finite(input.time_since_sample_s) || input.time_since_sample_s > parameters.stale_s) {
         enter_fault(Fault::stale_input);
     }
+    if (input.implausible != Fault::none) {
+        enter_fault(input.implausible);
+    }
 }
 
 template <typename Scalar>

@@ -98,6 +98,7 @@ struct ControlInput {
     bool rapid = false;
     bool plunging = false;  ///< the way goes mainly along the tool's axis
     bool feed_hold = false;
+    Fault implausible = Fault::none;  ///< what the supervisor of the signals found
     CutEstimateForControl<Scalar> cut{};
     SurfaceForControl<Scalar> surface{};
     WayAhead<Scalar> way{};

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 
 /// What goes into CutEstimator and what comes out.
@@ -92,8 +93,16 @@ struct CutEstimate {
     Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
     Change surge{};               ///< to settings.surge_immersion, where that is larger than now
     Change turn{};                ///< to settings.turn_immersion
-    Scalar feed_mm_s{0};          ///< path speed in the plane over the window
-    Scalar axial_speed_mm_s{0};   ///< along z
+    /// The last tooth period against the same tooth one revolution before.
+    struct ToothChange {
+        Measurement<Scalar> tangential_N{};  ///< of the spindle's current, as a force; its variance is noise alone
+        std::array<Measurement<Scalar>, 2> axis_N{};  ///< of x and y
+        Scalar speed_ratio{1};                        ///< of the spindle, now over before
+        bool feed_is_steady = false;                  ///< the velocities differ by less than a tenth
+    };
+    ToothChange tooth_change{};
+    Scalar feed_mm_s{0};         ///< path speed in the plane over the window
+    Scalar axial_speed_mm_s{0};  ///< along z
     Scalar feed_per_tooth_mm{0};
     Scalar spindle_speed_rad_s{0};
     Scalar window_s{0};

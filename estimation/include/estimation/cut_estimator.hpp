@@ -99,6 +99,7 @@ class CutEstimator {
     void predict_drifts(Scalar passed_s);
     void estimate_forces();
     void estimate_along_feed();
+    void estimate_tooth_change();
     void begin_engagement(Scalar passed_s);
     void publish();
     void rezero_drives();

@@ -125,6 +125,7 @@ bool CutEstimator<Scalar>::begin_estimate() {
     }
     estimate_forces();
     estimate_along_feed();
+    estimate_tooth_change();
     begin_engagement(passed_s);
     stage_ = Stage::engagement;
     return false;
@@ -222,6 +223,34 @@ void CutEstimator<Scalar>::estimate_along_feed() {
                          (e.y_N.valid ? direction_y_ * e.y_N.value : Scalar(0));
         e.feed_N.variance = square(direction_x_) * e.x_N.variance + square(direction_y_) * e.y_N.variance;
     }
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::estimate_tooth_change() {
+    using Signals = DriveSignals<Scalar>;
+    if (!average_.has_turn_before()) {
+        return;
+    }
+    const typename Averager::Means& now = average_.tooth();
+    const typename Averager::Means& before = average_.tooth_one_turn_before();
+    const typename Averager::Signals change = now.mean - before.mean;
+    const std::uint32_t present = now.present & before.present;
+    typename CutEstimate<Scalar>::ToothChange& c = in_work_.tooth_change;
+    c.speed_ratio = before.duration_s / now.duration_s;
+    if ((present & Signals::spindle_present) != 0U) {
+        c.tangential_N =
+            spindle_.force_change_N(change[Signals::spindle_current], spindle_average_of_tooth(window_), per_Nm_);
+    }
+    for (std::size_t axis = 0; axis < c.axis_N.size(); ++axis) {
+        if ((present & (Signals::first_axis_present << axis)) != 0U) {
+            c.axis_N[axis] =
+                axes_[axis].force_change_N(change[Signals::first_current + static_cast<int>(axis)], now.samples);
+        }
+    }
+    constexpr Scalar steady_share2 = literal<Scalar>(0.01L);
+    constexpr int velocities = Signals::velocities;
+    const Scalar changed2 = change.template tail<velocities>().squaredNorm();
+    c.feed_is_steady = changed2 < steady_share2 * now.mean.template tail<velocities>().squaredNorm();
 }
 
 template <typename Scalar>

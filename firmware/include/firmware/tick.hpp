@@ -7,6 +7,7 @@
 #include "estimation/cut_estimator.hpp"
 #include "firmware/carried_immersion.hpp"
 #include "firmware/parameters.hpp"
+#include "firmware/signal_supervisor.hpp"
 #include "firmware/surface_monitor.hpp"
 #include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"
@@ -30,6 +31,8 @@
 /// taken for drift: contact ends it at once, and the drift per second is bounded by its Kalman gain. As long as the
 /// idle torque is known no better than by its calibration, a light cut looks like drift, and no feed move teaches: the
 /// first time takes a rapid or axes at rest, some five revolutions of it.
+///
+/// A supervisor beside it holds the signals against each other (signal_supervisor.hpp); what it finds is a fault.
 ///
 /// A WideBand monitor runs next to it (NoWideBand if memory is short): an immersion from force drops enters the solver
 /// as one more measurement of the engagement (carried_immersion.hpp). An evaluation of the monitor is one slice, of up
@@ -60,7 +63,7 @@ class ForceControlTick {
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);
 
-    void reset_fault() { controller_.reset(); }
+    void reset_fault();
 
     [[nodiscard]] bool estimate_due() const { return estimator_.work_due(); }
     [[nodiscard]] bool work_due() const { return estimator_.work_due() || wide_band_.work_due(); }
@@ -105,6 +108,7 @@ class ForceControlTick {
     WideBand wide_band_;
     CarriedImmersion<Scalar> drops_{};
     SurfaceMonitor<Scalar> surface_;
+    SignalSupervisor<Scalar> supervisor_;
     control::FeedController<Scalar> controller_;
     control::FeedControllerParameters<Scalar> control_parameters_;
     Scalar reaction_s_;  // of the CNC
@@ -114,7 +118,7 @@ class ForceControlTick {
     control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};
     bool has_new_estimate_ = false;  // that no law has seen
-    bool is_rapid_ = false;
+    hal::ProgramStatus program_{};   // of the last answer
     bool was_rezeroed_ = false;
     int air_periods_ = 0;
     bool has_time_ = false;

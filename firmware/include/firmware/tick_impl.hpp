@@ -5,6 +5,7 @@
 
 #include "estimation/engagement/side_choice.hpp"
 #include "firmware/carried_immersion_impl.hpp"
+#include "firmware/signal_supervisor_impl.hpp"
 #include "firmware/surface_monitor_impl.hpp"
 #include "firmware/tick.hpp"
 #include "firmware/usable_signals.hpp"
@@ -27,6 +28,7 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
                  parameters.tool.law),
       wide_band_(parameters),
       surface_(parameters.tool),
+      supervisor_(parameters),
       controller_(controller_parameters(parameters)),
       control_parameters_(controller_parameters(parameters)),
       reaction_s_(parameters.machine.cnc.override_latency_s),
@@ -40,6 +42,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     const Scalar dt_s = elapsed_s(sample.time_us);
     const estimation::DriveSignals<Scalar> signals = usable_signals_of<Scalar>(sample);
     follow_wide_band(dt_s, sample);
+    supervisor_.take(sample, dt_s, control_.state);
     if ((sample.present & hal::mask(hal::Present::spindle_count)) != 0) {
         estimator_.add(dt_s, sample.spindle_count, sample.spindle_index_count, sample.spindle_index_number, signals);
     } else {
@@ -107,6 +110,12 @@ hal::FeedOverride ForceControlTick<Scalar, WideBand>::step_without_sample(float 
     return answer(program);
 }
 
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::reset_fault() {
+    supervisor_.reset();
+    controller_.reset();
+}
+
 /// Since the last sample; 0 for the first one and where the clock went backwards.
 template <typename Scalar, typename WideBand>
 Scalar ForceControlTick<Scalar, WideBand>::elapsed_s(std::uint32_t time_us) {
@@ -151,7 +160,8 @@ void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& progr
     input_.cut.force_valid = estimator_.estimate().tangential_N.valid && input_.cut.spindle_turning;
     use_tooth_force_of_map();
     has_new_estimate_ = false;
-    is_rapid_ = program.rapid;
+    program_ = program;
+    input_.implausible = supervisor_.fault();
     control_ = controller_.step(input_);
 }
 
@@ -215,6 +225,7 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     }
     drops_.follow_section(estimator_.estimate().section_mm2);
     surface_.update(estimator_.estimate());
+    supervisor_.judge(estimator_.estimate(), program_, {control_.state, control_.ratio});
     set_cut();
     has_new_estimate_ = true;
 }
@@ -222,6 +233,7 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::forget_estimate() {
     estimator_.restart();
+    supervisor_.restart();
     set_cut();
     has_new_estimate_ = false;
 }
@@ -251,7 +263,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const bool in_air = controller_.state() == control::CutState::air;
     const bool looks_idle = was_rezeroed_ ? is_idle(estimate.tangential_N) : estimator_.axes_rest();
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
-    air_periods_ = is_rapid_ || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
+    air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
     // The first windows after a change hold a mixture of air and cut.
     const int enough = 2 * static_cast<int>(control_parameters_.teeth) + 1;
     if (air_periods_ >= enough) {

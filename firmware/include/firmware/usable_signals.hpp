@@ -6,7 +6,8 @@
 
 namespace millforce::firmware {
 
-/// The sample without what is absent or not finite, an axis as a whole; its encoder and force sensor are left out.
+/// The sample without what is absent, not finite or faster than 10 m/s, an axis as a whole; its encoder and force
+/// sensor are left out.
 [[nodiscard]] hal::DriveSample usable_drives_of(const hal::DriveSample& sample);
 
 template <typename Scalar>

@@ -114,7 +114,8 @@ void document_file(firmware::ParameterFile file, std::string& text) {
         if (row.file == file) {
             headings.enter(row.table);
             text += key_row(row.key, row.unit, row.sentence,
-                            {row.type, row.is_required, row.default_value, row.minimum, row.maximum, row.choices});
+                            {row.type, row.is_required, static_cast<double>(row.default_value),
+                             static_cast<double>(row.minimum), static_cast<double>(row.maximum), row.choices});
         }
     }
 }

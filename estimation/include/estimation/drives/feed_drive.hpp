@@ -140,6 +140,17 @@ class FeedDrive {
             noise};
     }
 
+    /// What a change of current between two averages of so many samples is as a force, at an unchanged velocity. Its
+    /// variance is their noise.
+    [[nodiscard]] Measurement<Scalar> force_change_N(Scalar change_A, Scalar samples) const {
+        const Scalar N_per_A = parameters_.K_x4_N_per_A;
+        if (!(N_per_A > Scalar(0)) || !(samples > Scalar(0))) {
+            return {};
+        }
+        const Scalar noise = Scalar(2) * square(N_per_A * parameters_.current_sd_A) / samples;
+        return {true, N_per_A * change_A, noise, noise};
+    }
+
     /// Time passes: the friction may have moved.
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
 

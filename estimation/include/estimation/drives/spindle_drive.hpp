@@ -62,6 +62,16 @@ class SpindleDrive {
         return {true, torque_Nm * per_Nm, noise + others * square(per_Nm), noise};
     }
 
+    /// What a change of current between two averages of so many samples is as a force. Its variance is their noise.
+    [[nodiscard]] Measurement<Scalar> force_change_N(Scalar change_A, const Average& average, Scalar per_Nm) const {
+        if (!is_usable(average)) {
+            return {};
+        }
+        const Scalar N_per_A = torque_constant_Nm_per_A(average.speed_rad_s) * per_Nm;
+        const Scalar noise = Scalar(2) * square(N_per_A * parameters_.current_sd_A) / average.samples;
+        return {true, N_per_A * change_A, noise, noise};
+    }
+
     /// Time passes: the drift may have moved.
     void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
 

@@ -66,6 +66,9 @@ class SynchronousAverage {
     [[nodiscard]] const Means& tooth() const { return periods_[newest_]; }
     [[nodiscard]] Scalar tooth_speed_rad_s() const;
     [[nodiscard]] bool has_tooth() const { return available_ > 0; }
+    /// The same tooth one revolution before. Valid where has_turn_before().
+    [[nodiscard]] const Means& tooth_one_turn_before() const { return at(settings_.teeth); }
+    [[nodiscard]] bool has_turn_before() const { return available_ > settings_.teeth; }
 
     /// The newest whole revolutions that hold at least min_samples. Cost: linear in the periods of the window.
     [[nodiscard]] Window window() const;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "control/cut_state.hpp"
+#include "estimation/cut_estimate.hpp"
+#include "firmware/parameters.hpp"
+#include "firmware/stuck_signal.hpp"
+#include "hal/drive_sample.hpp"
+#include "hal/feed_override.hpp"
+
+/// Holds the machine's signals against each other and against physics. It knows nothing of the engagement and does not
+/// trust the estimate of it.
+///
+/// | fault             | when                                                                                  | after
+/// |
+/// |-------------------|---------------------------------------------------------------------------------------|-------|
+/// | stale_input       | the samples' time stands or runs backwards                                            | 32
+/// samples | | encoder_mismatch  | counts between two index pulses are not one revolution | 3 revolutions | | | the
+/// spindle's speed changes by 40 % within one revolution of a cut                    | 1 tooth | | signal_stuck      |
+/// the current of the spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)   | 32 samples or more | |
+/// force_vanished    | F_at falls within two teeth by more than a cut that ends can fall                     | 2 teeth
+/// | | force_jumped      | F_x or F_y changes within two teeth by more than that, at an unchanged velocity       | 2
+/// teeth | | forces_contradict | the axes carry a force and the spindle none: at the end of a cut, or growing in air |
+/// 3 revolutions | | negative_torque   | F_at below zero by twice the contact level | 3 revolutions | |
+/// contact_in_rapid  | F_at above twice the contact level in a rapid move                                    | 3
+/// revolutions | | feed_mismatch     | the axes move at 1.5 times override and programmed feed | reaction of the CNC
+/// and 0.15 s |
+///
+/// How fast a cut can end: a straight edge of the workpiece, met head-on, takes from a slot in s of travel the chord
+/// 2√(2 R s), so of its width 2R the share
+///
+///     √(2 s/R)
+///
+/// A narrower cut, or an edge at an angle, ends more slowly; 1.5 times that share is the bound. It says nothing where
+/// the feed changes, or the tool moves along its axis: then nothing is judged.
+///
+/// A slow change is not seen here. Where the axes' currents are known, the misfit of the cut's law keeps the feed from
+/// rising (limit law_misfit). In monitor mode feed_mismatch is not judged.
+///
+/// Cost: some 30 instructions a sample, some 200 an estimate. No heap, no clock. One thread.
+
+namespace millforce::firmware {
+
+template <typename Scalar>
+class SignalSupervisor {
+  public:
+    explicit SignalSupervisor(const Parameters<Scalar>& parameters);
+
+    /// Each sample. `dt_s`: 0 where its time has not advanced.
+    void take(const hal::DriveSample& sample, Scalar dt_s, control::CutState state);
+    /// Each new estimate, with the state and the override of the last answer.
+    struct Answer {
+        control::CutState state = control::CutState::air;
+        Scalar override_ratio{0};
+    };
+    void judge(const estimation::CutEstimate<Scalar>& e, const hal::ProgramStatus& program, const Answer& answer);
+    /// No average reaches over this moment.
+    void restart();
+    void reset();
+
+    /// The first that was found since reset().
+    [[nodiscard]] control::Fault fault() const { return fault_; }
+
+  private:
+    using Estimate = estimation::CutEstimate<Scalar>;
+
+    void find(control::Fault fault) { fault_ = fault_ == control::Fault::none ? fault : fault_; }
+    void watch_clock(Scalar dt_s);
+    void watch_index(const hal::DriveSample& sample);
+    void watch_currents(const hal::DriveSample& sample, control::CutState state);
+    void judge_teeth(const Estimate& e, control::CutState state);
+    [[nodiscard]] control::Fault sudden_change(const Estimate& e);
+    void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state);
+    void judge_axes(const Estimate& e, bool rapid, control::CutState state);
+    void judge_feed(const Estimate& e, const hal::ProgramStatus& program, Scalar override_ratio);
+
+    /// By how much a force changed within two estimates, beyond what it changes by in a revolution anyway; 0 where the
+    /// two have different signs: the slower of both has the say.
+    struct Jump {
+        Scalar last{0};
+        Scalar before{0};
+        [[nodiscard]] Scalar follow(Scalar change) {
+            const Scalar jump = change - before;
+            before = last;
+            last = change;
+            const bool is_rise = change > Scalar(0) && jump > Scalar(0);
+            const bool is_fall = change < Scalar(0) && jump < Scalar(0);
+            const Scalar smaller = (jump < change) == is_rise ? jump : change;
+            return is_rise || is_fall ? smaller : Scalar(0);
+        }
+    };
+
+    control::FeedControllerParameters<Scalar> control_;
+    Scalar per_radius_;  // 1/R in 1/mm
+    Scalar reaction_s_;
+    Scalar per_acceleration_;
+    std::int32_t counts_per_rev_;
+
+    control::Fault fault_ = control::Fault::none;
+    std::uint8_t standing_samples_ = 0;
+    std::uint32_t index_count_ = 0;
+    std::uint8_t index_number_ = 0;
+    std::uint8_t wrong_indices_ = 0;
+    std::array<StuckSignal, 2> spindle_{};  // out of the cut, in the cut
+    std::array<StuckSignal, hal::axis_count> axes_{};
+
+    Jump tangential_{};
+    std::array<Jump, 2> axis_jumps_{};
+    int steady_periods_ = 0;  // tooth periods at an unchanged velocity
+    /// A sudden change, until the velocity has stayed as it was for a revolution: a drive's current brakes before the
+    /// axis slows down.
+    control::Fault suspected_ = control::Fault::none;
+    int steady_since_ = 0;
+    int last_periods_ = 0;  // of the estimate before
+    int periods_in_turn_ = 0;
+    Scalar last_speed_rad_s_{0};
+    std::uint8_t negative_turns_ = 0;
+    std::uint8_t rapid_turns_ = 0;
+    std::uint8_t contradicting_turns_ = 0;
+    std::uint8_t air_turns_ = 0;  // with a known feed force, at an unchanged velocity
+    Scalar least_feed_force_N_{0};
+    Scalar too_fast_s_{0};
+};
+
+}  // namespace millforce::firmware

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Bodies of signal_supervisor.hpp, for the sources that instantiate the tick.
+
+#include <cmath>
+
+#include "control/feed_controller_data.hpp"
+#include "firmware/signal_supervisor.hpp"
+
+namespace millforce::firmware {
+
+/// Counts up while `is_so`, and forgets otherwise. True where it is the n-th time in a row.
+inline bool is_so_in_a_row(std::uint8_t& count, bool is_so, std::uint8_t n) {
+    const bool has_room = count < n;
+    count = static_cast<std::uint8_t>(is_so ? (has_room ? count + 1 : count) : 0);
+    return count == n;
+}
+
+template <typename Scalar>
+SignalSupervisor<Scalar>::SignalSupervisor(const Parameters<Scalar>& p)
+    : control_(controller_parameters(p)),
+      per_radius_(p.tool.diameter_mm > Scalar(0) ? Scalar(2) / p.tool.diameter_mm : Scalar(0)),
+      reaction_s_(p.machine.cnc.override_latency_s),
+      per_acceleration_(p.machine.cnc.acceleration_mm_s2 > Scalar(0) ? Scalar(1) / p.machine.cnc.acceleration_mm_s2
+                                                                     : Scalar(0)),
+      counts_per_rev_(static_cast<std::int32_t>(p.machine.encoder_counts_per_rev)) {}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::restart() {
+    tangential_ = {};
+    axis_jumps_ = {};
+    suspected_ = control::Fault::none;
+    steady_periods_ = 0;
+    periods_in_turn_ = 0;
+    last_speed_rad_s_ = Scalar(0);
+    negative_turns_ = rapid_turns_ = contradicting_turns_ = air_turns_ = 0;
+    too_fast_s_ = Scalar(0);
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::reset() {
+    fault_ = control::Fault::none;
+    standing_samples_ = 0;
+    wrong_indices_ = 0;
+    spindle_[0].pause();
+    spindle_[1].pause();
+    for (StuckSignal& axis : axes_) {
+        axis.pause();
+    }
+    restart();
+}
+
+// Each sample
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::take(const hal::DriveSample& sample, Scalar dt_s, control::CutState state) {
+    watch_clock(dt_s);
+    watch_index(sample);
+    watch_currents(sample, state);
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::watch_clock(Scalar dt_s) {
+    constexpr std::uint8_t surely_stands = 32;
+    if (is_so_in_a_row(standing_samples_, !(dt_s > Scalar(0)), surely_stands)) {
+        find(control::Fault::stale_input);
+    }
+}
+
+/// A spindle that turns back counts as well; where it turns round, one interval is of any length.
+template <typename Scalar>
+void SignalSupervisor<Scalar>::watch_index(const hal::DriveSample& sample) {
+    constexpr std::uint8_t surely_wrong = 3;
+    constexpr std::int32_t tolerances_per_rev = 8;
+    if ((sample.present & hal::mask(hal::Present::spindle_count)) == 0 ||
+        sample.spindle_index_number == index_number_) {
+        return;
+    }
+    const bool is_next =
+        static_cast<std::uint8_t>(sample.spindle_index_number - index_number_) == 1 && index_number_ != 0;
+    const auto turned = static_cast<std::int32_t>(sample.spindle_index_count - index_count_);
+    const std::int32_t off = (turned < 0 ? -turned : turned) - counts_per_rev_;
+    const std::int32_t tolerance = counts_per_rev_ / tolerances_per_rev;
+    index_number_ = sample.spindle_index_number;
+    index_count_ = sample.spindle_index_count;
+    if (is_so_in_a_row(wrong_indices_, is_next && (off > tolerance || off < -tolerance), surely_wrong)) {
+        find(control::Fault::encoder_mismatch);
+    }
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, control::CutState state) {
+    constexpr float moving_mm_s = 1.0F;
+    const bool cuts = control::is_cutting(state);
+    const bool turns_evenly = last_speed_rad_s_ > Scalar(0);
+    if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && turns_evenly) {
+        spindle_[cuts ? 1 : 0].add(sample.spindle_current_A);
+        spindle_[cuts ? 0 : 1].pause();
+    } else {
+        spindle_[0].pause();
+        spindle_[1].pause();
+    }
+    bool any_is_stuck = spindle_[0].is_stuck() || spindle_[1].is_stuck();
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        const float velocity_mm_s = sample.axis_velocity_mm_s[k];
+        const bool moves = velocity_mm_s > moving_mm_s || velocity_mm_s < -moving_mm_s;
+        if (cuts && moves && (sample.present & hal::axis_mask(k)) != 0) {
+            axes_[k].add(sample.axis_current_A[k]);
+        } else {
+            axes_[k].pause();
+        }
+        any_is_stuck = any_is_stuck || axes_[k].is_stuck();
+    }
+    if (any_is_stuck) {
+        find(control::Fault::signal_stuck);
+    }
+}
+
+// Each estimate
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus& program, const Answer& answer) {
+    judge_teeth(e, answer.state);
+    judge_feed(e, program, answer.override_ratio);
+    periods_in_turn_ += e.tooth_periods;
+    if (Scalar(periods_in_turn_) >= control_.teeth) {
+        periods_in_turn_ = 0;
+        judge_revolution(e, program, answer.state);
+    }
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState state) {
+    using estimation::square;
+    constexpr Scalar fastest_change = Scalar(1.4F);
+    const typename Estimate::ToothChange& change = e.tooth_change;
+    const bool is_level = square(e.axial_speed_mm_s) < square(estimation::literal<Scalar>(0.05L) * e.feed_mm_s);
+    steady_periods_ = change.feed_is_steady && is_level ? steady_periods_ + e.tooth_periods : 0;
+    const control::Fault sudden = sudden_change(e);
+    if (!control::is_cutting(state)) {
+        suspected_ = control::Fault::none;
+        return;
+    }
+    if (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1)) {
+        find(control::Fault::encoder_mismatch);
+    }
+    const bool is_steady = Scalar(steady_periods_) > control_.teeth + Scalar(3);
+    if (suspected_ == control::Fault::none) {
+        suspected_ = is_steady ? sudden : control::Fault::none;
+        steady_since_ = steady_periods_;
+    } else if (!is_steady) {
+        suspected_ = control::Fault::none;
+    } else if (Scalar(steady_periods_ - steady_since_) >= control_.teeth) {
+        find(suspected_);
+    }
+}
+
+/// A change that no cut makes from one tooth to the next but one; none where that cannot be told.
+template <typename Scalar>
+control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
+    using std::sqrt;
+    constexpr Scalar bound = Scalar(1.5F);
+    constexpr Scalar significant = Scalar(6);
+    constexpr Scalar total_per_tangential = Scalar(2);  // the in-plane force is at most that much larger than F_at
+    const typename Estimate::ToothChange& change = e.tooth_change;
+    const Scalar tangential_N = tangential_.follow(change.tangential_N.value);
+    const std::array<Scalar, 2> axis_N{axis_jumps_[0].follow(change.axis_N[0].value),
+                                       axis_jumps_[1].follow(change.axis_N[1].value)};
+    const Scalar travel_mm = e.feed_per_tooth_mm * Scalar(e.tooth_periods + last_periods_ + 1);
+    last_periods_ = e.tooth_periods;
+    const Scalar share = bound * sqrt(Scalar(2) * travel_mm * per_radius_);
+    const Scalar now_N = e.tooth_tangential_N.value;
+    const Scalar before_N = now_N - change.tangential_N.value;
+    if (!change.tangential_N.valid || !(share < Scalar(1)) || !(before_N > Scalar(0))) {
+        return control::Fault::none;
+    }
+    const auto noise_N = [](const estimation::Measurement<Scalar>& m) {
+        return significant * sqrt(Scalar(2) * m.variance);
+    };
+    if (-tangential_N > share * before_N + noise_N(change.tangential_N)) {
+        return control::Fault::force_vanished;
+    }
+    const Scalar larger_N = now_N > before_N ? now_N : before_N;  // a cut begins as fast as it ends
+    for (std::size_t k = 0; k < axis_N.size(); ++k) {
+        const Scalar most_N = share * total_per_tangential * larger_N + noise_N(change.axis_N[k]);
+        if (change.axis_N[k].valid && (axis_N[k] > most_N || -axis_N[k] > most_N)) {
+            return control::Fault::force_jumped;
+        }
+    }
+    return control::Fault::none;
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::ProgramStatus& program,
+                                                control::CutState state) {
+    using std::sqrt;
+    constexpr Scalar steady_share = estimation::literal<Scalar>(0.003L);
+    constexpr std::uint8_t surely = 3;
+    const Scalar change = e.spindle_speed_rad_s - last_speed_rad_s_;
+    const Scalar most = steady_share * e.spindle_speed_rad_s;
+    const bool turns_evenly = change < most && -change < most;
+    last_speed_rad_s_ = e.spindle_speed_rad_s;
+    if (!e.tangential_N.valid || !turns_evenly) {
+        negative_turns_ = rapid_turns_ = 0;
+    } else {
+        const Scalar level_N = Scalar(2) * control::contact_level_N(control_, sqrt(e.tangential_N.variance));
+        if (is_so_in_a_row(negative_turns_, -e.tangential_N.value > level_N, surely)) {
+            find(control::Fault::negative_torque);
+        }
+        if (is_so_in_a_row(rapid_turns_, program.rapid && e.tangential_N.value > level_N, surely)) {
+            find(control::Fault::contact_in_rapid);
+        }
+    }
+    judge_axes(e, program.rapid, state);
+}
+
+/// In air the least feed force of this straight move is what its friction leaves.
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control::CutState state) {
+    using std::sqrt;
+    constexpr std::uint8_t surely = 3;
+    constexpr std::uint8_t enough_turns = 4;
+    constexpr Scalar significant = Scalar(6);
+    const bool is_steady = Scalar(steady_periods_) > control_.teeth;
+    if (rapid || !is_steady || !control::is_out_of_cut(state)) {
+        contradicting_turns_ = air_turns_ = 0;
+        return;
+    }
+    const Scalar force_N = e.feed_N.value < Scalar(0) ? -e.feed_N.value : e.feed_N.value;
+    const Scalar level_N = significant * sqrt(e.feed_N.variance) + Scalar(2) * control_.contact_force_N;
+    const bool has_base = air_turns_ >= enough_turns;
+    bool contradicts = false;
+    if (e.feed_N.valid) {
+        least_feed_force_N_ = air_turns_ == 0 || force_N < least_feed_force_N_ ? force_N : least_feed_force_N_;
+        air_turns_ = has_base ? air_turns_ : static_cast<std::uint8_t>(air_turns_ + 1);
+        const Scalar base_N = state == control::CutState::exit ? Scalar(0) : least_feed_force_N_;
+        contradicts = force_N - base_N > level_N;
+    } else {
+        contradicts = has_base;  // an axis whose friction was plausible in this very move no longer is
+    }
+    if (is_so_in_a_row(contradicting_turns_, contradicts, surely)) {
+        find(control::Fault::forces_contradict);
+    }
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramStatus& program, Scalar override_ratio) {
+    constexpr Scalar patience_s = estimation::literal<Scalar>(0.15L);
+    constexpr Scalar largest_ratio = Scalar(1.5F);
+    constexpr Scalar tolerance_mm_s = Scalar(1);
+    const Scalar F_mm_s = Scalar(program.programmed_feed_mm_s);
+    const bool is_known = F_mm_s > Scalar(0) && !program.rapid && !control_.monitor_only;
+    const bool is_too_fast = is_known && e.feed_mm_s > largest_ratio * override_ratio * F_mm_s + tolerance_mm_s;
+    if (!is_too_fast) {
+        too_fast_s_ = Scalar(0);
+        return;
+    }
+    const Scalar teeth_per_s = control_.teeth * e.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
+    too_fast_s_ += Scalar(e.tooth_periods) / teeth_per_s;
+    if (too_fast_s_ > reaction_s_ + patience_s + e.feed_mm_s * per_acceleration_) {
+        find(control::Fault::feed_mismatch);
+    }
+}
+
+}  // namespace millforce::firmware
