@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "loop/bounds.hpp"
+#include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
 
 namespace millforce::faults {
@@ -23,6 +24,7 @@ sim::RunFigures mill(const Part& part, std::uint64_t seed, const FaultyMachine::
                      FaultyMachine::Reaction& reaction) {
     sim::Scenario scenario = part.scenario;
     scenario.seed = seed;
+    scenario.deviation = sim::drawn_deviation(scenario, seed);
     sim::MillforceController controller(part.told);
     FaultyMachine machine(controller, settings);
     sim::SimulationSettings stopped_early;  // where the feed is held for good

@@ -8,8 +8,9 @@
 
 #include "faults/campaign.hpp"
 
-/// Prints what faults at the tick's input lead to: fault_table [RUNS] [FIRST_SEED] [PART…], RUNS for each fault and
-/// part; a part's name with :spindle is the machine whose axes' currents nobody reads.
+/// Prints what faults at the tick's input lead to: fault_table [RUNS] [FIRST_SEED] [PART…]. RUNS for each fault and
+/// part, ten times as many without a fault. A part's name with :spindle is the machine whose axes' currents nobody
+/// reads.
 
 namespace {
 
@@ -50,10 +51,12 @@ int main(int argc, char** argv) {
     std::mutex lock;
     std::atomic<int> next{0};
     const auto work = [&] {
-        const int all = signal_faults * static_cast<int>(parts.size()) * runs;
+        constexpr int more_without = 9;  // a false alarm is rarer
+        constexpr int kinds = signal_faults + more_without;
+        const int all = kinds * static_cast<int>(parts.size()) * runs;
         for (int k = next++; k < all; k = next++) {
-            const int fault = k % signal_faults;
-            const Part& part = parts[static_cast<std::size_t>(k / signal_faults) % parts.size()];
+            const int fault = std::max(0, k % kinds - more_without);
+            const Part& part = parts[static_cast<std::size_t>(k / kinds) % parts.size()];
             Tally one;
             one.add(run(part, static_cast<SignalFault>(fault), first_seed + static_cast<std::uint64_t>(k)));
             const std::scoped_lock hold(lock);

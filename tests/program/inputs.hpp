@@ -51,14 +51,23 @@ seed = 5
 spindle_speed_rpm = 4000
 feed_mm_min = 1200
 length_mm = 30
+interpolation = "linear"
 [[profile.point]]
 path_mm = 8
+axial_depth_mm = 0
+radial_width_mm = 3
+[[profile.point]]
+path_mm = 8.01
 axial_depth_mm = 5
 radial_width_mm = 3
 [[profile.point]]
 path_mm = 26
+axial_depth_mm = 5
+radial_width_mm = 3
+[[profile.point]]
+path_mm = 29
 axial_depth_mm = 0
-radial_width_mm = 0
+radial_width_mm = 3
 [material]
 K_tc_N_mm2 = 1650
 K_rc_N_mm2 = 620

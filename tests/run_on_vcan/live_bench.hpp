@@ -31,14 +31,23 @@ seed = 5
 spindle_speed_rpm = 2000
 feed_mm_min = 800
 length_mm = 26
+interpolation = "linear"
 [[profile.point]]
 path_mm = 2
+axial_depth_mm = 0
+radial_width_mm = 3
+[[profile.point]]
+path_mm = 2.01
 axial_depth_mm = 5
 radial_width_mm = 3
 [[profile.point]]
 path_mm = 22
+axial_depth_mm = 5
+radial_width_mm = 3
+[[profile.point]]
+path_mm = 25
 axial_depth_mm = 0
-radial_width_mm = 0
+radial_width_mm = 3
 [material]
 K_tc_N_mm2 = 1650
 K_rc_N_mm2 = 620

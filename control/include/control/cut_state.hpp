@@ -71,6 +71,7 @@ enum class Fault : std::uint8_t {
     contact_in_rapid = 10,  ///< the spindle's current shows a cut in a rapid move
     feed_mismatch = 11,     ///< the axes are faster than programmed feed and override allow
     encoder_mismatch = 12,  ///< the spindle's count jumps in speed, or disagrees with its index pulse
+    idle_torque = 13,       ///< in air the spindle's current is not the one that its calibration leaves open
 };
 
 /// Which limit holds the override down at this moment. Not a fault: a reason to show.
@@ -91,7 +92,7 @@ enum class Limit : std::uint8_t {
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
-inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::encoder_mismatch) + 1U;
+inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::idle_torque) + 1U;
 inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::way_ahead) + 1U;
 
 constexpr const char* name(CutState state) {
@@ -112,7 +113,8 @@ constexpr const char* name(Fault fault) {
                                                 "negative_torque",
                                                 "contact_in_rapid",
                                                 "feed_mismatch",
-                                                "encoder_mismatch"};
+                                                "encoder_mismatch",
+                                                "idle_torque"};
     return names[static_cast<unsigned>(fault) % fault_count];
 }
 

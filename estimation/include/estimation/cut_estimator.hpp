@@ -75,6 +75,8 @@ class CutEstimator {
     [[nodiscard]] Scalar since_period_s() const { return since_period_s_; }
     /// Tooth periods still end: the last one is no longer ago than three windows.
     [[nodiscard]] bool spindle_turns() const;
+    /// The last re-zeroing found an idle torque that its calibration does not leave open: there is no F_at.
+    [[nodiscard]] bool spindle_is_implausible() const { return spindle_.is_implausible(); }
     [[nodiscard]] Scalar spindle_drift_Nm() const { return spindle_.drift_Nm(); }
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
         return axes_[axis].friction_scale(positive);

@@ -12,33 +12,33 @@
 #include "hal/feed_override.hpp"
 
 /// Holds the machine's signals against each other and against physics. It knows nothing of the engagement and does not
-/// trust the estimate of it.
+/// trust the estimate of it. What it finds is a fault:
 ///
-/// | fault             | when                                                                                  | after
-/// |
-/// |-------------------|---------------------------------------------------------------------------------------|-------|
-/// | stale_input       | the samples' time stands or runs backwards                                            | 32
-/// samples | | encoder_mismatch  | counts between two index pulses are not one revolution | 3 revolutions | | | the
-/// spindle's speed changes by 40 % within one revolution of a cut                    | 1 tooth | | signal_stuck      |
-/// the current of the spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)   | 32 samples or more | |
-/// force_vanished    | F_at falls within two teeth by more than a cut that ends can fall                     | 2 teeth
-/// | | force_jumped      | F_x or F_y changes within two teeth by more than that, at an unchanged velocity       | 2
-/// teeth | | forces_contradict | the axes carry a force and the spindle none: at the end of a cut, or growing in air |
-/// 3 revolutions | | negative_torque   | F_at below zero by twice the contact level | 3 revolutions | |
-/// contact_in_rapid  | F_at above twice the contact level in a rapid move                                    | 3
-/// revolutions | | feed_mismatch     | the axes move at 1.5 times override and programmed feed | reaction of the CNC
-/// and 0.15 s |
+///   stale_input        the samples' time stands or runs backwards: 32 samples
+///   encoder_mismatch   counts between two index pulses are not one revolution: three in a row;
+///                      the spindle's speed changes by 40 % within one revolution of a cut
+///   signal_stuck       the current of the spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)
+///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
+///   force_jumped       F_x or F_y changes within two teeth by more than that
+///   forces_contradict  the axes carry a force and the spindle none, as a cut ends or growing in air: 3 revolutions
+///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
+///   negative_torque    F_at below zero by twice the contact level: 3 revolutions
+///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions
+///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer
+///                      than the CNC takes to react and 0.15 s. Whether it follows the override is not judged: a
+///                      recording may have been made without one.
 ///
 /// How fast a cut can end: a straight edge of the workpiece, met head-on, takes from a slot in s of travel the chord
 /// 2√(2 R s), so of its width 2R the share
 ///
 ///     √(2 s/R)
 ///
-/// A narrower cut, or an edge at an angle, ends more slowly; 1.5 times that share is the bound. It says nothing where
-/// the feed changes, or the tool moves along its axis: then nothing is judged.
+/// A narrower cut, or an edge at an angle, ends more slowly. The bound is 1.5 times that share, and six standard
+/// deviations of noise. Where the feed changes in the revolution before or after, or the tool moves along its axis, the
+/// force may follow from that, and nothing is judged.
 ///
 /// A slow change is not seen here. Where the axes' currents are known, the misfit of the cut's law keeps the feed from
-/// rising (limit law_misfit). In monitor mode feed_mismatch is not judged.
+/// rising (limit law_misfit).
 ///
 /// Cost: some 30 instructions a sample, some 200 an estimate. No heap, no clock. One thread.
 
@@ -51,12 +51,10 @@ class SignalSupervisor {
 
     /// Each sample. `dt_s`: 0 where its time has not advanced.
     void take(const hal::DriveSample& sample, Scalar dt_s, control::CutState state);
-    /// Each new estimate, with the state and the override of the last answer.
-    struct Answer {
-        control::CutState state = control::CutState::air;
-        Scalar override_ratio{0};
-    };
-    void judge(const estimation::CutEstimate<Scalar>& e, const hal::ProgramStatus& program, const Answer& answer);
+    /// Each new estimate, with the program's status and the state of the last answer.
+    void judge(const estimation::CutEstimate<Scalar>& e, const hal::ProgramStatus& program, control::CutState state);
+    /// What re-zeroing in air says of the spindle, with each new estimate.
+    void judge_idle(bool is_implausible, int tooth_periods);
     /// No average reaches over this moment.
     void restart();
     void reset();
@@ -75,7 +73,7 @@ class SignalSupervisor {
     [[nodiscard]] control::Fault sudden_change(const Estimate& e);
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state);
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
-    void judge_feed(const Estimate& e, const hal::ProgramStatus& program, Scalar override_ratio);
+    void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
 
     /// By how much a force changed within two estimates, beyond what it changes by in a revolution anyway; 0 where the
     /// two have different signs: the slower of both has the say.
@@ -117,6 +115,7 @@ class SignalSupervisor {
     int last_periods_ = 0;  // of the estimate before
     int periods_in_turn_ = 0;
     Scalar last_speed_rad_s_{0};
+    int implausible_periods_ = 0;
     std::uint8_t negative_turns_ = 0;
     std::uint8_t rapid_turns_ = 0;
     std::uint8_t contradicting_turns_ = 0;

@@ -48,6 +48,7 @@ void SignalSupervisor<Scalar>::reset() {
     for (StuckSignal& axis : axes_) {
         axis.pause();
     }
+    implausible_periods_ = 0;
     restart();
 }
 
@@ -120,13 +121,22 @@ void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, co
 // Each estimate
 
 template <typename Scalar>
-void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus& program, const Answer& answer) {
-    judge_teeth(e, answer.state);
-    judge_feed(e, program, answer.override_ratio);
+void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus& program, control::CutState state) {
+    judge_teeth(e, state);
+    judge_feed(e, program);
     periods_in_turn_ += e.tooth_periods;
     if (Scalar(periods_in_turn_) >= control_.teeth) {
         periods_in_turn_ = 0;
-        judge_revolution(e, program, answer.state);
+        judge_revolution(e, program, state);
+    }
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_idle(bool is_implausible, int tooth_periods) {
+    constexpr Scalar surely_turns = Scalar(10);
+    implausible_periods_ = is_implausible ? implausible_periods_ + tooth_periods : 0;
+    if (Scalar(implausible_periods_) > surely_turns * control_.teeth) {
+        find(control::Fault::idle_torque);
     }
 }
 
@@ -138,16 +148,13 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     const bool is_level = square(e.axial_speed_mm_s) < square(estimation::literal<Scalar>(0.05L) * e.feed_mm_s);
     steady_periods_ = change.feed_is_steady && is_level ? steady_periods_ + e.tooth_periods : 0;
     const control::Fault sudden = sudden_change(e);
-    if (!control::is_cutting(state)) {
-        suspected_ = control::Fault::none;
-        return;
-    }
-    if (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1)) {
+    const bool cuts = control::is_cutting(state);
+    if (cuts && (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1))) {
         find(control::Fault::encoder_mismatch);
     }
     const bool is_steady = Scalar(steady_periods_) > control_.teeth + Scalar(3);
     if (suspected_ == control::Fault::none) {
-        suspected_ = is_steady ? sudden : control::Fault::none;
+        suspected_ = cuts && is_steady ? sudden : control::Fault::none;
         steady_since_ = steady_periods_;
     } else if (!is_steady) {
         suspected_ = control::Fault::none;
@@ -245,13 +252,13 @@ void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control
 }
 
 template <typename Scalar>
-void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramStatus& program, Scalar override_ratio) {
+void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramStatus& program) {
     constexpr Scalar patience_s = estimation::literal<Scalar>(0.15L);
     constexpr Scalar largest_ratio = Scalar(1.5F);
     constexpr Scalar tolerance_mm_s = Scalar(1);
     const Scalar F_mm_s = Scalar(program.programmed_feed_mm_s);
-    const bool is_known = F_mm_s > Scalar(0) && !program.rapid && !control_.monitor_only;
-    const bool is_too_fast = is_known && e.feed_mm_s > largest_ratio * override_ratio * F_mm_s + tolerance_mm_s;
+    const bool is_known = F_mm_s > Scalar(0) && !program.rapid;
+    const bool is_too_fast = is_known && e.feed_mm_s > largest_ratio * control_.override_max * F_mm_s + tolerance_mm_s;
     if (!is_too_fast) {
         too_fast_s_ = Scalar(0);
         return;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/stuck_signal.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <CppUTest/TestHarness.h>
+
+using millforce::firmware::StuckSignal;
+
+namespace {
+
+/// Noise about 10 with a resolution of 0.01.
+class NoisySignal {
+  public:
+    explicit NoisySignal(float sd) : noise_(10.0F, sd) {}
+    float next() { return 0.01F * std::round(noise_(random_) * 100.0F); }
+
+  private:
+    std::mt19937 random_{1};
+    std::normal_distribution<float> noise_;
+};
+
+/// How many equal values it takes from now on; 10 000: never.
+int values_until_stuck(StuckSignal& signal, float value) {
+    int count = 0;
+    while (!signal.is_stuck() && count < 10'000) {
+        signal.add(value);
+        ++count;
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_GROUP(StuckSignal){};
+
+TEST(StuckSignal, notices_a_noisy_signal_that_freezes_within_some_thirty_samples) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 100'000; ++k) {
+        signal.add(noisy.next());
+        CHECK_FALSE(signal.is_stuck());
+    }
+    const int count = values_until_stuck(signal, noisy.next());
+    CHECK(count > 30 && count < 40);
+}
+
+TEST(StuckSignal, lets_a_slow_source_repeat_itself_and_still_notices_that_it_hangs) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    float value = 0.0F;
+    for (int k = 0; k < 100'000; ++k) {
+        value = k % 20 == 0 ? noisy.next() : value;  // a field bus of 50 Hz, sampled at 1 kHz
+        signal.add(value);
+        CHECK_FALSE(signal.is_stuck());
+    }
+    const int count = values_until_stuck(signal, value);
+    CHECK(count > 8 * 20 && count < 8 * 64);
+}
+
+TEST(StuckSignal, does_not_judge_a_signal_whose_noise_is_below_its_resolution) {
+    StuckSignal signal;
+    NoisySignal noisy(0.003F);  // dithers between two values
+    for (int k = 0; k < 100'000; ++k) {
+        signal.add(noisy.next());
+    }
+    LONGS_EQUAL(10'000, values_until_stuck(signal, 10.0F));
+}
+
+TEST(StuckSignal, does_not_judge_before_it_knows_the_signal) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 100; ++k) {
+        signal.add(noisy.next());
+    }
+    LONGS_EQUAL(10'000, values_until_stuck(signal, 10.0F));
+}
+
+TEST(StuckSignal, notices_a_converter_at_its_end) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    const auto load = [&](int k, float rise) {
+        return noisy.next() + rise + std::sin(0.05F * static_cast<float>(k));  // ripple of the teeth
+    };
+    for (int k = 0; k < 10'000; ++k) {
+        signal.add(std::fmin(load(k, 0.0F), 12.0F));
+        CHECK_FALSE(signal.is_stuck());
+    }
+    bool was_stuck = false;
+    for (int k = 0; k < 200; ++k) {
+        signal.add(std::fmin(load(k, 2.0F), 12.0F));
+        was_stuck = was_stuck || signal.is_stuck();
+    }
+    CHECK(was_stuck);
+}
+
+TEST(StuckSignal, begins_anew_after_a_pause) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.add(noisy.next());
+    }
+    values_until_stuck(signal, 10.0F);
+    signal.pause();
+    CHECK_FALSE(signal.is_stuck());
+}
