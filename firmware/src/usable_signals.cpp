@@ -5,11 +5,8 @@
 
 namespace millforce::firmware {
 
-/// No machine tool's axis is faster. False for a NaN.
-static bool is_possible(float velocity_mm_s) {
-    constexpr float fastest_mm_s = 10'000.0F;
-    return velocity_mm_s < fastest_mm_s && velocity_mm_s > -fastest_mm_s;
-}
+/// No axis of a machine tool is faster.
+static constexpr float fastest_mm_s = 10'000.0F;
 
 hal::DriveSample usable_drives_of(const hal::DriveSample& sample) {
     const auto is_present = [&](std::uint8_t mask) { return (sample.present & mask) != 0; };
@@ -20,7 +17,7 @@ hal::DriveSample usable_drives_of(const hal::DriveSample& sample) {
     }
     for (std::size_t k = 0; k < hal::axis_count; ++k) {
         if (is_present(hal::axis_mask(k)) && hal::is_finite(sample.axis_current_A[k]) &&
-            is_possible(sample.axis_velocity_mm_s[k])) {
+            hal::is_smaller(sample.axis_velocity_mm_s[k], fastest_mm_s)) {
             usable.present = static_cast<std::uint8_t>(usable.present | hal::axis_mask(k));
             usable.axis_current_A[k] = sample.axis_current_A[k];
             usable.axis_velocity_mm_s[k] = sample.axis_velocity_mm_s[k];

@@ -16,6 +16,7 @@
 #include "estimation/number/fixed_point.hpp"
 #include "estimation/surface/roughness_impl.hpp"
 #include "firmware/parameters_in_impl.hpp"
+#include "firmware/signal_supervisor_impl.hpp"
 #include "firmware/tick_impl.hpp"
 #include "instructions/synthetic_cut.hpp"
 

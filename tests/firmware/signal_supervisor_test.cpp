@@ -183,7 +183,7 @@ TEST(SignalSupervisor, finds_a_cut_that_the_axes_carry_and_the_spindle_does_not_
     Bench bench(150, [](hal::DriveSample& sample, hal::ProgramStatus&, int) {
         sample.spindle_current_A = idle_A();
         const float air_A = sample_of(0).axis_current_A[0];
-        sample.axis_current_A[0] = air_A + 4.0F * (sample.axis_current_A[0] - air_A);
+        sample.axis_current_A[0] = air_A + 8.0F * (sample.axis_current_A[0] - air_A);
     });
     CHECK(bench.after_ms(500) == Fault::forces_contradict);
 }

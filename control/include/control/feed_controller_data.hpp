@@ -156,9 +156,13 @@ template <typename Scalar>
 
 /// F_at from which on the tool counts as in contact: what the noise makes unlikely, and not less than contact_force_N.
 template <typename Scalar>
+[[nodiscard]] Scalar contact_level_N(Scalar contact_force_N, Scalar contact_significance, Scalar tangential_sd_N) {
+    const Scalar significant_N = contact_significance * tangential_sd_N;
+    return significant_N > contact_force_N ? significant_N : contact_force_N;
+}
+template <typename Scalar>
 [[nodiscard]] Scalar contact_level_N(const FeedControllerParameters<Scalar>& parameters, Scalar tangential_sd_N) {
-    const Scalar significant_N = parameters.contact_significance * tangential_sd_N;
-    return significant_N > parameters.contact_force_N ? significant_N : parameters.contact_force_N;
+    return contact_level_N(parameters.contact_force_N, parameters.contact_significance, tangential_sd_N);
 }
 
 }  // namespace millforce::control

@@ -20,7 +20,8 @@
 ///   signal_stuck       the current of the spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)
 ///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
 ///   force_jumped       F_x or F_y changes within two teeth by more than that
-///   forces_contradict  the axes carry a force and the spindle none, as a cut ends or growing in air: 3 revolutions
+///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
+///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
 ///   negative_torque    F_at below zero by twice the contact level: 3 revolutions
 ///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions
@@ -91,7 +92,10 @@ class SignalSupervisor {
         }
     };
 
-    control::FeedControllerParameters<Scalar> control_;
+    Scalar teeth_;
+    Scalar contact_force_N_;
+    Scalar contact_significance_;
+    Scalar override_max_;
     Scalar per_radius_;  // 1/R in 1/mm
     Scalar reaction_s_;
     Scalar per_acceleration_;

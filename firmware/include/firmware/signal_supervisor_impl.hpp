@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Bodies of signal_supervisor.hpp, for the sources that instantiate the tick.
+// Bodies of signal_supervisor.hpp. Only src/signal_supervisor.cpp includes them.
 
 #include <cmath>
 
 #include "control/feed_controller_data.hpp"
 #include "firmware/signal_supervisor.hpp"
+#include "hal/finite.hpp"
 
 namespace millforce::firmware {
 
@@ -19,7 +20,10 @@ inline bool is_so_in_a_row(std::uint8_t& count, bool is_so, std::uint8_t n) {
 
 template <typename Scalar>
 SignalSupervisor<Scalar>::SignalSupervisor(const Parameters<Scalar>& p)
-    : control_(controller_parameters(p)),
+    : teeth_(Scalar(p.tool.teeth)),
+      contact_force_N_(p.tool.control.contact_force_N),
+      contact_significance_(p.tool.control.contact_significance),
+      override_max_(p.machine.cnc.override_max),
       per_radius_(p.tool.diameter_mm > Scalar(0) ? Scalar(2) / p.tool.diameter_mm : Scalar(0)),
       reaction_s_(p.machine.cnc.override_latency_s),
       per_acceleration_(p.machine.cnc.acceleration_mm_s2 > Scalar(0) ? Scalar(1) / p.machine.cnc.acceleration_mm_s2
@@ -104,8 +108,7 @@ void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, co
     }
     bool any_is_stuck = spindle_[0].is_stuck() || spindle_[1].is_stuck();
     for (std::size_t k = 0; k < axes_.size(); ++k) {
-        const float velocity_mm_s = sample.axis_velocity_mm_s[k];
-        const bool moves = velocity_mm_s > moving_mm_s || velocity_mm_s < -moving_mm_s;
+        const bool moves = !hal::is_smaller(sample.axis_velocity_mm_s[k], moving_mm_s);
         if (cuts && moves && (sample.present & hal::axis_mask(k)) != 0) {
             axes_[k].add(sample.axis_current_A[k]);
         } else {
@@ -125,7 +128,7 @@ void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus
     judge_teeth(e, state);
     judge_feed(e, program);
     periods_in_turn_ += e.tooth_periods;
-    if (Scalar(periods_in_turn_) >= control_.teeth) {
+    if (Scalar(periods_in_turn_) >= teeth_) {
         periods_in_turn_ = 0;
         judge_revolution(e, program, state);
     }
@@ -135,7 +138,7 @@ template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_idle(bool is_implausible, int tooth_periods) {
     constexpr Scalar surely_turns = Scalar(10);
     implausible_periods_ = is_implausible ? implausible_periods_ + tooth_periods : 0;
-    if (Scalar(implausible_periods_) > surely_turns * control_.teeth) {
+    if (Scalar(implausible_periods_) > surely_turns * teeth_) {
         find(control::Fault::idle_torque);
     }
 }
@@ -152,13 +155,13 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     if (cuts && (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1))) {
         find(control::Fault::encoder_mismatch);
     }
-    const bool is_steady = Scalar(steady_periods_) > control_.teeth + Scalar(3);
+    const bool is_steady = Scalar(steady_periods_) > teeth_ + Scalar(3);
     if (suspected_ == control::Fault::none) {
         suspected_ = cuts && is_steady ? sudden : control::Fault::none;
         steady_since_ = steady_periods_;
     } else if (!is_steady) {
         suspected_ = control::Fault::none;
-    } else if (Scalar(steady_periods_ - steady_since_) >= control_.teeth) {
+    } else if (Scalar(steady_periods_ - steady_since_) >= teeth_) {
         find(suspected_);
     }
 }
@@ -211,7 +214,8 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
     if (!e.tangential_N.valid || !turns_evenly) {
         negative_turns_ = rapid_turns_ = 0;
     } else {
-        const Scalar level_N = Scalar(2) * control::contact_level_N(control_, sqrt(e.tangential_N.variance));
+        const Scalar level_N = Scalar(2) * control::contact_level_N(contact_force_N_, contact_significance_,
+                                                                    sqrt(e.tangential_N.variance));
         if (is_so_in_a_row(negative_turns_, -e.tangential_N.value > level_N, surely)) {
             find(control::Fault::negative_torque);
         }
@@ -225,17 +229,21 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
 /// In air the least feed force of this straight move is what its friction leaves.
 template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control::CutState state) {
+    using estimation::halved;
     using std::sqrt;
     constexpr std::uint8_t surely = 3;
     constexpr std::uint8_t enough_turns = 4;
     constexpr Scalar significant = Scalar(6);
-    const bool is_steady = Scalar(steady_periods_) > control_.teeth;
+    constexpr Scalar feed_per_tangential = Scalar(2);  // the force along the feed is at most that much larger than F_at
+    const bool is_steady = Scalar(steady_periods_) > teeth_ && e.tangential_N.valid;
     if (rapid || !is_steady || !control::is_out_of_cut(state)) {
         contradicting_turns_ = air_turns_ = 0;
         return;
     }
     const Scalar force_N = e.feed_N.value < Scalar(0) ? -e.feed_N.value : e.feed_N.value;
-    const Scalar level_N = significant * sqrt(e.feed_N.variance) + Scalar(2) * control_.contact_force_N;
+    const Scalar by_spindle_N = e.tangential_N.value + halved(significant) * sqrt(e.tangential_N.variance);
+    const Scalar explained_N = by_spindle_N > Scalar(0) ? feed_per_tangential * by_spindle_N : Scalar(0);
+    const Scalar level_N = significant * sqrt(e.feed_N.variance) + explained_N;
     const bool has_base = air_turns_ >= enough_turns;
     bool contradicts = false;
     if (e.feed_N.valid) {
@@ -258,12 +266,12 @@ void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramS
     constexpr Scalar tolerance_mm_s = Scalar(1);
     const Scalar F_mm_s = Scalar(program.programmed_feed_mm_s);
     const bool is_known = F_mm_s > Scalar(0) && !program.rapid;
-    const bool is_too_fast = is_known && e.feed_mm_s > largest_ratio * control_.override_max * F_mm_s + tolerance_mm_s;
+    const bool is_too_fast = is_known && e.feed_mm_s > largest_ratio * override_max_ * F_mm_s + tolerance_mm_s;
     if (!is_too_fast) {
         too_fast_s_ = Scalar(0);
         return;
     }
-    const Scalar teeth_per_s = control_.teeth * e.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
+    const Scalar teeth_per_s = teeth_ * e.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
     too_fast_s_ += Scalar(e.tooth_periods) / teeth_per_s;
     if (too_fast_s_ > reaction_s_ + patience_s + e.feed_mm_s * per_acceleration_) {
         find(control::Fault::feed_mismatch);

@@ -5,7 +5,6 @@
 
 #include "estimation/engagement/side_choice.hpp"
 #include "firmware/carried_immersion_impl.hpp"
-#include "firmware/signal_supervisor_impl.hpp"
 #include "firmware/surface_monitor_impl.hpp"
 #include "firmware/tick.hpp"
 #include "firmware/usable_signals.hpp"

@@ -12,4 +12,10 @@ namespace millforce::hal {
     return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;
 }
 
+/// |value| < limit, limit > 0. False for a NaN and for infinity. By the bits, as above.
+[[nodiscard]] constexpr bool is_smaller(float value, float limit) {
+    constexpr std::uint32_t magnitude = 0x7FFF'FFFFU;
+    return (std::bit_cast<std::uint32_t>(value) & magnitude) < std::bit_cast<std::uint32_t>(limit);
+}
+
 }  // namespace millforce::hal

@@ -20,7 +20,7 @@
 
 namespace millforce::estimation {
 
-template <typename Scalar, int Channels, int Rates, int MaxPeriods = 40>
+template <typename Scalar, int Channels, int Rates, int MaxPeriods = 36>
 class SynchronousAverage {
   public:
     using Signals = Eigen::Matrix<Scalar, Channels, 1>;
