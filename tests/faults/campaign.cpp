@@ -45,7 +45,7 @@ Part part_named(const std::string& name, bool spindle_alone) {
     return part;
 }
 
-Outcome run(const Part& part, SignalFault fault, std::uint64_t seed) {
+Outcome mill_with(const Part& part, SignalFault fault, std::uint64_t seed) {
     constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
     std::mt19937_64 random(seed);
     const double begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random);

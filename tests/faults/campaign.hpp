@@ -31,7 +31,7 @@ struct Outcome {
 /// The scenario of that name with the spindle's current alone, or with all currents.
 Part part_named(const std::string& name, bool spindle_alone);
 
-Outcome run(const Part& part, SignalFault fault, std::uint64_t seed);
+Outcome mill_with(const Part& part, SignalFault fault, std::uint64_t seed);
 
 /// What the runs of one fault came to.
 struct Tally {

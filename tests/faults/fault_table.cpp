@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
             const int fault = std::max(0, k % kinds - more_without);
             const Part& part = parts[static_cast<std::size_t>(k / kinds) % parts.size()];
             Tally one;
-            one.add(run(part, static_cast<SignalFault>(fault), first_seed + static_cast<std::uint64_t>(k)));
+            one.add(mill_with(part, static_cast<SignalFault>(fault), first_seed + static_cast<std::uint64_t>(k)));
             const std::scoped_lock hold(lock);
             tallies[static_cast<std::size_t>(fault)].add(one);
         }

@@ -185,7 +185,7 @@ control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     if (!change.tangential_N.valid || !(share < Scalar(1)) || !(before_N > Scalar(0))) {
         return control::Fault::none;
     }
-    const auto noise_N = [](const estimation::Measurement<Scalar>& m) {
+    const auto noise_N = [&](const estimation::Measurement<Scalar>& m) {
         return significant * sqrt(Scalar(2) * m.variance);
     };
     if (-tangential_N > share * before_N + noise_N(change.tangential_N)) {
