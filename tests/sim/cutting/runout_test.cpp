@@ -83,8 +83,8 @@ TEST(Runout, a_tooth_that_misses_leaves_its_chip_to_the_next) {
             DOUBLES_EQUAL(expected.fy_N, load.fy_N, 1e-9);
             DOUBLES_EQUAL(expected.spindle_torque_Nm, load.spindle_torque_Nm, 1e-12);
         }
-        const RevolutionLoad turn = revolution_load(force, f_z, map);
-        DOUBLES_EQUAL(0.0, turn.tooth_peak_N[1], 0.0);
+        const RevolutionLoad revolution = revolution_load(force, f_z, map);
+        DOUBLES_EQUAL(0.0, revolution.tooth_peak_N[1], 0.0);
     }
 }
 
