@@ -58,6 +58,10 @@ function(millforce_core target)
     target_link_libraries(${target} PUBLIC ${ARG_LINKS})
     millforce_target_warnings(${target})
     add_dependencies(${target} core_rules)
+    # The estimator is where a tick's time goes. With an FPU the rest has time, and flash is scarce.
+    if(MILLFORCE_CPU STREQUAL "cortex-m4f" AND NOT target STREQUAL "estimation")
+        target_compile_options(${target} PRIVATE -Os)
+    endif()
     if(CMAKE_CROSSCOMPILING)
         set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)  # only what an image or a test links
     else()

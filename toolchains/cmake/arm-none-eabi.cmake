@@ -22,15 +22,9 @@ endif()
 # What the core is built with on the host too (MillforceTargets.cmake) and, for images, what sheds unused code.
 set(CMAKE_C_FLAGS_INIT "${cpu_flags} -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_INIT "${cpu_flags} -ffunction-sections -fdata-sections -fno-exceptions -fno-rtti -fno-use-cxa-atexit -fno-threadsafe-statics")
-# With -O3 a tick is a tenth shorter than with -O2, which a core without an FPU needs. With an FPU there is time, and flash is
-# scarce. What only a start needs is marked cold, and compiled for size.
-if(MILLFORCE_CPU STREQUAL "cortex-m4f")
-    set(level -O2)
-else()
-    set(level -O3)
-endif()
-set(CMAKE_CXX_FLAGS_RELEASE_INIT "${level} -DNDEBUG -fno-math-errno")
-set(CMAKE_CXX_FLAGS_RELEASE "${level} -DNDEBUG -fno-math-errno" CACHE STRING "")
+# -O3: the tick is a tenth shorter than with -O2. What only a start needs is marked cold, and compiled for size.
+set(CMAKE_CXX_FLAGS_RELEASE_INIT "-O3 -DNDEBUG -fno-math-errno")
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG -fno-math-errno" CACHE STRING "")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "${cpu_flags} -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -107,7 +107,7 @@ class SignalSupervisor {
     std::uint8_t index_number_ = 0;
     std::uint8_t wrong_indices_ = 0;
     std::array<StuckSignal, 2> spindle_{};  // out of the cut, in the cut
-    std::array<StuckSignal, hal::axis_count> axes_{};
+    std::array<StuckSignal, 2> axes_{};     // x and y
 
     Jump tangential_{};
     std::array<Jump, 2> axis_jumps_{};

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "hal/finite.hpp"
+
 namespace millforce::firmware {
 
 /// Notices a signal that shows the same value for far longer than it ever did: a drive that hangs, an amplifier or a
@@ -23,8 +25,8 @@ class StuckSignal {
             run_ = run_ < longest_count ? static_cast<std::uint16_t>(run_ + 1) : run_;
             return;
         }
-        if (has_last_ && changes_ < enough_changes) {
-            learn(value - std::bit_cast<float>(last_bits_));
+        if (changes_ < enough_changes && hal::is_smaller(value, largest_value)) {
+            learn(static_cast<std::int32_t>(value * units_per_one));
         }
         has_last_ = true;
         last_bits_ = bits;
@@ -44,13 +46,20 @@ class StuckSignal {
   private:
     static constexpr std::uint16_t longest_count = 0xFFFF;
     static constexpr std::uint16_t enough_changes = 256;
+    // Steps are learnt in whole numbers: without a floating-point unit they cost a third.
+    static constexpr float units_per_one = 4096.0F;
+    static constexpr float largest_value = 1e5F;
 
     [[nodiscard]] bool has_noise() const {
-        constexpr float steps = 3.5F;  // of the resolution
-        return largest_step_ > steps * smallest_step_;
+        constexpr std::int32_t steps = 3;  // of the resolution
+        return largest_step_ > steps * smallest_step_ + smallest_step_ / 2;
     }
-    void learn(float step) {
-        const float size = step < 0.0F ? -step : step;
+    void learn(std::int32_t now) {
+        const std::int32_t size = now < learnt_ ? learnt_ - now : now - learnt_;
+        learnt_ = now;
+        if (!has_last_) {
+            return;
+        }
         smallest_step_ = changes_ == 0 || size < smallest_step_ ? size : smallest_step_;
         largest_step_ = size > largest_step_ ? size : largest_step_;
         longest_run_ = run_ > longest_run_ ? run_ : longest_run_;
@@ -58,8 +67,9 @@ class StuckSignal {
     }
 
     std::uint32_t last_bits_ = 0;
-    float smallest_step_ = 0.0F;
-    float largest_step_ = 0.0F;
+    std::int32_t learnt_ = 0;  // the value before
+    std::int32_t smallest_step_ = 0;
+    std::int32_t largest_step_ = 0;
     std::uint16_t run_ = 0;
     std::uint16_t longest_run_ = 0;
     std::uint16_t changes_ = 0;
