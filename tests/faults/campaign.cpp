@@ -7,18 +7,11 @@
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
+#include "sim/without_axis_currents.hpp"
 
 namespace millforce::faults {
 
 namespace {
-
-/// The controller as on a machine whose axes' currents nobody reads.
-firmware::Parameters<float> without_axis_currents(firmware::Parameters<float> parameters) {
-    for (auto& axis : parameters.machine.axes) {
-        axis.K_x4_N_per_A = 0.0F;
-    }
-    return parameters;
-}
 
 sim::RunFigures mill(const Part& part, std::uint64_t seed, const FaultyMachine::Settings& settings,
                      FaultyMachine::Reaction& reaction) {
@@ -37,9 +30,8 @@ sim::RunFigures mill(const Part& part, std::uint64_t seed, const FaultyMachine::
 }  // namespace
 
 Part part_named(const std::string& name, bool spindle_alone) {
-    Part part{.name = name,
-              .scenario = sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml")};
-    part.told = spindle_alone ? without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
+    Part part{.scenario = sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml")};
+    part.told = spindle_alone ? test::without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
     FaultyMachine::Reaction none;
     part.duration_s = mill(part, part.scenario.seed, {}, none).time_s;
     return part;
@@ -54,9 +46,7 @@ Outcome mill_with(const Part& part, SignalFault fault, std::uint64_t seed) {
     const sim::RunFigures figures = mill(
         part, seed, {.fault = fault, .begins_s = begins_s, .spindle_rated_A = rated_A, .seed = seed}, outcome.reaction);
     outcome.peak_over_limit = figures.peak_over_limit;
-    outcome.time_over_limit_s = figures.time_over_limit_s;
     outcome.teeth_broken = figures.teeth_broken;
-    outcome.finished = figures.finished;
     return outcome;
 }
 
@@ -72,15 +62,6 @@ void Tally::add(const Outcome& outcome) {
     if (outcome.reaction.has_reacted) {
         reactions_s.push_back(outcome.reaction.after_s);
     }
-}
-
-void Tally::add(const Tally& other) {
-    runs += other.runs;
-    broken_parts += other.broken_parts;
-    over += other.over;
-    faults += other.faults;
-    largest_peak = std::max(largest_peak, other.largest_peak);
-    reactions_s.insert(reactions_s.end(), other.reactions_s.begin(), other.reactions_s.end());
 }
 
 double Tally::median_reaction_s() const {

@@ -14,7 +14,6 @@ namespace millforce::faults {
 
 /// One part. `duration_s`: of the run without a fault, in which the fault's begin is drawn.
 struct Part {
-    std::string name;
     sim::Scenario scenario;
     firmware::Parameters<float> told{};  ///< to the controller
     double duration_s = 0.0;
@@ -23,9 +22,7 @@ struct Part {
 struct Outcome {
     FaultyMachine::Reaction reaction;
     double peak_over_limit = 0.0;
-    double time_over_limit_s = 0.0;
     int teeth_broken = 0;
-    bool finished = false;
 };
 
 /// The scenario of that name with the spindle's current alone, or with all currents.
@@ -43,7 +40,6 @@ struct Tally {
     std::vector<double> reactions_s;  ///< of the runs that held the feed or faulted
 
     void add(const Outcome& outcome);
-    void add(const Tally& other);
     [[nodiscard]] double median_reaction_s() const;
     [[nodiscard]] double longest_reaction_s() const;
 };

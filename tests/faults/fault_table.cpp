@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "faults/campaign.hpp"
+#include "percent.hpp"
 
 /// Prints what faults at the tick's input lead to: fault_table [RUNS] [FIRST_SEED] [PART…]. RUNS for each fault and
 /// part, ten times as many without a fault. A part's name with :spindle is the machine whose axes' currents nobody
@@ -15,10 +16,7 @@
 namespace {
 
 using namespace millforce::faults;
-
-std::string percent(int part, int whole) {
-    return whole == 0 ? "–" : fmt::format("{:.1f}", 100.0 * part / whole);
-}
+using millforce::test::percent;
 
 void print(SignalFault fault, const Tally& t) {
     fmt::print("| {} | {} | {} | {} | {:.0f} | {} | {} | {:.2f} | {:.2f} |\n", name_of(fault), t.runs,
@@ -57,10 +55,10 @@ int main(int argc, char** argv) {
         for (int k = next++; k < all; k = next++) {
             const int fault = std::max(0, k % kinds - more_without);
             const Part& part = parts[static_cast<std::size_t>(k / kinds) % parts.size()];
-            Tally one;
-            one.add(mill_with(part, static_cast<SignalFault>(fault), first_seed + static_cast<std::uint64_t>(k)));
+            const Outcome outcome =
+                mill_with(part, static_cast<SignalFault>(fault), first_seed + static_cast<std::uint64_t>(k));
             const std::scoped_lock hold(lock);
-            tallies[static_cast<std::size_t>(fault)].add(one);
+            tallies[static_cast<std::size_t>(fault)].add(outcome);
         }
     };
     std::vector<std::thread> threads;

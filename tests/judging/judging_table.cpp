@@ -9,6 +9,7 @@
 
 #include "files/parameter_files.hpp"
 #include "judging/judge.hpp"
+#include "percent.hpp"
 
 /// Prints how the estimates of many drawn cuts hold against the truth: judging_table [CUTS] [FIRST_SEED].
 
@@ -16,6 +17,7 @@ namespace {
 
 using namespace millforce;
 using namespace millforce::judging;
+using millforce::test::percent;
 
 Tally tally_of(const firmware::Parameters<float>& files, Wrong wrong, int cuts, std::uint64_t first_seed) {
     Tally tally;
@@ -23,10 +25,6 @@ Tally tally_of(const firmware::Parameters<float>& files, Wrong wrong, int cuts, 
         tally.add(judge(draw_cut(files, wrong, first_seed + static_cast<std::uint64_t>(i))));
     }
     return tally;
-}
-
-std::string percent(int part, int whole) {
-    return whole == 0 ? "–" : fmt::format("{:.1f}", 100.0 * part / whole);
 }
 
 void print(Wrong wrong, const Tally& t) {

@@ -239,12 +239,11 @@ void CutEstimator<Scalar>::estimate_tooth_change() {
     c.speed_ratio = before.duration_s / now.duration_s;
     if ((present & Signals::spindle_present) != 0U) {
         c.tangential_N =
-            spindle_.force_change_N(change[Signals::spindle_current], spindle_average_of_tooth(window_), per_Nm_);
+            spindle_.change_N(change[Signals::spindle_current], average_.tooth_speed_rad_s(), now.samples, per_Nm_);
     }
     for (std::size_t axis = 0; axis < c.axis_N.size(); ++axis) {
         if ((present & (Signals::first_axis_present << axis)) != 0U) {
-            c.axis_N[axis] =
-                axes_[axis].force_change_N(change[Signals::first_current + static_cast<int>(axis)], now.samples);
+            c.axis_N[axis] = axes_[axis].change_N(change[Signals::first_current + static_cast<int>(axis)], now.samples);
         }
     }
     constexpr Scalar steady_share2 = literal<Scalar>(0.01L);

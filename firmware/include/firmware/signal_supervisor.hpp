@@ -76,6 +76,11 @@ class SignalSupervisor {
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
     void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
 
+    static constexpr Scalar significant = Scalar(6);  // standard deviations
+    static constexpr Scalar total_per_tangential =
+        Scalar(2);                                   // the in-plane force is at most that much larger than F_at
+    static constexpr std::uint8_t surely_turns = 3;  // revolutions in a row
+
     /// By how much a force changed within two estimates, beyond what it changes by in a revolution anyway; 0 where the
     /// two have different signs: the slower of both has the say.
     struct Jump {

@@ -47,10 +47,10 @@ void SignalSupervisor<Scalar>::reset() {
     fault_ = control::Fault::none;
     standing_samples_ = 0;
     wrong_indices_ = 0;
-    spindle_[0].pause();
-    spindle_[1].pause();
-    for (StuckSignal& axis : axes_) {
-        axis.pause();
+    for (std::array<StuckSignal, 2>* signals : {&spindle_, &axes_}) {
+        for (StuckSignal& signal : *signals) {
+            signal.pause();
+        }
     }
     implausible_periods_ = 0;
     restart();
@@ -98,22 +98,14 @@ template <typename Scalar>
 void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, control::CutState state) {
     constexpr float moving_mm_s = 1.0F;
     const bool cuts = control::is_cutting(state);
-    const bool turns_evenly = last_speed_rad_s_ > Scalar(0);
-    if ((sample.present & hal::mask(hal::Present::spindle_current)) != 0 && turns_evenly) {
-        spindle_[cuts ? 1 : 0].add(sample.spindle_current_A);
-        spindle_[cuts ? 0 : 1].pause();
-    } else {
-        spindle_[0].pause();
-        spindle_[1].pause();
-    }
+    const bool has_turned = last_speed_rad_s_ > Scalar(0);
+    const bool has_spindle = (sample.present & hal::mask(hal::Present::spindle_current)) != 0 && has_turned;
+    spindle_[0].follow(sample.spindle_current_A, has_spindle && !cuts);
+    spindle_[1].follow(sample.spindle_current_A, has_spindle && cuts);
     bool any_is_stuck = spindle_[0].is_stuck() || spindle_[1].is_stuck();
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         const bool moves = !hal::is_smaller(sample.axis_velocity_mm_s[k], moving_mm_s);
-        if (cuts && moves && (sample.present & hal::axis_mask(k)) != 0) {
-            axes_[k].add(sample.axis_current_A[k]);
-        } else {
-            axes_[k].pause();
-        }
+        axes_[k].follow(sample.axis_current_A[k], cuts && moves && (sample.present & hal::axis_mask(k)) != 0);
         any_is_stuck = any_is_stuck || axes_[k].is_stuck();
     }
     if (any_is_stuck) {
@@ -136,9 +128,9 @@ void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus
 
 template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_idle(bool is_implausible, int tooth_periods) {
-    constexpr Scalar surely_turns = Scalar(10);
+    constexpr Scalar turns = Scalar(10);
     implausible_periods_ = is_implausible ? implausible_periods_ + tooth_periods : 0;
-    if (Scalar(implausible_periods_) > surely_turns * teeth_) {
+    if (Scalar(implausible_periods_) > turns * teeth_) {
         find(control::Fault::idle_torque);
     }
 }
@@ -171,8 +163,6 @@ template <typename Scalar>
 control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     using std::sqrt;
     constexpr Scalar bound = Scalar(1.5F);
-    constexpr Scalar significant = Scalar(6);
-    constexpr Scalar total_per_tangential = Scalar(2);  // the in-plane force is at most that much larger than F_at
     const typename Estimate::ToothChange& change = e.tooth_change;
     const Scalar tangential_N = tangential_.follow(change.tangential_N.value);
     const std::array<Scalar, 2> axis_N{axis_jumps_[0].follow(change.axis_N[0].value),
@@ -206,7 +196,6 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
                                                 control::CutState state) {
     using std::sqrt;
     constexpr Scalar steady_share = estimation::literal<Scalar>(0.003L);
-    constexpr std::uint8_t surely = 3;
     const Scalar change = e.spindle_speed_rad_s - last_speed_rad_s_;
     const Scalar most = steady_share * e.spindle_speed_rad_s;
     const bool turns_evenly = change < most && -change < most;
@@ -216,10 +205,10 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
     } else {
         const Scalar level_N = Scalar(2) * control::contact_level_N(contact_force_N_, contact_significance_,
                                                                     sqrt(e.tangential_N.variance));
-        if (is_so_in_a_row(negative_turns_, -e.tangential_N.value > level_N, surely)) {
+        if (is_so_in_a_row(negative_turns_, -e.tangential_N.value > level_N, surely_turns)) {
             find(control::Fault::negative_torque);
         }
-        if (is_so_in_a_row(rapid_turns_, program.rapid && e.tangential_N.value > level_N, surely)) {
+        if (is_so_in_a_row(rapid_turns_, program.rapid && e.tangential_N.value > level_N, surely_turns)) {
             find(control::Fault::contact_in_rapid);
         }
     }
@@ -231,10 +220,7 @@ template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control::CutState state) {
     using estimation::halved;
     using std::sqrt;
-    constexpr std::uint8_t surely = 3;
     constexpr std::uint8_t enough_turns = 4;
-    constexpr Scalar significant = Scalar(6);
-    constexpr Scalar feed_per_tangential = Scalar(2);  // the force along the feed is at most that much larger than F_at
     const bool is_steady = Scalar(steady_periods_) > teeth_ && e.tangential_N.valid;
     if (rapid || !is_steady || !control::is_out_of_cut(state)) {
         contradicting_turns_ = air_turns_ = 0;
@@ -242,7 +228,7 @@ void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control
     }
     const Scalar force_N = e.feed_N.value < Scalar(0) ? -e.feed_N.value : e.feed_N.value;
     const Scalar by_spindle_N = e.tangential_N.value + halved(significant) * sqrt(e.tangential_N.variance);
-    const Scalar explained_N = by_spindle_N > Scalar(0) ? feed_per_tangential * by_spindle_N : Scalar(0);
+    const Scalar explained_N = by_spindle_N > Scalar(0) ? total_per_tangential * by_spindle_N : Scalar(0);
     const Scalar level_N = significant * sqrt(e.feed_N.variance) + explained_N;
     const bool has_base = air_turns_ >= enough_turns;
     bool contradicts = false;
@@ -254,7 +240,7 @@ void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control
     } else {
         contradicts = has_base;  // an axis whose friction was plausible in this very move no longer is
     }
-    if (is_so_in_a_row(contradicting_turns_, contradicts, surely)) {
+    if (is_so_in_a_row(contradicting_turns_, contradicts, surely_turns)) {
         find(control::Fault::forces_contradict);
     }
 }

@@ -37,6 +37,15 @@ class StuckSignal {
         run_ = 0;
     }
 
+    /// add() or pause(), whether the signal has a reason to vary or not.
+    void follow(float value, bool may_vary) {
+        if (may_vary) {
+            add(value);
+        } else {
+            pause();
+        }
+    }
+
     [[nodiscard]] bool is_stuck() const {
         constexpr std::uint16_t least_run = 32;
         constexpr std::uint32_t longest_runs = 8;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "hal/cia301.hpp"
+
 /// How a drive tells its current and velocity over a bus, and the CAN ids that a machine uses where its file gives no
 /// others. Parameters and bus drivers share them.
 
@@ -24,9 +26,10 @@ enum class VelocitySource : std::uint8_t {
     position,  ///< difference of 0x6064 between two SYNCs
 };
 
-inline constexpr std::uint16_t default_sync_id = 0x080;
+inline constexpr std::uint16_t default_sync_id = cia301::cob_id::sync;
 inline constexpr std::uint8_t default_override_node_id = 126;
-inline constexpr std::uint16_t default_override_id = 0x180 + default_override_node_id;  ///< TPDO 1 of this node
-inline constexpr std::uint16_t default_program_status_id = 0x1FD;                       ///< TPDO 1 of node 125
+inline constexpr std::uint16_t default_override_id =
+    cia301::cob_id::tpdo1 + default_override_node_id;              ///< TPDO 1 of this node
+inline constexpr std::uint16_t default_program_status_id = 0x1FD;  ///< TPDO 1 of node 125
 
 }  // namespace millforce::hal

@@ -3,6 +3,7 @@
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
+#include "sim/without_axis_currents.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -128,9 +129,7 @@ TEST(ClosedLoop, holds_the_limit_on_a_machine_whose_spindle_alone_is_measured) {
     for (const char* name : {"depth_ramp", "width_step", "slot_entry", "interrupted", "zigzag"}) {
         for (const Conditions& conditions : {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}}) {
             Scenario scenario = scenario_named(name, conditions);
-            for (auto& axis : scenario.parameters.machine.axes) {
-                axis.K_x4_N_per_A = 0.0F;
-            }
+            scenario.parameters = millforce::test::without_axis_currents(scenario.parameters);
             const RunFigures figures = controlled(scenario);
             CHECK(bounds_hold(figures));
             STRCMP_EQUAL("none", figures.fault.c_str());

@@ -12,6 +12,7 @@
 
 #include "cnc/cnc.hpp"
 #include "loop/simulation.hpp"
+#include "sim/without_axis_currents.hpp"
 
 using namespace millforce::sim;
 using millforce::host::EngagedArc;
@@ -214,9 +215,7 @@ TEST(Preview, a_machine_whose_spindle_alone_is_measured_is_as_fast_with_the_map)
         const Scenario with_axes = scenario_named(name);
         const PartMap map = preview(with_axes);
         Scenario scenario = with_axes;
-        for (auto& axis : scenario.parameters.machine.axes) {
-            axis.K_x4_N_per_A = 0.0F;
-        }
+        scenario.parameters = millforce::test::without_axis_currents(scenario.parameters);
         const Run run = with_map(scenario, map);
         CHECK_COMPARE(run.figures.peak_over_limit, <=, 1.05);
         CHECK_COMPARE(run.figures.time_s, <, 1.02 * with_map(with_axes, map).figures.time_s);

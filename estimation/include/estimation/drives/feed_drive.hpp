@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/drives/force_change.hpp"
 #include "estimation/drives/learnt_in_air.hpp"
 #include "estimation/number/literal.hpp"
 
@@ -140,15 +141,12 @@ class FeedDrive {
             noise};
     }
 
-    /// What a change of current between two averages of so many samples is as a force, at an unchanged velocity. Its
-    /// variance is their noise.
-    [[nodiscard]] Measurement<Scalar> force_change_N(Scalar change_A, Scalar samples) const {
-        const Scalar N_per_A = parameters_.K_x4_N_per_A;
-        if (!(N_per_A > Scalar(0)) || !(samples > Scalar(0))) {
-            return {};
-        }
-        const Scalar noise = Scalar(2) * square(N_per_A * parameters_.current_sd_A) / samples;
-        return {true, N_per_A * change_A, noise, noise};
+    /// What a change of current between two averages of so many samples is as a force, at an unchanged velocity
+    /// (force_change.hpp).
+    [[nodiscard]] Measurement<Scalar> change_N(Scalar change_A, Scalar samples) const {
+        return samples > Scalar(0) && parameters_.K_x4_N_per_A > Scalar(0)
+                   ? force_change_N(change_A, parameters_.K_x4_N_per_A, parameters_.current_sd_A, samples)
+                   : Measurement<Scalar>{};
     }
 
     /// Time passes: the friction may have moved.

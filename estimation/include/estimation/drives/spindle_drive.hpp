@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/drives/force_change.hpp"
 #include "estimation/drives/warm_up_tracker.hpp"
 #include "estimation/number/literal.hpp"
 
@@ -62,14 +63,13 @@ class SpindleDrive {
         return {true, torque_Nm * per_Nm, noise + others * square(per_Nm), noise};
     }
 
-    /// What a change of current between two averages of so many samples is as a force. Its variance is their noise.
-    [[nodiscard]] Measurement<Scalar> force_change_N(Scalar change_A, const Average& average, Scalar per_Nm) const {
-        if (!is_usable(average)) {
-            return {};
-        }
-        const Scalar N_per_A = torque_constant_Nm_per_A(average.speed_rad_s) * per_Nm;
-        const Scalar noise = Scalar(2) * square(N_per_A * parameters_.current_sd_A) / average.samples;
-        return {true, N_per_A * change_A, noise, noise};
+    /// What a change of current between two averages of so many samples is as a force (force_change.hpp).
+    [[nodiscard]] Measurement<Scalar> change_N(Scalar change_A, Scalar speed_rad_s, Scalar samples,
+                                               Scalar per_Nm) const {
+        return samples > Scalar(0) && speed_rad_s > Scalar(0)
+                   ? force_change_N(change_A, torque_constant_Nm_per_A(speed_rad_s) * per_Nm, parameters_.current_sd_A,
+                                    samples)
+                   : Measurement<Scalar>{};
     }
 
     /// Time passes: the drift may have moved.

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hal/can_frame.hpp"
+#include "hal/drive_wiring.hpp"
 
 namespace millforce::host {
 
@@ -14,7 +15,7 @@ struct BusTime {
     /// Lock-step: with each SYNC by one period and not otherwise, and the next SYNC waits until every drive has
     /// answered. A computer of any load loses nothing then; what cannot be seen so is a late frame.
     bool in_lock_step = false;
-    std::uint32_t sync_id = 0x080;
+    std::uint32_t sync_id = hal::default_sync_id;
     std::uint32_t sync_period_us = 1'000;
 };
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/number/measurement.hpp"
+
+namespace millforce::estimation {
+
+/// What a change of current between two averages of so many samples is as a force. Its variance is their noise alone.
+template <typename Scalar>
+[[nodiscard]] Measurement<Scalar> force_change_N(Scalar change_A, Scalar N_per_A, Scalar current_sd_A, Scalar samples) {
+    const Scalar noise = Scalar(2) * square(N_per_A * current_sd_A) / samples;
+    return {true, N_per_A * change_A, noise, noise};
+}
+
+}  // namespace millforce::estimation
