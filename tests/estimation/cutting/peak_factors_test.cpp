@@ -3,6 +3,7 @@
 
 #include "estimation/four_flutes.hpp"
 #include "estimation/laws.hpp"
+#include "host_test.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -65,7 +66,7 @@ PeakFactors<double> summed_factors(const PeakFactorSettings<double>& s, double i
 
 TEST_GROUP(PeakFactors){};
 
-TEST(PeakFactors, agree_with_a_sum_over_discs) {
+HOST_TEST(PeakFactors, agree_with_a_sum_over_discs) {
     for (const double immersion : {0.1, 0.5, 1.2, 2.0}) {
         for (const double depth : {1.0, 5.0, 12.0}) {
             const auto closed = peak_factors(carbide_in_SM45C<double>(), four_flutes(), immersion, depth);

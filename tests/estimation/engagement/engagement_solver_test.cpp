@@ -3,6 +3,7 @@
 
 #include "estimation/four_flutes.hpp"
 #include "estimation/laws.hpp"
+#include "host_test.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -225,7 +226,7 @@ TEST(EngagementSolver, misses_nothing_by_looking_at_few_immersions) {
     CHECK(differently_sure < 0.02 * cuts);
 }
 
-TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_it_says) {
+HOST_TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_it_says) {
     std::mt19937 random(20261121);
     std::uniform_real_distribution<double> immersion(0.3, 1.8);
     std::uniform_real_distribution<double> depth(3.0, 12.0);

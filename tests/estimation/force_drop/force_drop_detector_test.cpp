@@ -2,6 +2,7 @@
 #include "estimation/force_drop/force_drop_detector.hpp"
 
 #include "estimation/force_drop/face_mill_signal.hpp"
+#include "host_test.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -91,7 +92,7 @@ TEST(ForceDropDetector, finds_the_rise_at_entry_in_down_milling) {
     DOUBLES_EQUAL(entering.y_N, static_cast<double>(jump.y_N.value), 5.0);
 }
 
-TEST(ForceDropDetector, finds_nothing_in_noise) {
+HOST_TEST(ForceDropDetector, finds_nothing_in_noise) {
     int found = 0;
     for (unsigned seed = 1; seed <= 10; ++seed) {
         FaceMillSignal signal;
@@ -104,7 +105,7 @@ TEST(ForceDropDetector, finds_nothing_in_noise) {
     CHECK(found <= 1);
 }
 
-TEST(ForceDropDetector, errs_as_much_as_its_deviation_says) {
+HOST_TEST(ForceDropDetector, errs_as_much_as_its_deviation_says) {
     int within_two = 0;
     constexpr int trials = 40;
     for (unsigned seed = 1; seed <= trials; ++seed) {

@@ -2,6 +2,7 @@
 #include "estimation/force_drop/force_drop_immersion.hpp"
 
 #include "estimation/force_drop/face_mill_signal.hpp"
+#include "host_test.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -95,7 +96,7 @@ TEST(ForceDropImmersion, does_not_depend_on_depth_or_pressure) {
     DOUBLES_EQUAL(static_cast<double>(one.radial_immersion), static_cast<double>(other.radial_immersion), 1e-3);
 }
 
-TEST(ForceDropImmersion, errs_as_much_as_its_deviation_says) {
+HOST_TEST(ForceDropImmersion, errs_as_much_as_its_deviation_says) {
     std::mt19937_64 random(7);
     std::normal_distribution<double> normal(0.0, 1.0);
     const Immersion solver(exact_law());

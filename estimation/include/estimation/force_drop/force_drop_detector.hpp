@@ -102,7 +102,7 @@ class ForceDropDetector {
   private:
     using Vector4 = Eigen::Matrix<Scalar, 4, 1>;
     using Matrix4 = Eigen::Matrix<Scalar, 4, 4>;
-    using Pairs = Eigen::Matrix<Scalar, 4, 2>;
+    using Factors = Eigen::LDLT<Matrix4>;
 
     struct Window;
     struct Fit;

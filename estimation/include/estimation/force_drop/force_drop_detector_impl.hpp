@@ -164,7 +164,8 @@ void ForceDropDetector<Scalar, Bins, MaxWindow>::fill_step_weights(
         const Vector4 x = regressors(window, Scalar(i));
         gram += x * x.transpose();
     }
-    const Vector4 row = gram.ldlt().solve(Vector4::Unit(2));
+    const Vector4 step_only = Vector4::Unit(2);
+    const Vector4 row = Factors(gram).solve(step_only);
     for (int i = -window.before; i <= window.after; ++i) {
         weights[index_in(window, i)] = row.dot(regressors(window, Scalar(i)));
     }
@@ -197,7 +198,8 @@ void ForceDropDetector<Scalar, Bins, MaxWindow>::add_tooth(const Profile& profil
                                                            const OtherEdge<Scalar>& other, Scalar centre, int first,
                                                            int last, Fit& fit) const {
     Matrix4 gram = Matrix4::Zero();
-    Pairs moments = Pairs::Zero();
+    Vector4 moments_x = Vector4::Zero();
+    Vector4 moments_y = Vector4::Zero();
     Scalar squares_x{0};
     Scalar squares_y{0};
     const Scalar level_x = profile.x_N(first);  // taken off first: float keeps the digits of the residual
@@ -208,23 +210,23 @@ void ForceDropDetector<Scalar, Bins, MaxWindow>::add_tooth(const Profile& profil
         Scalar y = profile.y_N(bin) - level_y;
         take_off(window, other, Scalar(bin) - centre, x, y);
         gram += r * r.transpose();
-        moments.col(0) += r * x;
-        moments.col(1) += r * y;
+        moments_x += r * x;
+        moments_y += r * y;
         squares_x += x * x;
         squares_y += y * y;
     }
-    const auto factors = gram.ldlt();
-    Pairs c;  // by columns: Eigen's solve for several at once holds a way to the heap
-    c.col(0) = factors.solve(moments.col(0));
-    c.col(1) = factors.solve(moments.col(1));
-    const Vector4 inverse_row = factors.solve(Vector4::Unit(2));
-    fit.step_x_N += c(2, 0);
-    fit.step_y_N += c(2, 1);
-    fit.slope_x_N_per_rev += c(3, 0) * Scalar(Bins) / Scalar(window.after);
-    fit.slope_y_N_per_rev += c(3, 1) * Scalar(Bins) / Scalar(window.after);
+    const Factors factors(gram);
+    const Vector4 step_only = Vector4::Unit(2);
+    const Vector4 cx = factors.solve(moments_x);
+    const Vector4 cy = factors.solve(moments_y);
+    const Vector4 inverse_row = factors.solve(step_only);
+    fit.step_x_N += cx(2);
+    fit.step_y_N += cy(2);
+    fit.slope_x_N_per_rev += cx(3) * Scalar(Bins) / Scalar(window.after);
+    fit.slope_y_N_per_rev += cy(3) * Scalar(Bins) / Scalar(window.after);
     fit.step_gain += inverse_row(2);
-    fit.residual_x_N2 += squares_x - moments.col(0).dot(c.col(0));
-    fit.residual_y_N2 += squares_y - moments.col(1).dot(c.col(1));
+    fit.residual_x_N2 += squares_x - moments_x.dot(cx);
+    fit.residual_y_N2 += squares_y - moments_y.dot(cy);
     fit.free_points += last - first + 1 - 4;
 }
 
