@@ -38,6 +38,7 @@ FaceMillSignal up_cut(double immersion) {
 Estimate estimate_of(const FaceMillSignal& signal, int samples_per_rev = 512,
                      const ForceDropLaw<float>& law = law_with_edges(0.03, 0.04)) {
     ForceDropSettings<float> settings;
+    settings.revolutions = 1;
     settings.detector.teeth = signal.teeth;
     settings.detector.response.corner_hz = static_cast<float>(signal.corner_hz);
     ForceDrop<float> force_drop(law, settings);

@@ -45,8 +45,8 @@ class FluteProfile {
     using Signals = Eigen::Matrix<Scalar, Channels, 1>;
 
     struct Settings {
-        int teeth = 4;         ///< N of equal pitch, 1…12
-        int revolutions = 20;  ///< of one profile, 1…1000
+        int teeth = 0;        ///< N of equal pitch, 1…12
+        int revolutions = 0;  ///< of one profile, 1…1000; 0: never complete
     };
 
     explicit FluteProfile(const Settings& settings = {}) : settings_(settings) {}
@@ -58,7 +58,9 @@ class FluteProfile {
     /// next add() after restart(); further samples are not taken before that.
     bool add(Scalar dt_s, Scalar turned_rev, Scalar angle_rev, const Signals& signals);
 
-    [[nodiscard]] bool complete() const { return pitches_ >= settings_.teeth * settings_.revolutions; }
+    [[nodiscard]] bool complete() const {
+        return settings_.revolutions > 0 && pitches_ >= settings_.teeth * settings_.revolutions;
+    }
 
     [[nodiscard]] FluteAverage<Scalar, Channels, Bins> average() const;
 

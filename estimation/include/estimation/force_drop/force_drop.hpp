@@ -42,7 +42,7 @@ template <typename Scalar>
 struct ForceDropSettings {
     ForceDropDetectorSettings<Scalar> detector{};
     ForceDropImmersionSettings<Scalar> immersion{};
-    int revolutions{1};               ///< per estimate: more takes noise off and follows a changing cut later
+    int revolutions{0};               ///< per estimate: more takes noise off and follows a changing cut later
     CutSide side = CutSide::unknown;  ///< unknown: a drop along the mean force is up milling, a rise down milling
     Scalar known_immersion{0};        ///< of a calibration cut; 0: unknown, to be estimated
     Scalar zero_drift_sd_N{0};        ///< of the forces' zero since the last air cut; an air gap takes it off

@@ -41,7 +41,7 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct ForceDropDetectorSettings {
-    int teeth{3};                                            ///< N, 1…12, equally spaced
+    int teeth{0};                                            ///< N, 1…12, equally spaced
     LowPassResponse<Scalar> response{};                      ///< from force to sample
     Scalar window_rev{literal<Scalar>(12.0L / 360.0L)};      ///< signal used on either side, after settling
     Scalar least_significance{4};                            ///< jump over its standard deviation
