@@ -64,6 +64,7 @@ struct Pins {
     hal_float_t* depth;
     hal_float_t* depth_sd;
     hal_bit_t* depth_valid;
+    hal_bit_t* tool_unknown;
     hal_u32_t* dropped;
 };
 
@@ -84,7 +85,7 @@ int export_pins(Pins& p, int component) {
                        bit(&p.force_valid, "tooth-force-valid") | f32(&p.immersion, "immersion") |
                        f32(&p.immersion_sd, "immersion-sd") | bit(&p.immersion_valid, "immersion-valid") |
                        f32(&p.depth, "depth") | f32(&p.depth_sd, "depth-sd") | bit(&p.depth_valid, "depth-valid") |
-                       u32(&p.dropped, "dropped");
+                       bit(&p.tool_unknown, "tool-unknown") | u32(&p.dropped, "dropped");
     if (failed == 0) {
         *p.hold = true;
     }
@@ -111,6 +112,7 @@ SampleMessage message_of(const std::array<hal_stream_data, MILLFORCE_FIELDS>& ro
     m.operator_limit = f32(MILLFORCE_OPERATOR_LIMIT);
     m.line = row[MILLFORCE_LINE].u;
     m.distance_to_go_mm = f32(MILLFORCE_DISTANCE_TO_GO);
+    m.tool = row[MILLFORCE_TOOL].u;
     return m;
 }
 
@@ -129,6 +131,7 @@ void set_pins(const Pins& p, const OverrideMessage& m) {
     *p.state = m.state;
     *p.fault = m.fault;
     *p.limit = m.limit;
+    *p.tool_unknown = m.tool_unknown;
     set_estimate(m.tangential_N, p.tangential_force, nullptr);
     set_estimate(m.feed_N, p.feed_force, nullptr);
     set_estimate(m.tooth_force_N, p.tooth_force, p.force_valid);

@@ -28,6 +28,21 @@ void CncOnBus::poll(std::uint64_t time_us) {
     if (has_status_ && time_us >= next_us_) {
         send(time_us);
     }
+    if (tool_ && time_us >= next_tool_us_) {
+        send_tool(time_us);
+    }
+}
+
+void CncOnBus::set_tool(std::uint32_t number, std::uint64_t time_us) {
+    tool_ = number;
+    send_tool(time_us);
+}
+
+void CncOnBus::send_tool(std::uint64_t time_us) {
+    next_tool_us_ = time_us + settings_.tool_period_us;
+    if (const std::uint32_t id = program_status::tool_frame_id(settings_.program_status_id); id != 0) {
+        outgoing_.push_back(program_status::encode_tool(*tool_, id));
+    }
 }
 
 void CncOnBus::send(std::uint64_t time_us) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
 #include "override_frame/override_receiver.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/tool_frame.hpp"
 
 namespace millforce::sim {
 
@@ -15,6 +17,7 @@ struct CncOnBusSettings {
     override_frame::OverrideReceiverSettings feed_override{};
     std::uint32_t program_status_id = program_status::default_id;  ///< 0: it reports nothing
     std::uint32_t program_status_period_us = 10'000;
+    std::uint32_t tool_period_us = 100'000;
 };
 
 /// A CNC's side of the bus: it takes the feed override and reports F, rapid and hold, at once when one of them changes.
@@ -23,6 +26,8 @@ class CncOnBus {
     explicit CncOnBus(const CncOnBusSettings& settings) : settings_(settings), receiver_(settings.feed_override) {}
 
     void set(const hal::ProgramStatus& program, std::uint64_t time_us);
+    /// The tool in the spindle, in a frame of its own from now on.
+    void set_tool(std::uint32_t number, std::uint64_t time_us);
     /// The operator's acknowledgement of a latched fault, in the status frames from now on.
     void press_reset(bool pressed) { newest_.reset_fault = pressed; }
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us) { receiver_.on_frame(frame, time_us); }
@@ -34,12 +39,15 @@ class CncOnBus {
 
   private:
     void send(std::uint64_t time_us);
+    void send_tool(std::uint64_t time_us);
 
     CncOnBusSettings settings_;
     override_frame::OverrideReceiver receiver_;
     program_status::ProgramStatusFrame newest_{};
     bool has_status_ = false;
     std::uint64_t next_us_ = 0;
+    std::optional<std::uint32_t> tool_{};
+    std::uint64_t next_tool_us_ = 0;
     std::vector<hal::CanFrame> outgoing_;
 };
 

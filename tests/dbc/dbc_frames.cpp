@@ -13,6 +13,7 @@
 #include "override_frame/override_sender.hpp"
 #include "override_sender_settings.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/tool_frame.hpp"
 
 /// Frames of every kind that millforce.dbc names, by the code that sends them, each with the values that went in:
 /// `id data name=value...`. check_dbc decodes them by the DBC and compares.
@@ -113,6 +114,14 @@ void print_program_statuses() {
     print_program_status(status, 167772.15, 255.0);
 }
 
+void print_tools() {
+    const std::uint32_t id = program_status::tool_frame_id(program_status::default_id);
+    for (const std::uint32_t number : {0U, 1U, 258U, 70'007U, UINT32_MAX}) {
+        const hal::CanFrame frame = program_status::encode_tool(number, id);
+        print(frame, {{"ToolNumber", number}, {"ToolReserved", 0.0}, {"ToolChecksum", frame.data[7]}});
+    }
+}
+
 /// SYNC and NMT start, by the master.
 void print_master() {
     cia402::BusSettings settings = test::a_bus();
@@ -199,6 +208,7 @@ int main() {
     print_heartbeats();
     print_own_emergencies();
     print_program_statuses();
+    print_tools();
     print_master();
     print_drives();
     return 0;

@@ -13,6 +13,9 @@ constexpr std::uint16_t override_kind = 2;
 constexpr std::uint8_t rapid_bit = 1;
 constexpr std::uint8_t feed_hold_bit = 2;
 constexpr std::uint8_t reset_bit = 4;
+constexpr std::uint8_t hold_bit = 1;
+constexpr std::uint8_t tool_unknown_bit = 2;
+constexpr std::size_t head_bytes = 8;
 constexpr std::uint8_t all_present_bits = 0x1F;
 
 /// Writes values in sequence; the array is as long as the layout.
@@ -40,7 +43,7 @@ class Writer {
     std::size_t place_ = 0;
 };
 
-/// The length is checked before.
+/// After head() the length is that of the layout.
 class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -56,14 +59,21 @@ class Reader {
         return low | (high << 16U);
     }
     float f32() { return std::bit_cast<float>(u32()); }
-    MessageError head(std::uint16_t kind) {
+    /// The version before the length: another version has another length.
+    MessageError head(std::uint16_t kind, std::size_t length) {
+        if (bytes_.size() < head_bytes) {
+            return MessageError::length;
+        }
         if (u32() != magic) {
             return MessageError::not_this_link;
         }
         if (u16() != layout_version) {
             return MessageError::version;
         }
-        return u16() == kind ? MessageError::none : MessageError::kind;
+        if (u16() != kind) {
+            return MessageError::kind;
+        }
+        return bytes_.size() == length ? MessageError::none : MessageError::length;
     }
 
   private:
@@ -101,6 +111,7 @@ SampleBytes encode(const SampleMessage& m) {
     out.f32(m.operator_limit);
     out.u32(m.line);
     out.f32(m.distance_to_go_mm);
+    out.u32(m.tool);
     return bytes;
 }
 
@@ -112,7 +123,8 @@ OverrideBytes encode(const OverrideMessage& m) {
     out.u32(m.sequence);
     out.u32(m.heartbeat);
     out.f32(is_a_ratio ? m.ratio : 0.0F);
-    out.u8(m.hold || !is_a_ratio ? 1 : 0);
+    out.u8(
+        static_cast<std::uint8_t>((m.hold || !is_a_ratio ? hold_bit : 0U) | (m.tool_unknown ? tool_unknown_bit : 0U)));
     out.u8(m.state);
     out.u8(m.fault);
     out.u8(m.limit);
@@ -124,11 +136,8 @@ OverrideBytes encode(const OverrideMessage& m) {
 }
 
 MessageError decode(std::span<const std::uint8_t> bytes, SampleMessage& message) {
-    if (bytes.size() != sample_bytes) {
-        return MessageError::length;
-    }
     Reader in(bytes);
-    if (const MessageError error = in.head(sample_kind); error != MessageError::none) {
+    if (const MessageError error = in.head(sample_kind, sample_bytes); error != MessageError::none) {
         return error;
     }
     SampleMessage m;
@@ -157,23 +166,21 @@ MessageError decode(std::span<const std::uint8_t> bytes, SampleMessage& message)
     m.operator_limit = in.f32();
     m.line = in.u32();
     m.distance_to_go_mm = in.f32();
+    m.tool = in.u32();
     message = m;
     return MessageError::none;
 }
 
 MessageError decode(std::span<const std::uint8_t> bytes, OverrideMessage& message) {
-    if (bytes.size() != override_bytes) {
-        return MessageError::length;
-    }
     Reader in(bytes);
-    if (const MessageError error = in.head(override_kind); error != MessageError::none) {
+    if (const MessageError error = in.head(override_kind, override_bytes); error != MessageError::none) {
         return error;
     }
     OverrideMessage m;
     m.sequence = in.u32();
     m.heartbeat = in.u32();
     m.ratio = in.f32();
-    const unsigned hold = in.u8();
+    const unsigned flags = in.u8();
     m.state = in.u8();
     m.fault = in.u8();
     m.limit = in.u8();
@@ -181,13 +188,14 @@ MessageError decode(std::span<const std::uint8_t> bytes, OverrideMessage& messag
                             &m.axial_depth_mm, &m.axial_depth_sd_mm}) {
         *estimate = in.f32();
     }
-    if (hold > 1) {
+    if ((flags & ~3U) != 0) {
         return MessageError::reserved_bits;
     }
     if (!is_finite(m.ratio) || m.ratio < 0.0F) {
         return MessageError::not_a_ratio;
     }
-    m.hold = hold != 0;
+    m.hold = (flags & hold_bit) != 0;
+    m.tool_unknown = (flags & tool_unknown_bit) != 0;
     message = m;
     return MessageError::none;
 }

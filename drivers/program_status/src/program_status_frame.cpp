@@ -16,19 +16,19 @@ constexpr unsigned hold_bit = 0x02;
 constexpr unsigned reset_bit = 0x04;
 constexpr float largest_feed_bits = 16777215.0F;
 
-std::uint8_t checksum(const hal::CanFrame& frame) {
-    std::array<std::uint8_t, 2 + frame_bytes - 1> covered{static_cast<std::uint8_t>(frame.id),
-                                                          static_cast<std::uint8_t>(frame.id >> 8U)};
-    std::copy_n(frame.data.begin(), frame_bytes - 1, covered.begin() + 2);
-    return override_frame::crc8_2f(covered);
-}
-
 /// NaN and infinity become 0.
 std::uint32_t whole_steps(float value, float step, float largest) {
     return hal::is_finite(value) ? static_cast<std::uint32_t>(std::clamp(value / step + 0.5F, 0.0F, largest)) : 0U;
 }
 
 }  // namespace
+
+std::uint8_t checksum_of(const hal::CanFrame& frame) {
+    std::array<std::uint8_t, 2 + frame_bytes - 1> covered{static_cast<std::uint8_t>(frame.id),
+                                                          static_cast<std::uint8_t>(frame.id >> 8U)};
+    std::copy_n(frame.data.begin(), frame_bytes - 1, covered.begin() + 2);
+    return override_frame::crc8_2f(covered);
+}
 
 hal::CanFrame encode(const ProgramStatusFrame& status, std::uint32_t id) {
     const std::uint32_t feed = whole_steps(status.program.programmed_feed_mm_s, feed_mm_s_per_bit, largest_feed_bits);
@@ -44,7 +44,7 @@ hal::CanFrame encode(const ProgramStatusFrame& status, std::uint32_t id) {
     frame.data[4] = static_cast<std::uint8_t>(flags);
     frame.data[5] = static_cast<std::uint8_t>(status.counter);
     frame.data[6] = static_cast<std::uint8_t>(status.counter >> 8U);
-    frame.data[7] = checksum(frame);
+    frame.data[7] = checksum_of(frame);
     return frame;
 }
 
@@ -55,7 +55,7 @@ FrameError decode(const hal::CanFrame& frame, std::uint32_t id, ProgramStatusFra
     if (frame.length != frame_bytes) {
         return FrameError::length;
     }
-    if (frame.data[7] != checksum(frame)) {
+    if (frame.data[7] != checksum_of(frame)) {
         return FrameError::checksum;
     }
     const unsigned flags = frame.data[4];

@@ -5,8 +5,7 @@
 #include "estimation/cutting/engagement_peaks.hpp"
 #include "estimation/cutting/tooth_force.hpp"
 #include "estimation/cutting/total_force.hpp"
-#include "estimation/drives/feed_drive.hpp"
-#include "estimation/drives/spindle_drive.hpp"
+#include "estimation/drives/machine_drives.hpp"
 #include "estimation/engagement/depth_memory.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
 #include "estimation/signal/encoder_angle.hpp"
@@ -68,6 +67,9 @@ class CutEstimator {
     /// while in air; leave_air() when that ends. Returns whether it was done.
     bool rezero();
     void leave_air();
+    /// What was learnt in air, up to now: for the estimator of the next tool, before its first sample.
+    [[nodiscard]] MachineDrives<Scalar> drives() const;
+    void set_drives(const MachineDrives<Scalar>& learnt) { drives_ = learnt; }
     /// In the mean of the window no axis moved: nothing can be cut.
     [[nodiscard]] bool axes_rest() const;
 
@@ -76,10 +78,10 @@ class CutEstimator {
     /// Tooth periods still end: the last one is no longer ago than three windows.
     [[nodiscard]] bool spindle_turns() const;
     /// The last re-zeroing found an idle torque that its calibration does not leave open: there is no F_at.
-    [[nodiscard]] bool spindle_is_implausible() const { return spindle_.is_implausible(); }
-    [[nodiscard]] Scalar spindle_drift_Nm() const { return spindle_.drift_Nm(); }
+    [[nodiscard]] bool spindle_is_implausible() const { return drives_.spindle.is_implausible(); }
+    [[nodiscard]] Scalar spindle_drift_Nm() const { return drives_.spindle.drift_Nm(); }
     [[nodiscard]] Scalar friction_scale(std::size_t axis, bool positive) const {
-        return axes_[axis].friction_scale(positive);
+        return drives_.axes[axis].friction_scale(positive);
     }
     /// Input of TotalForce, for a display of the total force of estimate().
     [[nodiscard]] TotalForceInput<Scalar> total_force_input() const {
@@ -98,7 +100,6 @@ class CutEstimator {
     [[nodiscard]] static typename FeedDrive<Scalar>::Average axis_average(const Window& window, std::size_t axis);
 
     [[nodiscard]] bool begin_estimate();
-    void predict_drifts(Scalar passed_s);
     void estimate_forces();
     void estimate_along_feed();
     void estimate_tooth_change();
@@ -120,8 +121,7 @@ class CutEstimator {
 
     CutEstimatorSettings<Scalar> settings_{};
     Scalar per_Nm_{0};  // F_at of a torque, 1000/R
-    SpindleDrive<Scalar> spindle_{};
-    std::array<FeedDrive<Scalar>, 3> axes_{};
+    MachineDrives<Scalar> drives_;
     ForceMemory<Scalar> memory_{};
     DepthMemory<Scalar> depth_{};
     int periods_since_memory_ = 0;

@@ -20,8 +20,7 @@ CutEstimator<Scalar>::CutEstimator(const CutEstimatorSettings<Scalar>& settings,
       average_({static_cast<int>(settings.teeth), settings.min_samples}),
       settings_(settings),
       per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
-      spindle_(spindle),
-      axes_{FeedDrive<Scalar>(axes[0]), FeedDrive<Scalar>(axes[1]), FeedDrive<Scalar>(axes[2])},
+      drives_(spindle, axes),
       peaks_(law, {peak_factor_settings(settings, settings.side), settings.largest_depth_mm, settings.assumed_immersion,
                    settings.surge_immersion, settings.turn_immersion}),
       tooth_force_(settings, law),
@@ -114,7 +113,7 @@ template <typename Scalar>
 bool CutEstimator<Scalar>::begin_estimate() {
     const Scalar passed_s = since_prediction_s_;
     since_prediction_s_ = Scalar(0);
-    predict_drifts(passed_s);
+    drives_.predict(passed_s);
     window_ = average_.window();
     in_work_ = {};
     in_work_.tooth_periods = periods_ended_;
@@ -129,14 +128,6 @@ bool CutEstimator<Scalar>::begin_estimate() {
     begin_engagement(passed_s);
     stage_ = Stage::engagement;
     return false;
-}
-
-template <typename Scalar>
-void CutEstimator<Scalar>::predict_drifts(Scalar passed_s) {
-    spindle_.predict(passed_s);
-    for (FeedDrive<Scalar>& axis : axes_) {
-        axis.predict(passed_s);
-    }
 }
 
 template <typename Scalar>
@@ -190,12 +181,12 @@ void CutEstimator<Scalar>::estimate_forces() {
     e.window_s = window_.duration_s;
     e.spindle_speed_rad_s = window_.spindle_speed_rad_s;
     if (per_Nm_ > Scalar(0)) {
-        e.tangential_N = spindle_.force_N(spindle_average(window_), per_Nm_);
-        e.tooth_tangential_N = spindle_.force_N(spindle_average_of_tooth(window_), per_Nm_);
+        e.tangential_N = drives_.spindle.force_N(spindle_average(window_), per_Nm_);
+        e.tooth_tangential_N = drives_.spindle.force_N(spindle_average_of_tooth(window_), per_Nm_);
     }
-    e.x_N = axes_[0].force_N(axis_average(window_, 0));
-    e.y_N = axes_[1].force_N(axis_average(window_, 1));
-    e.z_N = axes_[2].force_N(axis_average(window_, 2));
+    e.x_N = drives_.axes[0].force_N(axis_average(window_, 0));
+    e.y_N = drives_.axes[1].force_N(axis_average(window_, 1));
+    e.z_N = drives_.axes[2].force_N(axis_average(window_, 2));
 }
 
 template <typename Scalar>
@@ -238,12 +229,13 @@ void CutEstimator<Scalar>::estimate_tooth_change() {
     typename CutEstimate<Scalar>::ToothChange& c = in_work_.tooth_change;
     c.speed_ratio = before.duration_s / now.duration_s;
     if ((present & Signals::spindle_present) != 0U) {
-        c.tangential_N =
-            spindle_.change_N(change[Signals::spindle_current], average_.tooth_speed_rad_s(), now.samples, per_Nm_);
+        c.tangential_N = drives_.spindle.change_N(change[Signals::spindle_current], average_.tooth_speed_rad_s(),
+                                                  now.samples, per_Nm_);
     }
     for (std::size_t axis = 0; axis < c.axis_N.size(); ++axis) {
         if ((present & (Signals::first_axis_present << axis)) != 0U) {
-            c.axis_N[axis] = axes_[axis].change_N(change[Signals::first_current + static_cast<int>(axis)], now.samples);
+            c.axis_N[axis] =
+                drives_.axes[axis].change_N(change[Signals::first_current + static_cast<int>(axis)], now.samples);
         }
     }
     constexpr Scalar steady_share2 = literal<Scalar>(0.01L);
@@ -293,16 +285,23 @@ bool CutEstimator<Scalar>::rezero() {
         rezero_drives();
     }
     air_window_ = window_;
-    return has_window && !spindle_.is_implausible();
+    return has_window && !drives_.spindle.is_implausible();
 }
 
 /// A spindle that shows no idle torque does not say that this is air: the axes may carry a cut.
 template <typename Scalar>
 void CutEstimator<Scalar>::rezero_drives() {
-    spindle_.rezero(spindle_average(air_window_));
-    for (std::size_t k = 0; k < axes_.size() && !spindle_.is_implausible(); ++k) {
-        axes_[k].rezero(axis_average(air_window_, k));
+    drives_.spindle.rezero(spindle_average(air_window_));
+    for (std::size_t k = 0; k < drives_.axes.size() && !drives_.spindle.is_implausible(); ++k) {
+        drives_.axes[k].rezero(axis_average(air_window_, k));
     }
+}
+
+template <typename Scalar>
+MachineDrives<Scalar> CutEstimator<Scalar>::drives() const {
+    MachineDrives<Scalar> drives = drives_;
+    drives.predict(since_prediction_s_ + since_period_s_);
+    return drives;
 }
 
 template <typename Scalar>

@@ -15,6 +15,11 @@ std::uint32_t own_heartbeat_id(const CanControllerSettings& settings) {
     return cia402::cob_id::heartbeat + settings.feed_override.node_id;
 }
 
+/// Where no tool can be chosen its frame is not heard, so that it does not pass time either.
+std::uint32_t tool_id(const CanControllerSettings& settings, const ToolMagazine* magazine) {
+    return magazine != nullptr ? program_status::tool_frame_id(settings.program.id) : 0;
+}
+
 std::uint64_t microseconds(float seconds) {
     return static_cast<std::uint64_t>(seconds * 1e6F);
 }
@@ -33,17 +38,19 @@ constexpr std::uint64_t shown_for_us = 1'000'000;
 }  // namespace
 
 CanController::CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                             TickListener* listener)
+                             TickListener* listener, const ToolMagazine* magazine)
     : settings_(settings),
       parameters_(parameters),
+      magazine_(magazine),
       is_running_(settings.begins_at_once),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
       bus_(settings.drives),
       sync_(settings.drives.sync_id, settings.drives.sync_period_us),
       program_receiver_(settings.program),
+      tool_receiver_(tool_id(settings, magazine)),
       sender_(settings.feed_override),
-      tick_(parameters),
+      tick_(parameters, magazine),
       listener_(listener) {
     std::array<hal::CanFilter, filter_capacity> used{};
     const std::size_t count = filters(used);
@@ -59,9 +66,10 @@ void CanController::begin() {
     std::destroy_at(&bus_);
     std::construct_at(&bus_, settings_.drives);
     program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
+    tool_receiver_ = program_status::ToolReceiver(tool_id(settings_, magazine_));
     if (has_begun_) {
         std::destroy_at(&tick_);
-        std::construct_at(&tick_, parameters_);
+        std::construct_at(&tick_, parameters_, magazine_);
     }
     bus_time_us_ = 0;
     has_begun_ = false;
@@ -104,6 +112,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
         return;  // they only show that time has passed
     }
     program_receiver_.on_frame(frame, time_us);
+    tool_receiver_.on_frame(frame, time_us);
     bus_.on_frame(frame, time_us);
     run_ticks();
 }
@@ -187,6 +196,7 @@ void CanController::tick_on_sample() {
     program_ = program_at(sync_time_us_);
     reset_fault_where_asked();
     finish_work(tick_);  // what was not done in time: a replay does the same work
+    tick_.follow_tool(tool_receiver_.number(sync_time_us_), is_at_rest());
     tick_.take(sample_);
     finish_estimate(tick_);
     finish(tick_.answer(program_), sync_time_us_);
@@ -267,6 +277,7 @@ void CanController::judge(std::uint64_t now_us) {
     const program_status::ProgramSource source = program_receiver_.source(bus_time_us_);
     found.set(Condition::program_unknown, source == program_status::ProgramSource::never_heard);
     found.set(Condition::program_silent, source == program_status::ProgramSource::silent);
+    found.set(Condition::tool_unknown, has_begun_ && !tick_.is_tool_known());
     conditions_ = found;
 }
 
@@ -284,7 +295,8 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
-    for (const std::uint32_t id : {settings_.program.id, settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+    for (const std::uint32_t id : {settings_.program.id, tool_id(settings_, magazine_), settings_.feed_override.id,
+                                   own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }

@@ -42,6 +42,13 @@
 
 namespace millforce::firmware {
 
+/// What a tick has learnt of the machine, whatever the tool.
+template <typename Scalar>
+struct MachineKnowledge {
+    estimation::MachineDrives<Scalar> drives;
+    bool was_rezeroed = false;
+};
+
 template <typename Scalar, typename WideBand = WideBandMonitor<Scalar>>
 class ForceControlTick {
   public:
@@ -64,6 +71,13 @@ class ForceControlTick {
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);
 
     void reset_fault();
+
+    /// For the tick of the next tool, before its first sample.
+    [[nodiscard]] MachineKnowledge<Scalar> machine_knowledge() const { return {estimator_.drives(), was_rezeroed_}; }
+    void set_machine_knowledge(const MachineKnowledge<Scalar>& learnt) {
+        estimator_.set_drives(learnt.drives);
+        was_rezeroed_ = learnt.was_rezeroed;
+    }
 
     [[nodiscard]] bool estimate_due() const { return estimator_.work_due(); }
     [[nodiscard]] bool work_due() const { return estimator_.work_due() || wide_band_.work_due(); }
@@ -151,9 +165,8 @@ void finish_work(Worker& worker) {
 }
 
 /// A sample's whole tick, where nobody waits for the override before its end: in a simulation, a replay, a test.
-template <typename Scalar, typename WideBand>
-hal::FeedOverride step_and_work(ForceControlTick<Scalar, WideBand>& tick, const hal::DriveSample& sample,
-                                const hal::ProgramStatus& program) {
+template <typename Tick>
+hal::FeedOverride step_and_work(Tick& tick, const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     tick.take(sample);
     finish_estimate(tick);
     const hal::FeedOverride output = tick.answer(program);

@@ -34,8 +34,9 @@ float value_of(const estimation::Measurement<float>& measurement) {
 
 }  // namespace
 
-LinkController::LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way)
-    : tick_(capped(parameters, largest_override)), largest_override_(largest_override), way_(way) {}
+LinkController::LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way,
+                               const ToolMagazine* magazine)
+    : tick_(capped(parameters, largest_override), magazine), largest_override_(largest_override), way_(way) {}
 
 local_link::MessageError LinkController::on_message(std::span<const std::uint8_t> bytes,
                                                     local_link::OverrideBytes& answer) {
@@ -47,13 +48,14 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     bridge_gap(message.time_us, program);
     reset_where_asked(message);
     finish_work(tick_);  // what was not done in time
+    tick_.follow_tool(message.tool, hal::axes_rest(message.axis_velocity_mm_s));
     drives_.on_message(message);
     hal::DriveSample sample;
     (void)drives_.take_sample(sample);  // each message is one
     tick_.take(sample);
     finish_estimate(tick_);
     if (way_ != nullptr) {
-        way_->look_ahead(tick_, program);
+        way_->look_ahead(tick_.of_tool(), program);
     }
     output_ = tick_.answer(program);
     answer = encode(answer_to(message.sequence));
@@ -79,16 +81,18 @@ void LinkController::reset_where_asked(const local_link::SampleMessage& message)
 }
 
 local_link::OverrideMessage LinkController::answer_to(std::uint32_t sequence) const {
-    const auto& estimate = tick_.estimate();
-    const auto engagement = tick_.engagement();
+    const ForceControlTick<float>& tick = tick_.of_tool();
+    const auto& estimate = tick.estimate();
+    const auto engagement = tick.engagement();
     local_link::OverrideMessage m;
     m.sequence = sequence;
     m.heartbeat = output_.heartbeat;
     m.ratio = std::min(output_.ratio, largest_override_);
     m.hold = output_.hold;
+    m.tool_unknown = !tick_.is_tool_known();
     m.state = output_.state;
     m.fault = output_.fault;
-    m.limit = static_cast<std::uint8_t>(tick_.control().limit);
+    m.limit = static_cast<std::uint8_t>(tick.control().limit);
     m.tangential_N = value_of(estimate.tangential_N);
     m.feed_N = value_of(estimate.feed_N);
     const bool arc_is_known = engagement.immersion_valid && !estimate.tooth_force_is_bound;

@@ -10,6 +10,7 @@
 
 #include "commands/usage.hpp"
 #include "daemon/bus_clock.hpp"
+#include "files/tool_set.hpp"
 
 namespace millforce::host {
 
@@ -123,6 +124,14 @@ Option Command::named_choice(const std::string& names, const std::string& help, 
 
 void Command::on_run(std::function<int()> run) {
     app_->callback([run = std::move(run), exit_code = exit_code_] { *exit_code = run(); });
+}
+
+void add_tools(Command& command, ToolChoice& tools) {
+    command.option("--tool", tools.file, "Tool parameters").value_name("T.toml");
+    command
+        .option("--tools", tools.folder,
+                "Folder of tool parameters T<number>.toml, in place of --tool: the CNC tells the tool's number")
+        .value_name("FOLDER");
 }
 
 void add_bus_pace(Command& command, BusPace& pace) {

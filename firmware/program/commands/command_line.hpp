@@ -22,6 +22,8 @@ class Option;
 
 namespace millforce::host {
 
+struct ToolChoice;
+
 /// One option or positional argument, as returned by Command. Refers to its program; cheap to copy.
 class Option {
   public:
@@ -96,6 +98,9 @@ extern template Option Command::option(const std::string&, std::optional<double>
 extern template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
 extern template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
 extern template Option Command::option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
+
+/// --tool and --tools, of which one must be given: ToolChoice::require_one().
+void add_tools(Command& command, ToolChoice& tools);
 
 /// --slow-motion and --lock-step, of the commands on a bus.
 struct BusPace {

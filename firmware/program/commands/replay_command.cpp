@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,15 +13,16 @@
 
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "daemon/tool_forces.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/overwriting.hpp"
-#include "files/parameter_files.hpp"
 #include "files/parameter_notes.hpp"
 #include "files/progress.hpp"
-#include "firmware/tick.hpp"
+#include "files/tool_set.hpp"
 #include "firmware/tick_record.hpp"
+#include "firmware/tool_tick.hpp"
 #include "firmware/wide_band_settings.hpp"
 #include "recording/recording.hpp"
 #include "replay/estimate_rows.hpp"
@@ -34,7 +36,7 @@ namespace {
 struct ReplayOptions {
     std::string log;
     std::string machine;
-    std::string tool;
+    ToolChoice tools;
     std::string output;
     std::optional<double> programmed_feed_mm_min;
     double interval_s = 0.02;
@@ -49,10 +51,8 @@ class WideBandCells {
   public:
     using Estimates = firmware::WideBandEstimate<float>;
 
-    WideBandCells(bool has_sensor, const firmware::Parameters<float>& parameters)
-        : tool_(parameters.tool),
-          has_sensor_(has_sensor),
-          is_there_(has_sensor || firmware::has_force_drop_law(tool_)) {}
+    WideBandCells(bool has_sensor, const firmware::ToolParameters<float>& tool)
+        : tool_(tool), has_sensor_(has_sensor), is_there_(has_sensor || firmware::has_force_drop_law(tool_)) {}
 
     void tell_what_is_missing() const {
         for (const std::string_view line : {lacking_for_force_drops(), lacking_for_depths()}) {
@@ -178,13 +178,17 @@ hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOpti
 /// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
 /// come out.
 int replay_table(const ReplayOptions& options) {
-    const auto parameters = read_parameters(options.machine, options.tool);
+    const ToolSet tools(options.machine, options.tools);
+    const firmware::Parameters<float>& parameters = tools.parameters();
     RecordingReader recording(options.log, parameters.machine.encoder_counts_per_rev);
     if (!recording.has_force_sensor()) {
         tell_parameter_notes(parameters);
     }
-    firmware::ForceControlTick<float> tick(parameters);
-    const estimation::TotalForce<float> total = firmware::total_force(parameters);
+    if (tools.magazine() != nullptr && !recording.has_tool()) {
+        throw InputError(fmt::format("{}:1: expected the column tool with --tools", options.log));
+    }
+    firmware::ToolTick tick(parameters, tools.magazine());
+    const ToolForces forces(tools);
     std::optional<AtomicFile> file;
     if (!options.output.empty()) {
         file.emplace(options.output);
@@ -192,9 +196,15 @@ int replay_table(const ReplayOptions& options) {
     // Without a file, an error in the last row must not leave half a table behind: rows go out when all are good.
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
-    RoughnessCells roughness(parameters.tool.roughness);
-    WideBandCells wide_band(recording.has_force_sensor(), parameters);
+    const bool is_one_tool = tools.magazine() == nullptr;
+    ToolCells numbers(!is_one_tool);
+    // What a tool's own tables add is shown for one tool alone: another may have other tables, or none.
+    const firmware::ToolParameters<float> shown_tool =
+        is_one_tool ? parameters.tool : firmware::ToolParameters<float>();
+    RoughnessCells roughness(shown_tool.roughness);
+    WideBandCells wide_band(is_one_tool && recording.has_force_sensor(), shown_tool);
     out << estimate_header;
+    numbers.write_header(out);
     roughness.write_header(out);
     wide_band.write_header(out);
     out << '\n';
@@ -203,14 +213,16 @@ int replay_table(const ReplayOptions& options) {
     ReplayFindings findings(parameters.machine.encoder_counts_per_rev);
     while (recording.next()) {
         progress.update(recording.fraction_read());
+        tick.follow_tool(recording.tool(), hal::axes_rest(recording.sample().axis_velocity_mm_s));
         const hal::FeedOverride output =
             firmware::step_and_work(tick, recording.sample(), program_of(recording, options));
-        const firmware::TickRecord record = firmware::tick_record(tick, output, 0);
+        const firmware::TickRecord record = firmware::tick_record(tick.of_tool(), output, 0);
         findings.follow(recording.sample(), record);
         if (row_times.is_due(recording.time_s())) {
-            write_estimate_row(out, recording.time_s(), record, total);
-            roughness.write(out, tick.roughness());
-            wide_band.write(out, tick.wide_band());
+            write_estimate_row(out, recording.time_s(), record, forces.of(record, tick.tool()));
+            numbers.write(out, tick.tool());
+            roughness.write(out, tick.of_tool().roughness());
+            wide_band.write(out, tick.of_tool().wide_band());
             out << '\n';
         }
     }
@@ -225,13 +237,17 @@ int replay_table(const ReplayOptions& options) {
     if (const std::string left_out = row_times.left_out(); !left_out.empty()) {
         fmt::print(stderr, "millforce: note: {}: {}\n", options.log, left_out);
     }
+    if (const std::string note = numbers.note(); !note.empty()) {
+        fmt::print(stderr, "millforce: note: {}: {}\n", options.log, note);
+    }
     if (recording.has_one_force_only()) {
         fmt::print(stderr, "millforce: note: {}: fx_N and fy_N are used together, and one of them is missing\n",
                    options.log);
     }
     if (file) {
         file->commit();
-        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(), wide_band.summary(tick.wide_band()));
+        fmt::print("{}: {} rows\n{}{}", options.output, rows, roughness.summary(),
+                   wide_band.summary(tick.of_tool().wide_band()));
     } else {
         std::cout << held_back.str();
     }
@@ -239,7 +255,10 @@ int replay_table(const ReplayOptions& options) {
 }
 
 int replay(const ReplayOptions& options) {
-    refuse_overwriting(options.output, {options.log, options.machine, options.tool, options.run_log});
+    options.tools.require_one();
+    std::vector<std::filesystem::path> inputs = options.tools.files();
+    inputs.insert(inputs.end(), {options.log, options.machine, options.run_log});
+    refuse_overwriting(options.output, inputs);
     if (!is_candump_log(options.log)) {
         if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
             throw InputError(fmt::format(
@@ -251,7 +270,7 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
                                      options.log));
     }
-    return replay_candump({options.log, options.machine, options.tool, options.output, options.interface,
+    return replay_candump({options.log, options.machine, options.tools, options.output, options.interface,
                            options.interval_s, options.run_log, options.pace});
 }
 
@@ -276,7 +295,7 @@ void add_replay(Command& program) {
         "digit.");
     command.option("log", options->log, "Recording: CSV, or a candump log").required().value_name("LOG");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
-    command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
+    add_tools(command, options->tools);
     command.option("-o,--output", options->output, "Estimates; default: standard output").value_name("OUT.csv");
     command
         .option("--programmed-feed", options->programmed_feed_mm_min,

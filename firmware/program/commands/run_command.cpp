@@ -16,6 +16,7 @@
 #include "files/machine_bus.hpp"
 #include "files/parameter_files.hpp"
 #include "files/parameter_notes.hpp"
+#include "files/tool_set.hpp"
 
 namespace millforce::host {
 
@@ -24,7 +25,7 @@ namespace {
 struct RunOptions {
     std::string interface;
     std::string machine;
-    std::string tool;
+    ToolChoice tools;
     std::string log;
     std::string record;
     BusPace pace{};
@@ -68,9 +69,10 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 }
 
 int run_on_bus(const RunOptions& options) {
-    const auto parameters = read_parameters(options.machine, options.tool);
+    options.tools.require_one();
+    const ToolSet tools(options.machine, options.tools);
     const MachineBus bus = bus_of(options.machine);
-    tell_parameter_notes(parameters);
+    tell_parameter_notes(tools.parameters());
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(
@@ -86,11 +88,17 @@ int run_on_bus(const RunOptions& options) {
     if (!options.log.empty() && options.log == options.record) {
         throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
     }
+    if (tools.magazine() != nullptr && program_status::tool_frame_id(bus.program.id) == 0) {
+        throw InputError(
+            fmt::format("--tools: {}: bus.program_status_id = {}, expected 1 to {}: the frame of the tool's "
+                        "number is that id + 0x100",
+                        options.machine, bus.program.id, hal::largest_standard_can_id - 0x100));
+    }
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(JournalSettings{
-        options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, firmware::total_force(parameters)});
-    const auto daemon = std::make_unique<CanDaemon>(interface, bus, parameters, *journal,
-                                                    CanDaemonSettings{!options.record.empty(), time});
+    const auto journal = std::make_unique<Journal>(
+        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, ToolForces(tools)});
+    const auto daemon =
+        std::make_unique<CanDaemon>(interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time});
     if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
         for (const std::string& note : become_real_time()) {
             print_line(stderr, fmt::format("millforce: note: {}", note));
@@ -126,7 +134,7 @@ void add_run(Command& program) {
         "Exit code 1: frames of --record or lines of --log are missing.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");
-    command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
+    add_tools(command, options->tools);
     command.option("--log", options->log, "Write estimates and states as JSON lines").value_name("FILE.jsonl");
     command
         .option("--record", options->record,

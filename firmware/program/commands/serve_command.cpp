@@ -13,8 +13,9 @@
 #include "daemon/service.hpp"
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
-#include "files/parameter_files.hpp"
+#include "files/input_error.hpp"
 #include "files/parameter_notes.hpp"
+#include "files/tool_set.hpp"
 #include "firmware_link/link_controller.hpp"
 #include "part_map/map_follower.hpp"
 #include "part_map/part_map_file.hpp"
@@ -26,7 +27,7 @@ namespace {
 struct ServeOptions {
     std::string socket;
     std::string machine;
-    std::string tool;
+    ToolChoice tools;
     double override_max = 1.0;
     std::string map;
     std::string program;
@@ -60,10 +61,29 @@ class MapTeller {
     bool was_refuted_ = false;
 };
 
+/// Tells which tool the override is for.
+class ToolTeller {
+  public:
+    void follow(const firmware::LinkController& controller, LinePrinter& printer) {
+        if (controller.is_tool_known() == is_known_ && controller.tool() == tool_) {
+            return;
+        }
+        is_known_ = controller.is_tool_known();
+        tool_ = controller.tool();
+        printer.print(is_known_ ? fmt::format("millforce: tool {}", tool_)
+                                : "millforce: tool not known: the override is the operator's");
+    }
+
+  private:
+    bool is_known_ = true;
+    std::uint32_t tool_ = 0;
+};
+
 void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower,
                 LinePrinter& printer) {
     FaultTeller faults;
     MapTeller maps;
+    ToolTeller tools;
     while (server.has_peer()) {
         const auto bytes = server.receive();
         if (bytes.empty()) {
@@ -80,6 +100,7 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller, const 
         server.send(answer);
         firmware::finish_work(controller);
         faults.follow(controller.output(), printer);
+        tools.follow(controller, printer);
         if (follower != nullptr) {
             maps.follow(*follower, printer);
         }
@@ -90,8 +111,11 @@ std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Param
     if (options.map.empty()) {
         return std::nullopt;
     }
+    if (options.tools.is_folder()) {
+        throw InputError("--map: with --tools, expected --tool: a part map is for one tool");
+    }
     PartMapFile file = read_part_map(options.map);
-    const std::string tool = std::filesystem::path(options.tool).stem().string();
+    const std::string tool = std::filesystem::path(options.tools.file).stem().string();
     require_same_origin(options.map, file.origin, origin_of(options.program, tool, parameters.tool));
     print_line(stderr, fmt::format("millforce: {}: looks ahead in {}, {:.0f} mm of path", options.map,
                                    file.origin.program, file.map.back().path_mm));
@@ -99,7 +123,9 @@ std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Param
 }
 
 int serve(const ServeOptions& options) {
-    const auto parameters = read_parameters(options.machine, options.tool);
+    options.tools.require_one();
+    const ToolSet tools(options.machine, options.tools);
+    const firmware::Parameters<float>& parameters = tools.parameters();
     tell_parameter_notes(parameters);
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
@@ -114,7 +140,7 @@ int serve(const ServeOptions& options) {
         printer.print("millforce: connected");
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller = std::make_unique<firmware::LinkController>(
-            parameters, static_cast<float>(options.override_max), follower.get());
+            parameters, static_cast<float>(options.override_max), follower.get(), tools.magazine());
         serve_peer(server, *controller, follower.get(), printer);
         server.drop_peer();
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
@@ -133,7 +159,7 @@ void add_serve(Command& program) {
         "One connection at a time; each is a new run. Runs until SIGINT or SIGTERM.");
     command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
-    command.option("--tool", options->tool, "Tool parameters").required().value_name("T.toml");
+    add_tools(command, options->tools);
     command
         .option("--override-max", options->override_max,
                 "Largest override that the CNC accepts; 1: LinuxCNC's adaptive feed")

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "files/input_error.hpp"
@@ -90,7 +91,8 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_
       fy_(csv_.find("fy_N")),
       index_angle_(csv_.find("spindle_index_angle_rad")),
       programmed_feed_(csv_.find("programmed_feed_mm_s")),
-      rapid_(csv_.find("rapid")) {
+      rapid_(csv_.find("rapid")),
+      tool_(csv_.find("tool")) {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         axes_[k].current = csv_.find(fmt::format("{}_current_A", axis_names[k]));
         axes_[k].velocity = csv_.find(fmt::format("{}_velocity_mm_s", axis_names[k]));
@@ -132,6 +134,7 @@ bool RecordingReader::next() {
     read_axes();
     read_force_sensor();
     read_program();
+    read_tool();
     return true;
 }
 
@@ -222,6 +225,19 @@ void RecordingReader::read_program() {
     }
     program_.programmed_feed_mm_s = std::isnan(feed_mm_s) ? 0.0F : static_cast<float>(feed_mm_s);
     program_.rapid = csv_.number(rapid_) > 0.5;
+}
+
+void RecordingReader::read_tool() {
+    const double number = csv_.number(tool_);
+    if (std::isnan(number)) {
+        tool_number_ = 0;
+        return;
+    }
+    constexpr double largest = std::numeric_limits<std::uint32_t>::max();
+    if (!(number >= 0.0 && number <= largest) || number != std::floor(number)) {
+        csv_.fail(*tool_, fmt::format("{}, expected the number of a tool; 0 or nothing where there is none", number));
+    }
+    tool_number_ = static_cast<std::uint32_t>(number);
 }
 
 }  // namespace millforce::host

@@ -51,6 +51,9 @@ class RecordingWriter {
 /// one axis with current and velocity; the columns of RecordingWriter's exact replay may be missing. Throws InputError:
 /// time that does not grow, angles beyond 1e7 rad, and all that CsvReader rejects.
 ///
+/// The column `tool`, which another program writes, has the number of the tool in the spindle; an empty cell: not
+/// known.
+///
 /// A recording with a force sensor (fx_N and fy_N, on the workpiece in the machine's axes) needs no currents, and of
 /// the axes one velocity. Without spindle_index_angle_rad the angle's zero is the index, and an angle that starts again
 /// at each turn is continued. An axis without a recorded velocity counts as at rest.
@@ -61,6 +64,9 @@ class RecordingReader {
     bool next();
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
     [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
+    [[nodiscard]] bool has_tool() const { return tool_.has_value(); }
+    /// Number of the tool in the spindle; 0: none, or not known.
+    [[nodiscard]] std::uint32_t tool() const { return tool_number_; }
     [[nodiscard]] double time_s() const { return time_s_; }
     [[nodiscard]] bool has_force_sensor() const { return fx_ && fy_; }
     [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
@@ -76,6 +82,7 @@ class RecordingReader {
     void read_axes();
     void read_force_sensor();
     void read_program();
+    void read_tool();
     void follow_turns(double angle_rad);
     [[nodiscard]] std::optional<std::uint32_t> index_of_zero() const;
     [[nodiscard]] std::optional<std::uint32_t> count_at(std::optional<CsvColumn> angle) const;
@@ -91,8 +98,10 @@ class RecordingReader {
     std::optional<CsvColumn> index_angle_;
     std::optional<CsvColumn> programmed_feed_;
     std::optional<CsvColumn> rapid_;
+    std::optional<CsvColumn> tool_;
     hal::DriveSample sample_{};
     hal::ProgramStatus program_{};
+    std::uint32_t tool_number_ = 0;
     double time_s_ = no_estimate;
     double last_angle_rad_ = 0.0;
     std::uint32_t whole_turns_ = 0;

@@ -6,8 +6,7 @@
 namespace millforce::host {
 
 void write_estimate_row(std::ostream& out, double time_s, const firmware::TickRecord& tick,
-                        const estimation::TotalForce<float>& total) {
-    const firmware::ShownForces shown = firmware::shown_forces(total, tick);
+                        const firmware::ShownForces& shown) {
     std::string line = CsvWriter::cell(time_s);
     line += ',';
     line += control::name(static_cast<control::CutState>(tick.feed_override.state));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -21,7 +22,35 @@ inline constexpr std::string_view estimate_header =
     "axial_depth_sd_mm,peak_force_N,force_limit_N,override";
 
 void write_estimate_row(std::ostream& out, double time_s, const firmware::TickRecord& tick,
-                        const estimation::TotalForce<float>& total);
+                        const firmware::ShownForces& shown);
+
+/// The column `tool`, where the tools come from a folder: the number of the tool that the override is for, empty where
+/// it is not known.
+class ToolCells {
+  public:
+    explicit ToolCells(bool are_there) : are_there_(are_there) {}
+
+    void write_header(std::ostream& out) const { out << (are_there_ ? ",tool" : ""); }
+    void write(std::ostream& out, std::uint32_t tool) {
+        if (are_there_) {
+            out << ',' << (tool != 0 ? std::to_string(tool) : "");
+            ++rows_;
+            without_ += tool == 0 ? 1U : 0U;
+        }
+    }
+    /// Empty where the tool was known throughout.
+    [[nodiscard]] std::string note() const {
+        return without_ > 0
+                   ? fmt::format("the tool is not known in {} of {} rows: the override is the operator's there",
+                                 without_, rows_)
+                   : std::string();
+    }
+
+  private:
+    bool are_there_;
+    std::size_t rows_ = 0;
+    std::size_t without_ = 0;
+};
 
 /// The columns of the roughness, where the tool has a model of it: value, 95 % interval, and 1 within the range of the
 /// model's tests or 0 outside.

@@ -22,7 +22,7 @@ namespace millforce::host {
 
 namespace {
 
-CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
+CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options, const ToolSet& tools) {
     const auto bus = read_machine_bus(options.machine);
     if (!bus) {
         throw InputError(
@@ -33,7 +33,8 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options) {
     return {options.log,
             options.interface,
             *bus,
-            read_parameters(options.machine, options.tool),
+            tools.parameters(),
+            tools.magazine(),
             {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us}};
 }
 
@@ -70,7 +71,8 @@ bool is_candump_log(const std::string& file) {
 }
 
 int replay_candump(const ReplayCandumpOptions& options) {
-    CandumpReplay replay(settings_of(options));
+    const ToolSet tools(options.machine, options.tools);
+    CandumpReplay replay(settings_of(options, tools));
     std::optional<AtomicFile> file;
     if (!options.output.empty()) {
         file.emplace(options.output);
@@ -78,16 +80,19 @@ int replay_candump(const ReplayCandumpOptions& options) {
     // Without a file, rows go out when all are good.
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
-    const auto parameters = read_parameters(options.machine, options.tool);
-    const estimation::TotalForce<float> total = firmware::total_force(parameters);
-    RoughnessCells roughness(parameters.tool.roughness);
+    const ToolForces forces(tools);
+    ToolCells numbers(forces.has_numbers());
+    // The model is a tool's own: another may have another one, or none.
+    RoughnessCells roughness(forces.has_numbers() ? estimation::RoughnessModel<float>()
+                                                  : tools.parameters().tool.roughness);
     out << estimate_header;
+    numbers.write_header(out);
     roughness.write_header(out);
     out << '\n';
     Progress progress("replaying");
     std::optional<RunCheck> check;
     if (!options.run_log.empty()) {
-        check.emplace(options.run_log, total);
+        check.emplace(options.run_log, forces);
     }
     TickEntries entries(run_log_interval_us);
     const auto interval_us = static_cast<std::uint64_t>(std::llround(options.interval_s * 1e6));
@@ -95,14 +100,16 @@ int replay_candump(const ReplayCandumpOptions& options) {
     std::size_t rows = 0;
     replay.run(
         [&](const firmware::CanController& controller) {
-            if (EstimateEntry entry; check && entries.add(controller.record(), entry)) {
+            if (EstimateEntry entry; check && entries.add(controller.record(), controller.tool(), entry)) {
                 check->add(entry);
             }
             if (controller.tick_time_us() < next_row_us) {
                 return;
             }
             next_row_us = controller.tick_time_us() + interval_us;
-            write_estimate_row(out, seconds_of(controller.tick_time_us()), controller.record(), total);
+            const firmware::TickRecord record = controller.record();
+            write_estimate_row(out, seconds_of(record.time_us), record, forces.of(record, controller.tool()));
+            numbers.write(out, controller.tool());
             roughness.write(out, controller.controller().roughness());
             out << '\n';
             ++rows;
@@ -113,6 +120,9 @@ int replay_candump(const ReplayCandumpOptions& options) {
             fmt::format("{}: {} frames and no complete sample; expected SYNC and the PDOs of the machine's "
                         "[bus] tables",
                         options.log, replay.frames()));
+    }
+    if (const std::string note = numbers.note(); !note.empty()) {
+        fmt::print(stderr, "millforce: note: {}: {}\n", options.log, note);
     }
     const int exit_code = check && !check->is_same() ? 1 : 0;
     if (check) {

@@ -5,13 +5,14 @@
 #include <string>
 
 #include "commands/command_line.hpp"
+#include "files/tool_set.hpp"
 
 namespace millforce::host {
 
 struct ReplayCandumpOptions {
     std::string log;
     std::string machine;
-    std::string tool;
+    ToolChoice tools;
     std::string output;
     std::string interface;  ///< empty: the only one of the log
     double interval_s = 0.02;

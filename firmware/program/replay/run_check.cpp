@@ -8,8 +8,8 @@
 
 namespace millforce::host {
 
-RunCheck::RunCheck(const std::string& file, const estimation::TotalForce<float>& total)
-    : file_(file), total_(total), in_(file, std::ios::binary) {
+RunCheck::RunCheck(const std::string& file, const ToolForces& forces)
+    : file_(file), forces_(forces), in_(file, std::ios::binary) {
     if (!in_) {
         throw InputError(fmt::format("{}: no such file", file));
     }
@@ -33,7 +33,7 @@ void RunCheck::add(const EstimateEntry& entry) {
     if (differs_ || expected_.empty()) {
         return;  // what came after the run's end
     }
-    got_ = json_line(entry, total_);
+    got_ = json_line(entry, forces_);
     differs_ = got_ != expected_;
     if (!differs_) {
         ++matched_;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "daemon/estimate_entry.hpp"
+#include "daemon/tool_forces.hpp"
 
 namespace millforce::host {
 
@@ -14,7 +15,7 @@ namespace millforce::host {
 class RunCheck {
   public:
     /// Throws InputError if there is no such file, or no estimate in it.
-    RunCheck(const std::string& file, const estimation::TotalForce<float>& total);
+    RunCheck(const std::string& file, const ToolForces& forces);
 
     void add(const EstimateEntry& entry);
     /// After the replay. True where every estimate of the run's log came again.
@@ -25,7 +26,7 @@ class RunCheck {
     void next_expected();
 
     std::string file_;
-    estimation::TotalForce<float> total_;
+    ToolForces forces_;
     std::ifstream in_;
     std::string expected_;  ///< empty: all came again
     std::string got_;

@@ -30,6 +30,7 @@ SampleMessage a_sample() {
     m.operator_limit = 0.5F;
     m.line = 258;
     m.distance_to_go_mm = 12.5F;
+    m.tool = 70'007;
     return m;
 }
 
@@ -39,6 +40,7 @@ OverrideMessage an_override() {
     m.heartbeat = 76;
     m.ratio = 0.62F;
     m.hold = false;
+    m.tool_unknown = true;
     m.state = 2;
     m.limit = 1;
     m.tangential_N = 210.0F;
@@ -66,29 +68,31 @@ TEST(LocalLink, gives_a_sample_back_as_it_was) {
     CHECK(got.axis_velocity_mm_s == sent.axis_velocity_mm_s);
     CHECK(got.programmed_feed_mm_s == sent.programmed_feed_mm_s && got.operator_limit == sent.operator_limit);
     CHECK(got.line == sent.line && got.distance_to_go_mm == sent.distance_to_go_mm);
+    UNSIGNED_LONGS_EQUAL(sent.tool, got.tool);
 }
 
 TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
     const SampleBytes bytes = encode(a_sample());
-    MEMCMP_EQUAL("MFLK\x02\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
+    MEMCMP_EQUAL("MFLK\x03\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
     BYTES_EQUAL(9, bytes[24]);
     BYTES_EQUAL(0x1F, bytes[25]);
     BYTES_EQUAL(5, bytes[26]);                                               // rapid and reset
     MEMCMP_EQUAL("\x00\x00\x50\x40", bytes.data() + 28, 4);                  // 3.25
     MEMCMP_EQUAL("\x00\x00\xC8\xC1", bytes.data() + 44, 4);                  // -25
     MEMCMP_EQUAL("\x02\x01\x00\x00\x00\x00\x48\x41", bytes.data() + 64, 8);  // 258, 12.5
+    MEMCMP_EQUAL("\x77\x11\x01\x00", bytes.data() + 72, 4);                  // 70 007
     const OverrideBytes answer = encode(an_override());
-    MEMCMP_EQUAL("MFLK\x02\x00\x02\x00", answer.data(), 8);
+    MEMCMP_EQUAL("MFLK\x03\x00\x02\x00", answer.data(), 8);
     BYTES_EQUAL(77, answer[8]);
     BYTES_EQUAL(76, answer[12]);
-    BYTES_EQUAL(0, answer[20]);
+    BYTES_EQUAL(2, answer[20]);  // no hold, tool not known
     BYTES_EQUAL(2, answer[21]);
 }
 
 TEST(LocalLink, gives_an_override_and_what_is_no_estimate_back) {
     OverrideMessage got;
     CHECK(decode(encode(an_override()), got) == MessageError::none);
-    CHECK(got.ratio == 0.62F && !got.hold && got.state == 2 && got.limit == 1 && got.tangential_N == 210.0F);
+    CHECK(got.ratio == 0.62F && !got.hold && got.tool_unknown && got.state == 2 && got.limit == 1 && got.tangential_N == 210.0F);
     CHECK(std::isnan(got.axial_depth_mm));
 }
 
@@ -113,7 +117,7 @@ TEST(LocalLink, names_what_is_wrong_and_keeps_the_last_message) {
     CHECK(error_with(0, 'X') == MessageError::not_this_link);
     CHECK(error_with(4, 1) == MessageError::version);
     CHECK(error_with(6, 1) == MessageError::kind);
-    CHECK(error_with(20, 2) == MessageError::reserved_bits);
+    CHECK(error_with(20, 4) == MessageError::reserved_bits);
     CHECK(error_with(19, 0xBF) == MessageError::not_a_ratio);  // its sign
     CHECK(decode(std::span<const std::uint8_t>(good).first(51), kept) == MessageError::length);
     CHECK(decode(std::span<const std::uint8_t>(), kept) == MessageError::length);
@@ -126,6 +130,17 @@ TEST(LocalLink, names_what_is_wrong_and_keeps_the_last_message) {
         CHECK(decode(bytes, kept_sample) == MessageError::reserved_bits);
     }
     UNSIGNED_LONGS_EQUAL(0, kept_sample.sequence);
+}
+
+TEST(LocalLink, names_an_older_version_by_its_version_and_not_by_its_length) {
+    constexpr std::size_t sample_bytes_of_layout_2 = 72;
+    SampleBytes bytes = encode(a_sample());
+    bytes[4] = 2;
+    SampleMessage got;
+    CHECK(decode(std::span<const std::uint8_t>(bytes).first(sample_bytes_of_layout_2), got) == MessageError::version);
+    bytes[4] = layout_version;
+    CHECK(decode(std::span<const std::uint8_t>(bytes).first(sample_bytes_of_layout_2), got) == MessageError::length);
+    STRCMP_EQUAL("another version of the layout", name(MessageError::version));
 }
 
 TEST(LocalLink, takes_any_bytes_and_lets_no_ratio_through_that_is_none) {

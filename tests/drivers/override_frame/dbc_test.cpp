@@ -6,6 +6,7 @@
 
 #include "override_frame/override_frame.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/tool_frame.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -82,4 +83,14 @@ TEST(Dbc, describes_the_program_status_frame_as_it_is_encoded) {
     DOUBLES_EQUAL(0, value_of(signals["StatusReserved"], frame), 0);
     DOUBLES_EQUAL(0xBEEF, value_of(signals["StatusCounter"], frame), 0);
     DOUBLES_EQUAL(frame.data[7], value_of(signals["StatusChecksum"], frame), 0);
+}
+
+TEST(Dbc, describes_the_tool_frame_as_it_is_encoded) {
+    auto signals = signals_of("BO_ 765 ToolInSpindle: 8 ");
+    CHECK_EQUAL(3U, signals.size());
+    UNSIGNED_LONGS_EQUAL(765, program_status::tool_frame_id(program_status::default_id));
+    const hal::CanFrame frame = program_status::encode_tool(0xDEADBEEF, 765);
+    DOUBLES_EQUAL(0xDEADBEEF, value_of(signals["ToolNumber"], frame), 0);
+    DOUBLES_EQUAL(0, value_of(signals["ToolReserved"], frame), 0);
+    DOUBLES_EQUAL(frame.data[7], value_of(signals["ToolChecksum"], frame), 0);
 }

@@ -17,30 +17,6 @@ sim::Scenario scenario_named(const std::string& name) {
     return sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml");
 }
 
-bool is_boot_up(const LoggedFrame& logged) {
-    return logged.frame.id == 0x77E && logged.frame.data[0] == 0;
-}
-
-/// What the controller makes of a log of frames, with polls between them `late_us` after each frame's time.
-std::vector<std::string> replayed(const ControllerOnLoopback& run, const sim::Scenario& scenario,
-                                  std::uint64_t late_us = 0) {
-    firmware::CanControllerSettings settings =
-        controller_settings(host::read_machine_bus(scenario.machine_file).value());
-    settings.produces_sync = false;
-    TickLog ticks;
-    firmware::CanController controller(settings, scenario.parameters, &ticks);
-    for (const LoggedFrame& logged : run.log) {
-        if (late_us > 0) {
-            controller.poll(logged.time_us + late_us);
-        }
-        controller.on_frame(logged.frame, logged.time_us, is_boot_up(logged));
-        hal::CanFrame sent;
-        while (controller.take_frame(sent)) {
-        }
-    }
-    return ticks.lines;
-}
-
 }  // namespace
 
 TEST_GROUP(ClosedLoopOverBus){};

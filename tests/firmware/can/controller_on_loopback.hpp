@@ -55,12 +55,13 @@ inline firmware::CanControllerSettings controller_settings(const host::MachineBu
 /// An override source whose controller sits behind the bus. Each step is one SYNC period.
 class ControllerOnLoopback : public sim::OverrideSource {
   public:
-    explicit ControllerOnLoopback(const sim::Scenario& scenario)
-        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value()) {}
-    ControllerOnLoopback(const sim::Scenario& scenario, const host::MachineBus& bus)
+    explicit ControllerOnLoopback(const sim::Scenario& scenario, const firmware::ToolMagazine* magazine = nullptr)
+        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value(), magazine) {}
+    ControllerOnLoopback(const sim::Scenario& scenario, const host::MachineBus& bus,
+                         const firmware::ToolMagazine* magazine = nullptr)
         : machine(sim::drives_on_bus(scenario, bus)),
           cnc(sim::cnc_on_bus(scenario, bus)),
-          controller(controller_settings(bus), scenario.parameters, &ticks) {
+          controller(controller_settings(bus), scenario.parameters, &ticks, magazine) {
         sender_ = wire.attach([](const hal::CanFrame&, std::uint64_t) {});
         wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { hear(frame, t); });
         plant_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) {
@@ -151,5 +152,26 @@ class ControllerOnLoopback : public sim::OverrideSource {
     int plant_ = 0;
     bool cnc_tells_ = true;
 };
+
+/// What the controller makes of a run's log of frames, with polls between them `late_us` after each frame's time.
+inline std::vector<std::string> replayed(const ControllerOnLoopback& run, const sim::Scenario& scenario,
+                                         std::uint64_t late_us = 0, const firmware::ToolMagazine* magazine = nullptr) {
+    firmware::CanControllerSettings settings =
+        controller_settings(host::read_machine_bus(scenario.machine_file).value());
+    settings.produces_sync = false;
+    TickLog ticks;
+    firmware::CanController controller(settings, scenario.parameters, &ticks, magazine);
+    for (const LoggedFrame& logged : run.log) {
+        if (late_us > 0) {
+            controller.poll(logged.time_us + late_us);
+        }
+        const bool is_boot_up = logged.frame.id == 0x77E && logged.frame.data[0] == 0;
+        controller.on_frame(logged.frame, logged.time_us, is_boot_up);
+        hal::CanFrame sent;
+        while (controller.take_frame(sent)) {
+        }
+    }
+    return ticks.lines;
+}
 
 }  // namespace millforce::test

@@ -149,3 +149,35 @@ TEST(LinkController, gives_the_same_overrides_whenever_the_samples_come_and_what
         CHECK(one.output().ratio >= 0.0F && one.output().ratio <= 1.0F);
     }
 }
+
+TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_it_is_not_known) {
+    const std::array<firmware::NumberedTool, 1> tools{firmware::NumberedTool{7, a_mill().tool}};
+    const firmware::ToolMagazine magazine(tools);
+    firmware::LinkController controller(a_mill(), 1.0F, nullptr, &magazine);
+    cnc.message.tool = 7;
+    cnc.message.operator_limit = 0.7F;
+    CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);
+    UNSIGNED_LONGS_EQUAL(7, controller.tool());
+    cnc.message.tool = 8;
+    cnc.message.axis_velocity_mm_s = {5.0F, 0.0F, 0.0F};
+    for (const float velocity_mm_s : {5.0F, 0.0F, 5.0F}) {
+        cnc.message.axis_velocity_mm_s[0] = velocity_mm_s;
+        const auto unknown = answer(controller, cnc.next());
+        CHECK(unknown.tool_unknown && !unknown.hold);
+        DOUBLES_EQUAL(0.7, static_cast<double>(unknown.ratio), 1e-7);
+        CHECK(std::isnan(unknown.tangential_N) && std::isnan(unknown.tooth_force_N));
+    }
+    cnc.message.tool = 7;
+    CHECK(answer(controller, cnc.next()).tool_unknown);  // in motion
+    cnc.message.axis_velocity_mm_s = {};
+    CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);
+    UNSIGNED_LONGS_EQUAL(6, controller.output().heartbeat);
+}
+
+TEST(LinkController, with_one_tool_takes_no_notice_of_numbers) {
+    firmware::LinkController controller(a_mill(), 1.0F);
+    for (const std::uint32_t number : {0U, 7U, 99U}) {
+        cnc.message.tool = number;
+        CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);
+    }
+}

@@ -18,7 +18,7 @@
 /// | sample, bytes | what | unit and range |
 /// |---|---|---|
 /// | 0…3 | "MFLK" | |
-/// | 4, 5 | version of the layout, U16 | 2 |
+/// | 4, 5 | version of the layout, U16 | 3 |
 /// | 6, 7 | kind, U16 | 1 |
 /// | 8…11 | sequence, U32 | is given back in the answer |
 /// | 12…15 | time, U32 | µs, wraps; only differences are used |
@@ -35,16 +35,18 @@
 /// | 60…63 | operator's limit, F32 | an override, 1: none |
 /// | 64…67 | program line of the block in work, U32 | 1 the first; 0: not known |
 /// | 68…71 | distance to go to that block's end, F32 | mm along its path |
+/// | 72…75 | number of the tool in the spindle, U32 | 0: none, or not known |
 ///
 /// | override, bytes | what | unit and range |
 /// |---|---|---|
 /// | 0…3 | "MFLK" | |
-/// | 4, 5 | version, U16 | 2 |
+/// | 4, 5 | version, U16 | 3 |
 /// | 6, 7 | kind, U16 | 2 |
 /// | 8…11 | sequence of the sample that is answered, U32 | |
 /// | 12…15 | heartbeat: ticks of the controller, U32 | |
 /// | 16…19 | ratio, F32 | of the programmed feed |
-/// | 20 | hold, U8 | 0 or 1: stop the feed, whatever the ratio says |
+/// | 20 | bit 0 hold: stop the feed, whatever the ratio says; bit 1: the tool is not known, and the ratio is the
+/// operator's | bits 2…7 are 0 |
 /// | 21, 22, 23 | state, fault, limit, U8 | control::CutState, control::Fault, control::Limit |
 /// | 24…51 | tangential force, feed force, tooth force (N), immersion and its deviation (a_e/R), axial depth and its
 /// deviation (mm), F32 | NaN: no estimate; of the tooth force, also where only a bound is known |
@@ -53,8 +55,8 @@
 
 namespace millforce::local_link {
 
-inline constexpr std::uint16_t layout_version = 2;
-inline constexpr std::size_t sample_bytes = 72;
+inline constexpr std::uint16_t layout_version = 3;
+inline constexpr std::size_t sample_bytes = 76;
 inline constexpr std::size_t override_bytes = 52;
 inline constexpr std::size_t link_axes = 3;
 
@@ -75,6 +77,7 @@ struct SampleMessage {
     float operator_limit = 1.0F;
     std::uint32_t line = 0;
     float distance_to_go_mm = 0.0F;
+    std::uint32_t tool = 0;
 };
 
 struct OverrideMessage {
@@ -82,6 +85,7 @@ struct OverrideMessage {
     std::uint32_t heartbeat = 0;
     float ratio = 0.0F;
     bool hold = true;
+    bool tool_unknown = false;
     std::uint8_t state = 0;
     std::uint8_t fault = 0;
     std::uint8_t limit = 0;

@@ -30,6 +30,9 @@ struct ProgramStatusFrame {
     std::uint16_t counter = 0;
 };
 
+/// CRC-8 as in the override frame, over id and all bytes but the last: of every frame by which the CNC reports.
+[[nodiscard]] std::uint8_t checksum_of(const hal::CanFrame& frame);
+
 /// A feed or an override that is not finite goes out as 0; beyond the range they saturate. `id` has 11 bits.
 [[nodiscard]] hal::CanFrame encode(const ProgramStatusFrame& status, std::uint32_t id);
 

@@ -27,12 +27,12 @@ firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
 
 }  // namespace
 
-CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
-                     const firmware::Parameters<float>& parameters, Journal& journal, const CanDaemonSettings& settings)
+CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
+                     Journal& journal, const CanDaemonSettings& settings)
     : journal_(journal),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
-      controller_(controller_settings(bus), parameters, this),
+      controller_(controller_settings(bus), tools.parameters(), this, tools.magazine()),
       socket_(socket_settings(interface, controller_, settings.records)),
       clock_(settings.time, socket_.unix_offset_us()),
       sync_id_(bus.drives.sync_id),
@@ -145,12 +145,12 @@ void CanDaemon::on_tick(const firmware::CanController& controller) {
     if (unrecorded_count_ == unrecorded_.size()) {
         record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
-    unrecorded_[unrecorded_count_++] = controller.record();
+    unrecorded_[unrecorded_count_++] = {controller.record(), controller.tool()};
 }
 
 void CanDaemon::record_ticks() {
     for (std::size_t k = 0; k < unrecorded_count_; ++k) {
-        if (entries_.add(unrecorded_[k], newest_)) {
+        if (entries_.add(unrecorded_[k].tick, unrecorded_[k].tool, newest_)) {
             journal_.estimate(newest_);
         }
     }

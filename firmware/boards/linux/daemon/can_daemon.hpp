@@ -24,8 +24,9 @@ struct CanDaemonSettings {
 /// alone. One thread.
 class CanDaemon final : private firmware::TickListener {
   public:
-    CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus,
-              const firmware::Parameters<float>& parameters, Journal& journal, const CanDaemonSettings& settings);
+    /// `tools` outlives this.
+    CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
+              Journal& journal, const CanDaemonSettings& settings);
 
     void run(const std::atomic<bool>& stop);
 
@@ -54,7 +55,11 @@ class CanDaemon final : private firmware::TickListener {
     Journal& journal_;
     std::uint32_t override_id_;
     TickEntries entries_;
-    std::array<firmware::TickRecord, 16> unrecorded_{};  ///< ticks whose override is not out yet
+    struct RecordOfTool {
+        firmware::TickRecord tick{};
+        std::uint32_t tool = 0;
+    };
+    std::array<RecordOfTool, 16> unrecorded_{};  ///< ticks whose override is not out yet
     std::size_t unrecorded_count_ = 0;
     firmware::CanController controller_;
     socketcan::CanSocket socket_;

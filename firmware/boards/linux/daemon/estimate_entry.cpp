@@ -12,7 +12,7 @@ void TickEntries::mix(std::uint32_t high, std::uint32_t low) {
     digest_ ^= digest_ >> 32U;
 }
 
-bool TickEntries::add(const firmware::TickRecord& tick, EstimateEntry& entry) {
+bool TickEntries::add(const firmware::TickRecord& tick, std::uint32_t tool, EstimateEntry& entry) {
     constexpr std::uint64_t basis = 0xCBF2'9CE4'8422'2325;
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     const hal::FeedOverride& out = tick.feed_override;
@@ -32,7 +32,7 @@ bool TickEntries::add(const firmware::TickRecord& tick, EstimateEntry& entry) {
         return false;
     }
     next_us_ = tick.time_us + interval_us_;
-    entry = {digest_, tick};
+    entry = {digest_, tick, tool};
     return true;
 }
 

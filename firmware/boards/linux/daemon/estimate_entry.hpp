@@ -11,6 +11,7 @@ namespace millforce::host {
 struct EstimateEntry {
     std::uint64_t digest = 0;  ///< of all ticks since the start, this one too
     firmware::TickRecord tick{};
+    std::uint32_t tool = 0;  ///< that the tick's override is for; 0: one tool, or not known
 };
 
 inline constexpr std::uint64_t run_log_interval_us = 20'000;
@@ -21,7 +22,7 @@ class TickEntries {
     explicit TickEntries(std::uint64_t interval_us) : interval_us_(interval_us) {}
 
     /// With each tick; true where it is an entry.
-    [[nodiscard]] bool add(const firmware::TickRecord& tick, EstimateEntry& entry);
+    [[nodiscard]] bool add(const firmware::TickRecord& tick, std::uint32_t tool, EstimateEntry& entry);
 
   private:
     void mix(std::uint32_t high, std::uint32_t low);

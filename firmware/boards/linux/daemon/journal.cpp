@@ -81,7 +81,7 @@ void Journal::run() {
 void Journal::write_all() {
     write_record();
     for (EstimateEntry entry; estimates_.pop(entry);) {
-        put(log_, json_line(entry, settings_.total_force));
+        put(log_, json_line(entry, settings_.forces));
     }
     for (StatusEntry entry; statuses_.pop(entry);) {
         write_status(entry);

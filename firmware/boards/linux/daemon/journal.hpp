@@ -14,6 +14,7 @@
 #include "daemon/local_drives.hpp"
 #include "daemon/local_outputs.hpp"
 #include "daemon/spsc_ring.hpp"
+#include "daemon/tool_forces.hpp"
 #include "firmware_can/can_controller.hpp"
 #include "socketcan/can_socket.hpp"
 
@@ -21,10 +22,10 @@ namespace millforce::host {
 
 struct JournalSettings {
     std::string interface;
-    std::string record_file;                    ///< candump log of every frame, with local_line()s between; empty: none
-    std::string log_file;                       ///< JSON lines; empty: none
-    bool status_line = false;                   ///< on standard output, once a second
-    estimation::TotalForce<float> total_force;  ///< by the tool's parameters, for the log
+    std::string record_file;   ///< candump log of every frame, with local_line()s between; empty: none
+    std::string log_file;      ///< JSON lines; empty: none
+    bool status_line = false;  ///< on standard output, once a second
+    ToolForces forces;         ///< for the log
 };
 
 /// How bus and drives are.

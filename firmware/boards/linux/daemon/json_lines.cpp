@@ -26,10 +26,10 @@ std::string number_or_null(float value) {
     return cell.empty() ? "null" : cell;
 }
 
-std::string estimate_members(const EstimateEntry& entry, const estimation::TotalForce<float>& total) {
+std::string estimate_members(const EstimateEntry& entry, const ToolForces& forces) {
     const firmware::TickRecord& tick = entry.tick;
     const hal::FeedOverride& out = tick.feed_override;
-    const firmware::ShownForces shown = firmware::shown_forces(total, tick);
+    const firmware::ShownForces shown = forces.of(tick, entry.tool);
     std::string text =
         fmt::format(R"("state":"{}","limit":"{}","fault":"{}","override":{},"hold":{})",
                     control::name(static_cast<control::CutState>(out.state)),
@@ -43,6 +43,7 @@ std::string estimate_members(const EstimateEntry& entry, const estimation::Total
           std::pair{"force_limit_N", shown.limit_N}}) {
         text += fmt::format(R"(,"{}":{})", key, number_or_null(value));
     }
+    text += forces.has_numbers() ? fmt::format(R"(,"tool":{})", entry.tool) : "";
     return text + fmt::format(R"(,"digest":"{:016x}")", entry.digest);
 }
 
@@ -118,9 +119,9 @@ std::string link_json(const socketcan::LinkHealth& link) {
 
 }  // namespace
 
-std::string json_line(const EstimateEntry& entry, const estimation::TotalForce<float>& total) {
+std::string json_line(const EstimateEntry& entry, const ToolForces& forces) {
     return fmt::format("{{\"type\":\"estimate\",\"time_s\":{},{}}}\n", time_of(entry.tick.time_us),
-                       estimate_members(entry, total));
+                       estimate_members(entry, forces));
 }
 
 std::string json_line(const StatusEntry& entry) {

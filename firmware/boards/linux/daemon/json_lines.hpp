@@ -9,7 +9,7 @@ namespace millforce::host {
 
 /// One line of the log of `millforce run`, with its end: an estimate, or a status. The total force of an estimate is
 /// worked out here.
-std::string json_line(const EstimateEntry& entry, const estimation::TotalForce<float>& total);
+std::string json_line(const EstimateEntry& entry, const ToolForces& forces);
 std::string json_line(const StatusEntry& entry);
 
 /// The status in one line for a person.

@@ -7,12 +7,13 @@
 
 #include "cia402/drive_bus.hpp"
 #include "cia402/sync_producer.hpp"
-#include "firmware/tick.hpp"
 #include "firmware/tick_record.hpp"
+#include "firmware/tool_tick.hpp"
 #include "firmware_can/conditions.hpp"
 #include "hal/can_frame.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_receiver.hpp"
+#include "program_status/tool_frame.hpp"
 
 /// The whole controller on a CAN bus, without the bus: frames and times in, frames to send and one tick per SYNC out.
 /// The daemon runs it over SocketCAN, the tests over a bus in memory, a replay over a log.
@@ -40,6 +41,9 @@
 /// CNC's `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the
 /// CNC is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
+/// With a magazine the CNC tells which tool is in the spindle (tool_frame.hpp), and the tool's parameters change with
+/// it, at rest (tool_tick.hpp).
+///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
 namespace millforce::firmware {
@@ -66,10 +70,11 @@ class TickListener {
 
 class CanController {
   public:
-    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 3;
+    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 4;
 
+    /// With a magazine, which outlives this: `parameters.tool` is any tool of it.
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                  TickListener* listener = nullptr);
+                  TickListener* listener = nullptr, const ToolMagazine* magazine = nullptr);
 
     /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
@@ -97,8 +102,10 @@ class CanController {
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
     /// The output as it is sent to the CNC: with the holds that do not come from the tick.
     [[nodiscard]] hal::FeedOverride told() const;
-    [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_; }
-    [[nodiscard]] TickRecord record() const { return tick_record(tick_, output_, tick_time_us_); }
+    [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_.of_tool(); }
+    [[nodiscard]] TickRecord record() const { return tick_record(tick_.of_tool(), output_, tick_time_us_); }
+    /// Number of the tool that the override is for; 0: without a magazine, or not known.
+    [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
@@ -125,6 +132,7 @@ class CanController {
 
     CanControllerSettings settings_;
     Parameters<float> parameters_;
+    const ToolMagazine* magazine_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
     bool is_running_;         ///< this controller's boot-up was on the bus
     bool was_heard_ = false;  ///< a frame came since the last poll()
@@ -137,8 +145,9 @@ class CanController {
     cia402::DriveBus bus_;
     cia402::SyncProducer sync_;
     program_status::ProgramStatusReceiver program_receiver_;
+    program_status::ToolReceiver tool_receiver_;
     override_frame::OverrideSender sender_;
-    ForceControlTick<float> tick_;
+    ToolTick tick_;
     TickListener* listener_;
 
     std::uint64_t next_boot_up_us_ = 0;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware/tick.hpp"
+#include "firmware/tool_tick.hpp"
 #include "firmware/way_source.hpp"
 #include "firmware_link/link_drives.hpp"
 #include "local_link/messages.hpp"
@@ -19,14 +19,19 @@
 ///
 /// A fault is latched until a sample with a reset comes, after one without, with all axes at rest.
 ///
+/// With a magazine the samples tell which tool is in the spindle, and the tool's parameters change with it, at rest
+/// (tool_tick.hpp).
+///
 /// No heap, no operating system. One thread. Cost: that of the tick.
 
 namespace millforce::firmware {
 
 class LinkController {
   public:
-    /// `largest_override`: what the CNC's input takes; caps the machine's override_max. `way` outlives this.
-    LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way = nullptr);
+    /// `largest_override`: what the CNC's input takes; caps the machine's override_max. `way`: what lies ahead of one
+    /// tool. With a magazine, `parameters.tool` is any tool of it. Both outlive this.
+    LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way = nullptr,
+                   const ToolMagazine* magazine = nullptr);
 
     /// `answer` is written if the bytes are valid.
     [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
@@ -37,7 +42,10 @@ class LinkController {
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
     void work() { tick_.work(); }
 
-    [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_; }
+    [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_.of_tool(); }
+    [[nodiscard]] bool is_tool_known() const { return tick_.is_tool_known(); }
+    /// Number of the tool that the override is for; 0: without a magazine, or not known.
+    [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
 
   private:
@@ -46,7 +54,7 @@ class LinkController {
     [[nodiscard]] local_link::OverrideMessage answer_to(std::uint32_t sequence) const;
 
     LinkDrives drives_{};
-    ForceControlTick<float> tick_;
+    ToolTick tick_;
     hal::FeedOverride output_{};
     float largest_override_;
     WaySource<float>* way_;

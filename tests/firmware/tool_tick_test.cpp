@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <limits>
+
+#include "firmware/tick_record.hpp"
+#include "firmware/tool_tick.hpp"
+#include "tick_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::test;
+
+namespace {
+
+constexpr std::uint32_t strong = 7;  // numbers of the two tools that there are
+constexpr std::uint32_t weak = 12;
+constexpr float operators_override = 0.8F;
+constexpr double exactly = 0.0;
+
+std::array<firmware::NumberedTool, 2> two_tools() {
+    firmware::NumberedTool one{strong, machine_and_tool().tool};
+    firmware::NumberedTool other{weak, machine_and_tool().tool};
+    one.parameters.tooth_force_limit_N = 2000.0F;
+    other.parameters.tooth_force_limit_N = 150.0F;
+    other.parameters.control.overload_share = 100.0F;
+    return {one, other};
+}
+
+/// Air with a friction and an idle torque that are not those of the calibration, or the cut of tick_bench.hpp.
+class Mill {
+  public:
+    enum class Motion { rest, air, cut };
+
+    hal::FeedOverride run(Motion motion, int samples) {
+        hal::FeedOverride output;
+        for (const int end = index_ + samples; index_ < end; ++index_) {
+            const hal::DriveSample sample = sample_in(motion);
+            tick.follow_tool(number, hal::axes_rest(sample.axis_velocity_mm_s));
+            output = firmware::step_and_work(tick, sample, status);
+        }
+        return output;
+    }
+    hal::FeedOverride change_at_rest(std::uint32_t to) {
+        run(Motion::air, 500);
+        number = to;
+        return run(Motion::rest, 10);
+    }
+
+    std::array<firmware::NumberedTool, 2> tools = two_tools();
+    firmware::ToolMagazine magazine{tools};
+    firmware::ToolTick tick{{machine_and_tool().machine, tools[0].parameters}, &magazine};
+    hal::ProgramStatus status = [] {
+        hal::ProgramStatus programmed = program();
+        programmed.operator_override = operators_override;
+        return programmed;
+    }();
+    std::uint32_t number = strong;
+
+  private:
+    [[nodiscard]] hal::DriveSample sample_in(Motion motion) const {
+        hal::DriveSample sample = sample_of(index_);
+        if (motion != Motion::cut) {
+            const hal::DriveSample in_air = sample_of(0);
+            sample.spindle_current_A = in_air.spindle_current_A + 0.1F;
+            sample.axis_current_A[0] = 1.05F * in_air.axis_current_A[0];
+        }
+        if (motion == Motion::rest) {
+            sample.axis_velocity_mm_s = {};
+        }
+        return sample;
+    }
+
+    int index_ = 300;
+};
+
+using Motion = Mill::Motion;
+
+}  // namespace
+
+TEST_GROUP(ToolMagazine){};
+
+TEST(ToolMagazine, finds_the_tools_that_are_there_and_no_other) {
+    const auto tools = two_tools();
+    const firmware::ToolMagazine magazine(tools);
+    DOUBLES_EQUAL(2000.0, magazine.find(strong)->tooth_force_limit_N, exactly);
+    DOUBLES_EQUAL(150.0, magazine.find(weak)->tooth_force_limit_N, exactly);
+    CHECK(magazine.find(1) == nullptr);
+    CHECK(firmware::ToolMagazine({}).find(strong) == nullptr);
+}
+
+TEST(ToolMagazine, has_no_tool_0_whatever_its_memory_holds) {
+    const std::array<firmware::NumberedTool, 1> erased{};
+    CHECK(firmware::ToolMagazine(erased).find(0) == nullptr);
+}
+
+TEST_GROUP(ToolTick) {
+    Mill mill;
+
+    void check_operators(const hal::FeedOverride& output) {
+        CHECK_FALSE(mill.tick.is_tool_known());
+        UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
+        DOUBLES_EQUAL(operators_override, output.ratio, exactly);
+        CHECK_FALSE(output.hold);
+        UNSIGNED_LONGS_EQUAL(0, output.fault);
+    }
+};
+
+TEST(ToolTick, takes_the_first_number_of_a_run_in_motion) {
+    mill.run(Motion::air, 1);
+    CHECK(mill.tick.is_tool_known());
+    UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
+}
+
+TEST(ToolTick, holds_the_limits_of_the_tool_that_was_changed_to_at_rest) {
+    mill.run(Motion::air, 500);
+    const float of_strong = mill.run(Motion::cut, 2000).ratio;
+    mill.change_at_rest(weak);
+    UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
+    const float of_weak = mill.run(Motion::cut, 2000).ratio;
+    CHECK(of_strong > 2.0F * of_weak);
+    mill.change_at_rest(strong);
+    DOUBLES_EQUAL(of_strong, mill.run(Motion::cut, 2000).ratio, 0.05 * of_strong);
+}
+
+TEST(ToolTick, leaves_the_override_to_the_operator_while_a_number_that_changed_in_motion_waits_for_rest) {
+    mill.run(Motion::air, 500);
+    mill.run(Motion::cut, 1000);
+    mill.number = weak;
+    check_operators(mill.run(Motion::cut, 1));
+    check_operators(mill.run(Motion::air, 500));
+    mill.run(Motion::rest, 1);
+    UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
+}
+
+TEST(ToolTick, goes_on_where_a_number_that_changed_in_motion_changes_back) {
+    mill.run(Motion::air, 500);
+    const float before = mill.run(Motion::cut, 1000).ratio;
+    mill.number = 0;
+    check_operators(mill.run(Motion::cut, 1));
+    mill.number = strong;
+    DOUBLES_EQUAL(before, mill.run(Motion::cut, 1).ratio, 0.01 * before);
+    UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
+}
+
+TEST(ToolTick, changes_no_tool_while_the_forces_show_a_cut) {
+    mill.run(Motion::air, 500);
+    mill.run(Motion::cut, 1000);
+    mill.number = weak;
+    mill.tick.follow_tool(weak, true);
+    UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
+    CHECK(mill.tick.of_tool().estimate().tangential_N.valid);  // still the tick of the other tool
+}
+
+TEST(ToolTick, knows_no_tool_that_is_not_there_and_estimates_nothing_with_it) {
+    for (const std::uint32_t unknown : {99U, 0U}) {
+        mill.change_at_rest(strong);
+        check_operators(mill.change_at_rest(unknown));
+        check_operators(mill.run(Motion::cut, 2000));
+        const firmware::TickRecord record = firmware::tick_record(mill.tick.of_tool(), {}, 0);
+        CHECK(record.tangential_force_N != record.tangential_force_N);
+        CHECK_FALSE(record.has_tooth_force());
+    }
+    mill.status.feed_hold = true;
+    CHECK(mill.run(Motion::cut, 1).hold);
+    mill.status.feed_hold = false;
+    check_operators(mill.run(Motion::cut, 1));
+}
+
+TEST(ToolTick, bounds_the_operators_override_as_the_machine_does) {
+    mill.change_at_rest(99);
+    mill.status.operator_override = 9.0F;
+    DOUBLES_EQUAL(machine_and_tool().machine.cnc.override_max, mill.run(Motion::air, 1).ratio, exactly);
+    mill.status.operator_override = std::numeric_limits<float>::quiet_NaN();
+    DOUBLES_EQUAL(machine_and_tool().machine.cnc.override_min, mill.run(Motion::air, 1).ratio, exactly);
+}
+
+TEST(ToolTick, counts_its_heartbeat_on_whatever_the_tool) {
+    std::uint32_t expected = 0;
+    for (const std::uint32_t number : {strong, weak, 99U, 0U, strong}) {
+        mill.number = number;
+        expected += 10;
+        UNSIGNED_LONGS_EQUAL(expected, mill.run(Motion::rest, 10).heartbeat);
+    }
+}
+
+TEST(ToolTick, keeps_what_it_has_learnt_of_the_machine_and_nothing_else) {
+    mill.run(Motion::rest, 1000);
+    mill.run(Motion::air, 2000);
+    const auto& learnt = mill.tick.of_tool().estimator();
+    const float idle_Nm = learnt.spindle_drift_Nm();
+    const float friction = learnt.friction_scale(0, true);
+    DOUBLES_EQUAL(0.07, idle_Nm, 0.01);  // 0.1 A of 0.7 N·m/A
+    CHECK(friction > 1.03F && friction < 1.07F);
+    for (const std::uint32_t number : {weak, 99U, strong}) {
+        mill.number = number;
+        mill.run(Motion::rest, 1);
+        DOUBLES_EQUAL(idle_Nm, mill.tick.of_tool().estimator().spindle_drift_Nm(), 1e-3);
+        DOUBLES_EQUAL(friction, mill.tick.of_tool().estimator().friction_scale(0, true), 1e-3);
+        CHECK_FALSE(mill.tick.of_tool().estimate().tangential_N.valid);
+    }
+}
+
+TEST(ToolTick, changes_the_tool_after_the_reset_of_a_fault_and_not_before) {
+    mill.run(Motion::air, 100);
+    mill.tick.step_without_sample(1.0F, 1.0F, mill.status);
+    mill.number = weak;
+    const hal::FeedOverride in_fault = mill.run(Motion::rest, 100);
+    CHECK(in_fault.hold);
+    UNSIGNED_LONGS_EQUAL(static_cast<unsigned>(control::Fault::stale_input), in_fault.fault);
+    UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
+    mill.tick.reset_fault();
+    const hal::FeedOverride after = mill.run(Motion::rest, 2);
+    UNSIGNED_LONGS_EQUAL(0, after.fault);
+    CHECK_FALSE(after.hold);
+    UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
+}
+
+TEST(ToolTick, faults_where_samples_stay_away_with_an_unknown_tool_too) {
+    mill.change_at_rest(99);
+    CHECK(mill.tick.step_without_sample(1.0F, 1.0F, mill.status).hold);
+    CHECK(mill.run(Motion::air, 100).hold);
+    mill.tick.reset_fault();
+    check_operators(mill.run(Motion::air, 100));
+}
+
+TEST(ToolTick, is_the_tick_of_its_one_tool_without_a_magazine) {
+    firmware::ToolTick one(machine_and_tool());
+    auto plain = fresh_tick();
+    for (int k = 0; k < 1000; ++k) {
+        one.follow_tool(static_cast<std::uint32_t>(k % 3), k % 2 == 0);
+        const hal::FeedOverride a = firmware::step_and_work(one, sample_of(k), program());
+        const hal::FeedOverride b = firmware::step_and_work(plain, sample_of(k), program());
+        CHECK(a.ratio == b.ratio && a.hold == b.hold && a.state == b.state && a.heartbeat == b.heartbeat);
+    }
+    CHECK(one.is_tool_known());
+    UNSIGNED_LONGS_EQUAL(0, one.tool());
+}
