@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/tool_tick.hpp"
 
-#include <memory>
-
 namespace millforce::firmware {
 
-ToolTick::ToolTick(const Parameters<float>& parameters, const ToolMagazine* magazine)
-    : parameters_(parameters), magazine_(magazine), tick_(parameters), machine_(tick_.machine_knowledge()) {}
+ToolTick::ToolTick(const Parameters<float>& parameters, const ToolSource* tools)
+    : tools_(tools),
+      limits_(controller_parameters(parameters)),
+      tick_(parameters),
+      machine_(tick_.machine_knowledge()) {}
 
 void ToolTick::follow_tool(std::uint32_t number, bool axes_rest) {
     const bool is_first = !has_begun_;
     has_begun_ = true;
     told_ = number;
-    if (magazine_ != nullptr && number != number_ && (is_first || (axes_rest && may_change()))) {
+    if (tools_ != nullptr && number != number_ && (is_first || (axes_rest && may_change()))) {
         change_to(number);
     }
 }
@@ -23,21 +24,16 @@ bool ToolTick::may_change() const {
 }
 
 void ToolTick::change_to(std::uint32_t number) {
-    const ToolParameters<float>* tool = magazine_->find(number);
-    if (tool == nullptr && number_ == 0) {
+    const std::uint32_t next = tools_->has(number) ? number : 0;
+    if (next == number_) {
         return;  // none as before
     }
     if (number_ != 0) {
         machine_ = tick_.machine_knowledge();
     }
-    if (tool != nullptr) {
-        parameters_.tool = *tool;
-    }
-    number_ = tool != nullptr ? number : 0;
-    // In its place: some kB would not fit the stack of a small processor.
-    std::destroy_at(&tick_);
-    std::construct_at(&tick_, parameters_);
+    tools_->set_up(next, tick_);
     tick_.set_machine_knowledge(machine_);
+    number_ = next;
 }
 
 void ToolTick::take(const hal::DriveSample& sample) {
@@ -72,7 +68,7 @@ hal::FeedOverride ToolTick::step_without_sample(float silent_s, float dt_s, cons
 /// Its heartbeat goes on where the tick's begins again.
 hal::FeedOverride ToolTick::passed_on(hal::FeedOverride output, const hal::ProgramStatus& program) {
     if (!is_tool_known() && output.fault == static_cast<std::uint8_t>(control::Fault::none)) {
-        output.ratio = control::bounded(controller_parameters(parameters_), program.operator_override);
+        output.ratio = control::bounded(limits_, program.operator_override);
         output.hold = program.feed_hold;
     }
     output.heartbeat = ++heartbeat_;

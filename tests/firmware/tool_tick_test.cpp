@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "firmware/tick_record.hpp"
 #include "firmware/tool_tick.hpp"
 #include "tick_bench.hpp"
+#include "tools_of.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -18,13 +21,19 @@ constexpr std::uint32_t weak = 12;
 constexpr float operators_override = 0.8F;
 constexpr double exactly = 0.0;
 
-std::array<firmware::NumberedTool, 2> two_tools() {
-    firmware::NumberedTool one{strong, machine_and_tool().tool};
-    firmware::NumberedTool other{weak, machine_and_tool().tool};
-    one.parameters.tooth_force_limit_N = 2000.0F;
-    other.parameters.tooth_force_limit_N = 150.0F;
-    other.parameters.control.overload_share = 100.0F;
-    return {one, other};
+std::map<std::uint32_t, firmware::ToolParameters<float>> two_tools() {
+    std::map<std::uint32_t, firmware::ToolParameters<float>> tools{{strong, machine_and_tool().tool},
+                                                                   {weak, machine_and_tool().tool}};
+    tools[strong].tooth_force_limit_N = 2000.0F;
+    tools[weak].tooth_force_limit_N = 150.0F;
+    tools[weak].control.overload_share = 100.0F;
+    return tools;
+}
+
+/// Built once: it takes longer than all cases.
+const ToolsOf& tools() {
+    static const ToolsOf ready(machine_and_tool().machine, two_tools());
+    return ready;
 }
 
 /// Air with a friction and an idle torque that are not those of the calibration, or the cut of tick_bench.hpp.
@@ -47,9 +56,7 @@ class Mill {
         return run(Motion::rest, 10);
     }
 
-    std::array<firmware::NumberedTool, 2> tools = two_tools();
-    firmware::ToolMagazine magazine{tools};
-    firmware::ToolTick tick{{machine_and_tool().machine, tools[0].parameters}, &magazine};
+    firmware::ToolTick tick{machine_and_tool(), &tools()};
     hal::ProgramStatus status = [] {
         hal::ProgramStatus programmed = program();
         programmed.operator_override = operators_override;
@@ -58,13 +65,13 @@ class Mill {
     std::uint32_t number = strong;
 
   private:
-    [[nodiscard]] hal::DriveSample sample_in(Motion motion) const {
+    hal::DriveSample sample_in(Motion motion) {
+        const float step = motion == Motion::cut ? 0.02F : -0.02F;  // a cut begins and ends within some teeth
+        load_ = std::clamp(load_ + step, 0.0F, 1.0F);
+        const hal::DriveSample in_air = sample_of(0);
         hal::DriveSample sample = sample_of(index_);
-        if (motion != Motion::cut) {
-            const hal::DriveSample in_air = sample_of(0);
-            sample.spindle_current_A = in_air.spindle_current_A + 0.1F;
-            sample.axis_current_A[0] = 1.05F * in_air.axis_current_A[0];
-        }
+        sample.spindle_current_A = std::lerp(in_air.spindle_current_A + 0.1F, sample.spindle_current_A, load_);
+        sample.axis_current_A[0] = std::lerp(1.05F * in_air.axis_current_A[0], sample.axis_current_A[0], load_);
         if (motion == Motion::rest) {
             sample.axis_velocity_mm_s = {};
         }
@@ -72,27 +79,12 @@ class Mill {
     }
 
     int index_ = 300;
+    float load_ = 0.0F;
 };
 
 using Motion = Mill::Motion;
 
 }  // namespace
-
-TEST_GROUP(ToolMagazine){};
-
-TEST(ToolMagazine, finds_the_tools_that_are_there_and_no_other) {
-    const auto tools = two_tools();
-    const firmware::ToolMagazine magazine(tools);
-    DOUBLES_EQUAL(2000.0, magazine.find(strong)->tooth_force_limit_N, exactly);
-    DOUBLES_EQUAL(150.0, magazine.find(weak)->tooth_force_limit_N, exactly);
-    CHECK(magazine.find(1) == nullptr);
-    CHECK(firmware::ToolMagazine({}).find(strong) == nullptr);
-}
-
-TEST(ToolMagazine, has_no_tool_0_whatever_its_memory_holds) {
-    const std::array<firmware::NumberedTool, 1> erased{};
-    CHECK(firmware::ToolMagazine(erased).find(0) == nullptr);
-}
 
 TEST_GROUP(ToolTick) {
     Mill mill;
@@ -120,7 +112,7 @@ TEST(ToolTick, holds_the_limits_of_the_tool_that_was_changed_to_at_rest) {
     const float of_weak = mill.run(Motion::cut, 2000).ratio;
     CHECK(of_strong > 2.0F * of_weak);
     mill.change_at_rest(strong);
-    DOUBLES_EQUAL(of_strong, mill.run(Motion::cut, 2000).ratio, 0.05 * of_strong);
+    DOUBLES_EQUAL(of_strong, mill.run(Motion::cut, 2000).ratio, 0.05F * of_strong);
 }
 
 TEST(ToolTick, leaves_the_override_to_the_operator_while_a_number_that_changed_in_motion_waits_for_rest) {
@@ -139,7 +131,7 @@ TEST(ToolTick, goes_on_where_a_number_that_changed_in_motion_changes_back) {
     mill.number = 0;
     check_operators(mill.run(Motion::cut, 1));
     mill.number = strong;
-    DOUBLES_EQUAL(before, mill.run(Motion::cut, 1).ratio, 0.01 * before);
+    DOUBLES_EQUAL(before, mill.run(Motion::cut, 1).ratio, 0.01F * before);
     UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
 }
 
@@ -224,7 +216,7 @@ TEST(ToolTick, faults_where_samples_stay_away_with_an_unknown_tool_too) {
     check_operators(mill.run(Motion::air, 100));
 }
 
-TEST(ToolTick, is_the_tick_of_its_one_tool_without_a_magazine) {
+TEST(ToolTick, is_the_tick_of_its_one_tool_without_a_source) {
     firmware::ToolTick one(machine_and_tool());
     auto plain = fresh_tick();
     for (int k = 0; k < 1000; ++k) {

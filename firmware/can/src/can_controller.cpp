@@ -16,8 +16,8 @@ std::uint32_t own_heartbeat_id(const CanControllerSettings& settings) {
 }
 
 /// Where no tool can be chosen its frame is not heard, so that it does not pass time either.
-std::uint32_t tool_id(const CanControllerSettings& settings, const ToolMagazine* magazine) {
-    return magazine != nullptr ? program_status::tool_frame_id(settings.program.id) : 0;
+std::uint32_t tool_id(const CanControllerSettings& settings, const ToolSource* tools) {
+    return tools != nullptr ? program_status::tool_frame_id(settings.program.id) : 0;
 }
 
 std::uint64_t microseconds(float seconds) {
@@ -38,19 +38,19 @@ constexpr std::uint64_t shown_for_us = 1'000'000;
 }  // namespace
 
 CanController::CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                             TickListener* listener, const ToolMagazine* magazine)
+                             TickListener* listener, const ToolSource* tools)
     : settings_(settings),
       parameters_(parameters),
-      magazine_(magazine),
+      tools_(tools),
       is_running_(settings.begins_at_once),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
       bus_(settings.drives),
       sync_(settings.drives.sync_id, settings.drives.sync_period_us),
       program_receiver_(settings.program),
-      tool_receiver_(tool_id(settings, magazine)),
+      tool_receiver_(tool_id(settings, tools)),
       sender_(settings.feed_override),
-      tick_(parameters, magazine),
+      tick_(parameters, tools),
       listener_(listener) {
     std::array<hal::CanFilter, filter_capacity> used{};
     const std::size_t count = filters(used);
@@ -66,10 +66,10 @@ void CanController::begin() {
     std::destroy_at(&bus_);
     std::construct_at(&bus_, settings_.drives);
     program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
-    tool_receiver_ = program_status::ToolReceiver(tool_id(settings_, magazine_));
+    tool_receiver_ = program_status::ToolReceiver(tool_id(settings_, tools_));
     if (has_begun_) {
         std::destroy_at(&tick_);
-        std::construct_at(&tick_, parameters_, magazine_);
+        std::construct_at(&tick_, parameters_, tools_);
     }
     bus_time_us_ = 0;
     has_begun_ = false;
@@ -295,8 +295,8 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
-    for (const std::uint32_t id : {settings_.program.id, tool_id(settings_, magazine_), settings_.feed_override.id,
-                                   own_heartbeat_id(settings_)}) {
+    for (const std::uint32_t id :
+         {settings_.program.id, tool_id(settings_, tools_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "firmware/tick.hpp"
-#include "firmware/tool_magazine.hpp"
+#include "firmware/tool_source.hpp"
 
-/// The tick (tick.hpp) of the tool in the spindle. The CNC tells the tool's number; a magazine has its parameters.
+/// The tick (tick.hpp) of the tool in the spindle. The CNC tells the tool's number; a ToolSource has its tick.
 ///
 ///     tick.follow_tool(number, axes_rest);     // before each sample
 ///     tick.take(sample);                       // and on as with ForceControlTick
@@ -14,22 +14,23 @@
 /// The tool is changed where all axes rest and the forces show no cut. What belongs to the tool then begins again; what
 /// was learnt of the machine in air stays. The first number of a run is taken in motion, too.
 ///
-/// The tool is not known while the number is 0, is not in the magazine, or differs from that of the last change. Then
+/// The tool is not known while the number is 0, is not in the source, or differs from that of the last change. Then
 /// the override is the operator's, as with monitor_only: never one by the limits of the last tool. A number that
 /// changes in motion waits for the axes to rest, and one that changes back is known again at once. From the first rest
 /// with an unknown tool on, the tick sees the samples' time alone: it estimates and learns nothing.
 ///
 /// A fault comes first: it holds the feed until its reset, and the tool changes after that.
 ///
-/// Without a magazine it is the tick of one tool, and numbers mean nothing. No heap. One thread. Cost: that of the
+/// Without a source it is the tick of one tool, and numbers mean nothing. No heap. One thread. Cost: that of the
 /// tick.
 
 namespace millforce::firmware {
 
 class ToolTick {
   public:
-    /// `parameters.tool`: without a magazine the tool; with one, any tool of it. `magazine` outlives this.
-    explicit ToolTick(const Parameters<float>& parameters, const ToolMagazine* magazine = nullptr);
+    /// `parameters.tool`: without a source the tool; with one, any tool. `tools` outlives this, and its machine is that
+    /// of `parameters`.
+    explicit ToolTick(const Parameters<float>& parameters, const ToolSource* tools = nullptr);
 
     /// `number`: 0 where the CNC has told none. Finish the work of the last sample first.
     void follow_tool(std::uint32_t number, bool axes_rest);
@@ -42,22 +43,22 @@ class ToolTick {
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
     void work() { tick_.work(); }
 
-    [[nodiscard]] bool is_tool_known() const { return magazine_ == nullptr || (number_ != 0 && number_ == told_); }
-    /// Number of the tool that the override is for; 0: without a magazine, or not known.
+    [[nodiscard]] bool is_tool_known() const { return tools_ == nullptr || (number_ != 0 && number_ == told_); }
+    /// Number of the tool that the override is for; 0: without a source, or not known.
     [[nodiscard]] std::uint32_t tool() const { return is_tool_known() ? number_ : 0; }
 
     [[nodiscard]] ForceControlTick<float>& of_tool() { return tick_; }
     [[nodiscard]] const ForceControlTick<float>& of_tool() const { return tick_; }
 
   private:
-    [[nodiscard]] bool has_tool() const { return magazine_ == nullptr || number_ != 0; }
+    [[nodiscard]] bool has_tool() const { return tools_ == nullptr || number_ != 0; }
     [[nodiscard]] bool may_change() const;
     void change_to(std::uint32_t number);
     [[nodiscard]] float elapsed_s(std::uint32_t time_us);
     hal::FeedOverride passed_on(hal::FeedOverride output, const hal::ProgramStatus& program);
 
-    Parameters<float> parameters_;  // with the last tool
-    const ToolMagazine* magazine_;
+    const ToolSource* tools_;
+    control::FeedControllerParameters<float> limits_;  // of the override: the machine's
     ForceControlTick<float> tick_;
     MachineKnowledge<float> machine_;  // where no tick goes on learning it
     bool has_begun_ = false;

@@ -11,12 +11,6 @@ namespace {
 constexpr std::uint32_t gap_us = 10'000;
 constexpr float no_estimate = std::numeric_limits<float>::quiet_NaN();
 
-Parameters<float> capped(Parameters<float> parameters, float largest_override) {
-    float& highest = parameters.machine.cnc.override_max;
-    highest = std::min(highest, largest_override);
-    return parameters;
-}
-
 hal::ProgramStatus program_of(const local_link::SampleMessage& m) {
     hal::ProgramStatus program;
     program.programmed_feed_mm_s = m.programmed_feed_mm_s;
@@ -34,9 +28,17 @@ float value_of(const estimation::Measurement<float>& measurement) {
 
 }  // namespace
 
+MachineParameters<float> capped(const MachineParameters<float>& machine, float largest_override) {
+    MachineParameters<float> capped = machine;
+    capped.cnc.override_max = std::min(machine.cnc.override_max, largest_override);
+    return capped;
+}
+
 LinkController::LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way,
-                               const ToolMagazine* magazine)
-    : tick_(capped(parameters, largest_override), magazine), largest_override_(largest_override), way_(way) {}
+                               const ToolSource* tools)
+    : tick_({capped(parameters.machine, largest_override), parameters.tool}, tools),
+      largest_override_(largest_override),
+      way_(way) {}
 
 local_link::MessageError LinkController::on_message(std::span<const std::uint8_t> bytes,
                                                     local_link::OverrideBytes& answer) {

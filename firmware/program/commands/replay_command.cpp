@@ -18,6 +18,7 @@
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/overwriting.hpp"
+#include "files/parameter_files.hpp"
 #include "files/parameter_notes.hpp"
 #include "files/progress.hpp"
 #include "files/tool_set.hpp"
@@ -178,16 +179,16 @@ hal::ProgramStatus program_of(const RecordingReader& recording, const ReplayOpti
 /// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
 /// come out.
 int replay_table(const ReplayOptions& options) {
-    const ToolSet tools(options.machine, options.tools);
+    const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
     RecordingReader recording(options.log, parameters.machine.encoder_counts_per_rev);
     if (!recording.has_force_sensor()) {
         tell_parameter_notes(parameters);
     }
-    if (tools.magazine() != nullptr && !recording.has_tool()) {
+    if (tools.source() != nullptr && !recording.has_tool()) {
         throw InputError(fmt::format("{}:1: expected the column tool with --tools", options.log));
     }
-    firmware::ToolTick tick(parameters, tools.magazine());
+    firmware::ToolTick tick(parameters, tools.source());
     const ToolForces forces(tools);
     std::optional<AtomicFile> file;
     if (!options.output.empty()) {
@@ -196,7 +197,7 @@ int replay_table(const ReplayOptions& options) {
     // Without a file, an error in the last row must not leave half a table behind: rows go out when all are good.
     std::ostringstream held_back;
     std::ostream& out = file ? file->stream() : held_back;
-    const bool is_one_tool = tools.magazine() == nullptr;
+    const bool is_one_tool = tools.source() == nullptr;
     ToolCells numbers(!is_one_tool);
     // What a tool's own tables add is shown for one tool alone: another may have other tables, or none.
     const firmware::ToolParameters<float> shown_tool =

@@ -70,7 +70,7 @@ void print_summary(const RunOptions& options, const CanDaemon& daemon, const Jou
 
 int run_on_bus(const RunOptions& options) {
     options.tools.require_one();
-    const ToolSet tools(options.machine, options.tools);
+    const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     const MachineBus bus = bus_of(options.machine);
     tell_parameter_notes(tools.parameters());
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
@@ -88,7 +88,7 @@ int run_on_bus(const RunOptions& options) {
     if (!options.log.empty() && options.log == options.record) {
         throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
     }
-    if (tools.magazine() != nullptr && program_status::tool_frame_id(bus.program.id) == 0) {
+    if (tools.source() != nullptr && program_status::tool_frame_id(bus.program.id) == 0) {
         throw InputError(
             fmt::format("--tools: {}: bus.program_status_id = {}, expected 1 to {}: the frame of the tool's "
                         "number is that id + 0x100",

@@ -14,6 +14,7 @@
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "files/parameter_files.hpp"
 #include "files/parameter_notes.hpp"
 #include "files/tool_set.hpp"
 #include "firmware_link/link_controller.hpp"
@@ -124,7 +125,8 @@ std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Param
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
-    const ToolSet tools(options.machine, options.tools);
+    const auto largest_override = static_cast<float>(options.override_max);
+    const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
     tell_parameter_notes(parameters);
     const std::optional<PartMap> map = map_of(options, parameters);
@@ -139,8 +141,8 @@ int serve(const ServeOptions& options) {
     while (server.wait_for_peer()) {
         printer.print("millforce: connected");
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
-        auto controller = std::make_unique<firmware::LinkController>(
-            parameters, static_cast<float>(options.override_max), follower.get(), tools.magazine());
+        auto controller =
+            std::make_unique<firmware::LinkController>(parameters, largest_override, follower.get(), tools.source());
         serve_peer(server, *controller, follower.get(), printer);
         server.drop_peer();
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <map>
 #include <string_view>
 
 #include "files/input_error.hpp"
@@ -62,14 +61,6 @@ std::map<std::uint32_t, std::filesystem::path> tool_files(const std::filesystem:
     return files;
 }
 
-firmware::Parameters<float> parameters_of(const std::string& machine_file, const ToolChoice& choice,
-                                          const std::vector<firmware::NumberedTool>& tools) {
-    if (tools.empty()) {
-        return read_parameters(machine_file, choice.file);
-    }
-    return {read_machine_parameters(machine_file), tools.front().parameters};
-}
-
 }  // namespace
 
 void ToolChoice::require_one() const {
@@ -90,17 +81,29 @@ std::vector<std::filesystem::path> ToolChoice::files() const {
     return paths;
 }
 
-std::vector<firmware::NumberedTool> read_tool_folder(const std::filesystem::path& folder) {
-    std::vector<firmware::NumberedTool> tools;
+std::vector<NumberedTool> read_tool_folder(const std::filesystem::path& folder) {
+    std::vector<NumberedTool> tools;
     for (const auto& [number, path] : tool_files(folder)) {
         tools.push_back({number, read_tool_parameters(path.string())});
     }
     return tools;
 }
 
-ToolSet::ToolSet(const std::string& machine_file, const ToolChoice& choice)
-    : tools_(choice.is_folder() ? read_tool_folder(choice.folder) : std::vector<firmware::NumberedTool>()),
-      magazine_(tools_),
-      parameters_(parameters_of(machine_file, choice, tools_)) {}
+PreparedTools::PreparedTools(const firmware::MachineParameters<float>& machine,
+                             const std::vector<NumberedTool>& tools) {
+    for (const NumberedTool& tool : tools) {
+        ticks_.emplace(tool.number, firmware::Parameters<float>{machine, tool.parameters});
+    }
+}
+
+void PreparedTools::set_up(std::uint32_t number, firmware::ForceControlTick<float>& tick) const {
+    const auto found = ticks_.find(number);
+    tick = (found != ticks_.end() ? found : ticks_.begin())->second;
+}
+
+ToolSet::ToolSet(const firmware::MachineParameters<float>& machine, const ToolChoice& choice)
+    : tools_(choice.is_folder() ? read_tool_folder(choice.folder) : std::vector<NumberedTool>()),
+      parameters_{machine, tools_.empty() ? read_tool_parameters(choice.file) : tools_.front().parameters},
+      prepared_(machine, tools_) {}
 
 }  // namespace millforce::host

@@ -25,8 +25,8 @@ class CandumpReplay {
         std::string interface;  ///< empty: the only one of the log
         MachineBus bus{};
         firmware::Parameters<float> parameters{};
-        const firmware::ToolMagazine* magazine = nullptr;  ///< outlives the replay; null: one tool
-        BusTime time{};                                    ///< of the run
+        const firmware::ToolSource* tools = nullptr;  ///< outlive the replay; null: one tool
+        BusTime time{};                               ///< of the run
     };
 
     /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that does not

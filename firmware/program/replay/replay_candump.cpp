@@ -34,7 +34,7 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options, const T
             options.interface,
             *bus,
             tools.parameters(),
-            tools.magazine(),
+            tools.source(),
             {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us}};
 }
 
@@ -71,7 +71,7 @@ bool is_candump_log(const std::string& file) {
 }
 
 int replay_candump(const ReplayCandumpOptions& options) {
-    const ToolSet tools(options.machine, options.tools);
+    const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     CandumpReplay replay(settings_of(options, tools));
     std::optional<AtomicFile> file;
     if (!options.output.empty()) {

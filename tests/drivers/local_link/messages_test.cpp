@@ -92,7 +92,8 @@ TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
 TEST(LocalLink, gives_an_override_and_what_is_no_estimate_back) {
     OverrideMessage got;
     CHECK(decode(encode(an_override()), got) == MessageError::none);
-    CHECK(got.ratio == 0.62F && !got.hold && got.tool_unknown && got.state == 2 && got.limit == 1 && got.tangential_N == 210.0F);
+    CHECK(got.ratio == 0.62F && !got.hold && got.tool_unknown && got.state == 2 && got.limit == 1 &&
+          got.tangential_N == 210.0F);
     CHECK(std::isnan(got.axial_depth_mm));
 }
 

@@ -55,13 +55,13 @@ inline firmware::CanControllerSettings controller_settings(const host::MachineBu
 /// An override source whose controller sits behind the bus. Each step is one SYNC period.
 class ControllerOnLoopback : public sim::OverrideSource {
   public:
-    explicit ControllerOnLoopback(const sim::Scenario& scenario, const firmware::ToolMagazine* magazine = nullptr)
-        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value(), magazine) {}
+    explicit ControllerOnLoopback(const sim::Scenario& scenario, const firmware::ToolSource* tools = nullptr)
+        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value(), tools) {}
     ControllerOnLoopback(const sim::Scenario& scenario, const host::MachineBus& bus,
-                         const firmware::ToolMagazine* magazine = nullptr)
+                         const firmware::ToolSource* tools = nullptr)
         : machine(sim::drives_on_bus(scenario, bus)),
           cnc(sim::cnc_on_bus(scenario, bus)),
-          controller(controller_settings(bus), scenario.parameters, &ticks, magazine) {
+          controller(controller_settings(bus), scenario.parameters, &ticks, tools) {
         sender_ = wire.attach([](const hal::CanFrame&, std::uint64_t) {});
         wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { hear(frame, t); });
         plant_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) {
@@ -155,12 +155,12 @@ class ControllerOnLoopback : public sim::OverrideSource {
 
 /// What the controller makes of a run's log of frames, with polls between them `late_us` after each frame's time.
 inline std::vector<std::string> replayed(const ControllerOnLoopback& run, const sim::Scenario& scenario,
-                                         std::uint64_t late_us = 0, const firmware::ToolMagazine* magazine = nullptr) {
+                                         std::uint64_t late_us = 0, const firmware::ToolSource* tools = nullptr) {
     firmware::CanControllerSettings settings =
         controller_settings(host::read_machine_bus(scenario.machine_file).value());
     settings.produces_sync = false;
     TickLog ticks;
-    firmware::CanController controller(settings, scenario.parameters, &ticks, magazine);
+    firmware::CanController controller(settings, scenario.parameters, &ticks, tools);
     for (const LoggedFrame& logged : run.log) {
         if (late_us > 0) {
             controller.poll(logged.time_us + late_us);

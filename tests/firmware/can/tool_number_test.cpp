@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller_on_loopback.hpp"
+#include "files/tool_set.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -16,10 +17,11 @@ sim::Scenario slot() {
     return sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/slot_entry.toml");
 }
 
-/// The scenario's tool under the numbers 7 and 8.
-std::vector<firmware::NumberedTool> two_tools() {
-    const firmware::ToolParameters<float> tool = slot().parameters.tool;
-    return {{7, tool}, {8, tool}};
+/// The scenario's tool under the numbers 7 and 8. Built once: it takes longer than a case.
+const host::PreparedTools& tools() {
+    static const host::PreparedTools ready(slot().parameters.machine,
+                                           {{7, slot().parameters.tool}, {8, slot().parameters.tool}});
+    return ready;
 }
 
 /// A spindle that turns in air, with the operator's override at 60 %.
@@ -44,9 +46,7 @@ class MachineWithTools {
     }
     [[nodiscard]] bool is_unknown() const { return bus.controller.conditions().has(Condition::tool_unknown); }
 
-    std::vector<firmware::NumberedTool> tools = two_tools();
-    firmware::ToolMagazine magazine{tools};
-    ControllerOnLoopback bus{slot(), &magazine};
+    ControllerOnLoopback bus{slot(), &tools()};
 
   private:
     hal::ProgramStatus status_{25.0F};
@@ -111,7 +111,9 @@ TEST(ToolNumber, a_cnc_that_has_told_no_tool_or_tells_none_any_more_has_the_oper
     machine.tell_tool(7);
     machine.run_ms(50, 0.0F);
     UNSIGNED_LONGS_EQUAL(7, machine.bus.controller.tool());
-    machine.bus.wire.set_fault([](const hal::CanFrame& f) { return sim::LoopbackBus::Fate{f.id == tool_id ? 0 : 1, 0, f}; });
+    machine.bus.wire.set_fault([](const hal::CanFrame& f) {
+        return sim::LoopbackBus::Fate{f.id == tool_id ? 0 : 1, 0, f};
+    });
     machine.run_ms(850, 0.0F);
     CHECK_FALSE(machine.is_unknown());
     check_operators(machine.run_ms(200, 0.0F));
@@ -137,7 +139,7 @@ TEST(ToolNumber, a_log_of_the_frames_gives_the_same_ticks_again) {
     machine.run_ms(100, 20.0F);
     machine.run_ms(100, 0.0F);
     machine.run_ms(100, 20.0F);
-    const std::vector<std::string> again = replayed(machine.bus, slot(), 0, &machine.magazine);
+    const std::vector<std::string> again = replayed(machine.bus, slot(), 0, &tools());
     CHECK(again.size() > 500);
     CHECK(again == machine.bus.ticks.lines);
     CHECK_FALSE(replayed(machine.bus, slot()) == machine.bus.ticks.lines);  // with one tool

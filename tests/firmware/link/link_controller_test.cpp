@@ -3,12 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/tools_of.hpp"
 #include "firmware_link/link_controller.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce;
 using local_link::MessageError;
+using test::ToolsOf;
 
 namespace {
 
@@ -151,9 +153,8 @@ TEST(LinkController, gives_the_same_overrides_whenever_the_samples_come_and_what
 }
 
 TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_it_is_not_known) {
-    const std::array<firmware::NumberedTool, 1> tools{firmware::NumberedTool{7, a_mill().tool}};
-    const firmware::ToolMagazine magazine(tools);
-    firmware::LinkController controller(a_mill(), 1.0F, nullptr, &magazine);
+    const ToolsOf tools(firmware::capped(a_mill().machine, 1.0F), {{7, a_mill().tool}});
+    firmware::LinkController controller(a_mill(), 1.0F, nullptr, &tools);
     cnc.message.tool = 7;
     cnc.message.operator_limit = 0.7F;
     CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);

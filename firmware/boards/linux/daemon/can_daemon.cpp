@@ -32,7 +32,7 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
     : journal_(journal),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
-      controller_(controller_settings(bus), tools.parameters(), this, tools.magazine()),
+      controller_(controller_settings(bus), tools.parameters(), this, tools.source()),
       socket_(socket_settings(interface, controller_, settings.records)),
       clock_(settings.time, socket_.unix_offset_us()),
       sync_id_(bus.drives.sync_id),

@@ -8,7 +8,7 @@ ToolForces::ToolForces(const ToolSet& tools) : has_numbers_(!tools.tools().empty
     if (!has_numbers_) {
         by_number_.emplace(0, firmware::total_force(parameters));
     }
-    for (const firmware::NumberedTool& tool : tools.tools()) {
+    for (const NumberedTool& tool : tools.tools()) {
         parameters.tool = tool.parameters;
         by_number_.emplace(tool.number, firmware::total_force(parameters));
     }

@@ -41,7 +41,7 @@
 /// CNC's `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the
 /// CNC is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
-/// With a magazine the CNC tells which tool is in the spindle (tool_frame.hpp), and the tool's parameters change with
+/// With a ToolSource the CNC tells which tool is in the spindle (tool_frame.hpp), and the tool's parameters change with
 /// it, at rest (tool_tick.hpp).
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
@@ -72,9 +72,9 @@ class CanController {
   public:
     static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 4;
 
-    /// With a magazine, which outlives this: `parameters.tool` is any tool of it.
+    /// With `tools`, which outlives this, `parameters.tool` is any tool.
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                  TickListener* listener = nullptr, const ToolMagazine* magazine = nullptr);
+                  TickListener* listener = nullptr, const ToolSource* tools = nullptr);
 
     /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
@@ -104,7 +104,7 @@ class CanController {
     [[nodiscard]] hal::FeedOverride told() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_.of_tool(); }
     [[nodiscard]] TickRecord record() const { return tick_record(tick_.of_tool(), output_, tick_time_us_); }
-    /// Number of the tool that the override is for; 0: without a magazine, or not known.
+    /// Number of the tool that the override is for; 0: without a source of tools, or not known.
     [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
@@ -132,7 +132,7 @@ class CanController {
 
     CanControllerSettings settings_;
     Parameters<float> parameters_;
-    const ToolMagazine* magazine_;
+    const ToolSource* tools_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
     bool is_running_;         ///< this controller's boot-up was on the bus
     bool was_heard_ = false;  ///< a frame came since the last poll()

@@ -19,19 +19,22 @@
 ///
 /// A fault is latched until a sample with a reset comes, after one without, with all axes at rest.
 ///
-/// With a magazine the samples tell which tool is in the spindle, and the tool's parameters change with it, at rest
+/// With a ToolSource the samples tell which tool is in the spindle, and the tool's parameters change with it, at rest
 /// (tool_tick.hpp).
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick.
 
 namespace millforce::firmware {
 
+/// The machine, with an override_max that the CNC's input takes.
+[[nodiscard]] MachineParameters<float> capped(const MachineParameters<float>& machine, float largest_override);
+
 class LinkController {
   public:
     /// `largest_override`: what the CNC's input takes; caps the machine's override_max. `way`: what lies ahead of one
-    /// tool. With a magazine, `parameters.tool` is any tool of it. Both outlive this.
+    /// tool. With a tools, `parameters.tool` is any tool of it. Both outlive this.
     LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way = nullptr,
-                   const ToolMagazine* magazine = nullptr);
+                   const ToolSource* tools = nullptr);
 
     /// `answer` is written if the bytes are valid.
     [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
@@ -44,7 +47,7 @@ class LinkController {
 
     [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_.of_tool(); }
     [[nodiscard]] bool is_tool_known() const { return tick_.is_tool_known(); }
-    /// Number of the tool that the override is for; 0: without a magazine, or not known.
+    /// Number of the tool that the override is for; 0: without a tools, or not known.
     [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
 

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csv_rows.hpp"
+#include "inputs.hpp"
+
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <thread>
+
+#include "local_link/messages.hpp"
+#include "program_status/tool_frame.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::test;
+
+namespace {
+
+/// machine.toml, and the tools 7 and 12 in the folder `tools`.
+class ToolInputs : public Inputs {
+  public:
+    ToolInputs() {
+        std::filesystem::create_directory(path("tools"));
+        write("tools/T7.toml", tool_text);
+        write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 350.0"));
+    }
+    [[nodiscard]] std::vector<std::string> with_tools(std::vector<std::string> words) const {
+        words.insert(words.end(), {"--machine", name("machine.toml"), "--tools", name("tools")});
+        return words;
+    }
+};
+
+/// A CNC's bridge: connects when the socket is there.
+class Bridge {
+  public:
+    explicit Bridge(const std::string& path) : socket_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+            if (std::chrono::steady_clock::now() > patience) {
+                throw std::runtime_error("no socket " + path);
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    ~Bridge() { ::close(socket_); }
+    Bridge(const Bridge&) = delete;
+    Bridge& operator=(const Bridge&) = delete;
+
+    void send(std::span<const std::uint8_t> bytes) { ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
+    /// Bytes of the answer; 0: the connection was closed.
+    std::size_t receive(local_link::OverrideBytes& answer) {
+        const ssize_t length = ::recv(socket_, answer.data(), answer.size(), 0);
+        return length > 0 ? static_cast<std::size_t>(length) : 0;
+    }
+    local_link::OverrideMessage ask(std::uint32_t tool, float velocity_mm_s) {
+        sample_.present = 0x1F;
+        sample_.time_us += 1000;
+        sample_.spindle_count += 546;
+        sample_.operator_limit = 0.75F;
+        sample_.programmed_feed_mm_s = 20.0F;
+        sample_.axis_velocity_mm_s[0] = velocity_mm_s;
+        sample_.tool = tool;
+        send(encode(sample_));
+        local_link::OverrideBytes bytes{};
+        local_link::OverrideMessage answer;
+        receive(bytes);
+        CHECK(decode(bytes, answer) == local_link::MessageError::none);
+        return answer;
+    }
+
+  private:
+    int socket_;
+    local_link::SampleMessage sample_{};
+};
+
+/// A recording of a spindle in air; tool and velocity of each row as given.
+std::string recording(const std::function<std::string(int row)>& tool, const std::function<double(int row)>& velocity) {
+    std::ostringstream text;
+    text << "time_s,spindle_angle_rad,spindle_current_A,x_current_A,x_velocity_mm_s,programmed_feed_mm_s,tool\n";
+    for (int k = 0; k < 400; ++k) {
+        text << 0.001 * k << ',' << 0.4 * k << ",1.4,2.3," << velocity(k) << ",20," << tool(k) << '\n';
+    }
+    return text.str();
+}
+
+std::string hex_of(const hal::CanFrame& frame) {
+    std::string text;
+    for (const std::uint8_t byte : frame.data) {
+        std::array<char, 3> digits{};
+        std::snprintf(digits.data(), digits.size(), "%02X", byte);
+        text += digits.data();
+    }
+    return text;
+}
+
+std::vector<std::string> tools_of(const std::string& csv) {
+    std::vector<std::string> tools;
+    for (const CsvRow& row : csv_rows(csv)) {
+        tools.push_back(row.at("tool"));
+    }
+    return tools;
+}
+
+}  // namespace
+
+TEST_GROUP(Tools) {
+    ToolInputs inputs;
+
+    Ended replay() {
+        return run_millforce(inputs.with_tools({"replay", inputs.name("log.csv"), "-o", inputs.name("out.csv")}));
+    }
+    void folder_is_refused(const std::vector<std::string>& parts) {
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"serve", inputs.name("a.sock")}, {"run", "vcan0"}, {"replay", "log.csv"}}) {
+            STRCMP_EQUAL("", not_refused(run_millforce(inputs.with_tools(words)), parts).c_str());
+        }
+    }
+};
+
+TEST(Tools, serve_changes_the_tool_at_rest_and_says_which_one_it_is) {
+    Program serve(inputs.with_tools({"serve", inputs.name("a.sock")}));
+    {
+        Bridge cnc(inputs.name("a.sock"));
+        CHECK_FALSE(cnc.ask(7, 0.0F).tool_unknown);
+        CHECK(cnc.ask(12, 20.0F).tool_unknown);
+        CHECK_FALSE(cnc.ask(12, 0.0F).tool_unknown);
+        const local_link::OverrideMessage unknown = cnc.ask(9, 0.0F);
+        CHECK(unknown.tool_unknown && !unknown.hold);
+        DOUBLES_EQUAL(0.75, static_cast<double>(unknown.ratio), 1e-7);
+        CHECK_FALSE(cnc.ask(7, 0.0F).tool_unknown);
+        UNSIGNED_LONGS_EQUAL(6, cnc.ask(7, 0.0F).heartbeat);
+    }
+    serve.interrupt(SIGTERM);
+    serve.wait();
+    LONGS_EQUAL(0, serve.exit_code());
+    const std::string& told = serve.error();
+    const std::size_t first = told.find("millforce: tool 7\n");
+    const std::size_t second = told.find("millforce: tool 12\n", first);
+    const std::size_t none = told.find("tool not known: the override is the operator's\n", second);
+    CHECK(told.find("millforce: tool 7\n", none) != std::string::npos);
+}
+
+TEST(Tools, serve_refuses_the_bridge_of_an_older_layout_by_its_version) {
+    Program serve(inputs.with_tools({"serve", inputs.name("a.sock")}));
+    {
+        Bridge old(inputs.name("a.sock"));
+        local_link::SampleBytes bytes = encode(local_link::SampleMessage{});
+        bytes[4] = 2;
+        old.send(std::span<const std::uint8_t>(bytes).first(72));
+        local_link::OverrideBytes answer{};
+        UNSIGNED_LONGS_EQUAL(0, old.receive(answer));
+    }
+    serve.interrupt(SIGTERM);
+    serve.wait();
+    CHECK(contains(serve.error(), "invalid message of 72 bytes (another version of the layout): connection closed"));
+}
+
+TEST(Tools, a_folder_that_is_not_sound_is_refused_by_each_command_with_the_file) {
+    inputs.write("log.csv", recording([](int) { return "7"; }, [](int) { return 0.0; }));
+    inputs.write("tools/T3.toml", with(tool_text, "teeth = 4", "teeth = 4.5"));
+    folder_is_refused({"tools/T3.toml", "tool.teeth"});
+    std::filesystem::remove(inputs.path("tools/T3.toml"));
+    inputs.write("tools/T007.toml", tool_text);
+    folder_is_refused({"T7.toml: tool 7 is in T007.toml, too"});
+}
+
+TEST(Tools, one_tool_or_a_folder_must_be_given_and_a_part_map_is_for_one_tool) {
+    const std::vector<std::string> serve{"serve", inputs.name("a.sock"), "--machine", inputs.name("machine.toml")};
+    STRCMP_EQUAL("", not_refused(run_millforce(serve), {"--tool, --tools: neither was given"}).c_str());
+    std::vector<std::string> both = inputs.with_tools({"serve", inputs.name("a.sock")});
+    both.insert(both.end(), {"--tool", inputs.name("tool.toml")});
+    STRCMP_EQUAL("", not_refused(run_millforce(both), {"--tool, --tools: both were given"}).c_str());
+    const std::vector<std::string> with_map =
+        inputs.with_tools({"serve", inputs.name("a.sock"), "--program", "part.ngc", "--map", "part.map"});
+    STRCMP_EQUAL("", not_refused(run_millforce(with_map), {"--map: with --tools"}).c_str());
+}
+
+TEST(Tools, a_bus_without_a_program_status_cannot_tell_a_tool) {
+    inputs.write("machine.toml", with(machine_text, "[x]\n", "[x]\nrated_current_A = 12\n") +
+                                     "[bus]\nprogram_status_id = 0\n[bus.x]\nnode_id = 2\n"
+                                     "tpdo1 = [\"0x606C:32\", \"0x6078:16\"]\nvelocity_mm_s_per_unit = 0.001\n");
+    const Ended ended = run_millforce(inputs.with_tools({"run", "vcan0"}));
+    STRCMP_EQUAL("", not_refused(ended, {"--tools", "machine.toml: bus.program_status_id = 0"}).c_str());
+}
+
+TEST(Tools, replay_follows_the_column_of_a_recording) {
+    // Tool 9 is not there; 12 comes in motion, and is taken at rest.
+    inputs.write("log.csv", recording([](int k) { return k < 100 ? "7" : (k < 200 ? "9" : "12"); },
+                                      [](int k) { return k > 150 && k < 300 ? 20.0 : 0.0; }));
+    const Ended ended = replay();
+    LONGS_EQUAL(0, ended.exit_code);
+    CHECK(contains(ended.error, "the tool is not known in 10 of 20 rows"));
+    std::vector<std::string> expected(5, "7");
+    expected.insert(expected.end(), 10, "");
+    expected.insert(expected.end(), 5, "12");
+    CHECK(expected == tools_of(inputs.read("out.csv")));
+    for (const CsvRow& row : csv_rows(inputs.read("out.csv"))) {
+        CHECK((row.at("override") == "1") == row.at("tool").empty());
+    }
+}
+
+TEST(Tools, replay_refuses_a_recording_that_has_no_tool_or_one_that_is_no_number) {
+    inputs.write("log.csv", "time_s,spindle_angle_rad,spindle_current_A,x_current_A,x_velocity_mm_s\n0,0,3,2,10\n");
+    STRCMP_EQUAL("", not_refused(replay(), {"log.csv:1", "expected the column tool with --tools"}).c_str());
+    for (const char* number : {"-1", "7.5", "4294967296", "1e30"}) {
+        inputs.write("log.csv", recording([=](int) { return number; }, [](int) { return 0.0; }));
+        STRCMP_EQUAL("", not_refused(replay(), {"log.csv:2", "tool", "expected the number of a tool"}).c_str());
+    }
+    CHECK_FALSE(std::filesystem::exists(inputs.path("out.csv")));
+}
+
+TEST(Tools, replay_follows_the_frames_of_a_candump_log) {
+    inputs.write("machine.toml", with(with(machine_text, "[spindle]\n", "[spindle]\nrated_current_A = 12\n"), "[x]\n",
+                                      "[x]\nrated_current_A = 12\n") +
+                                     "[bus]\n[bus.spindle]\nnode_id = 1\ntpdo1 = [\"0x6064:32\", \"0x6078:16\"]\n"
+                                     "[bus.x]\nnode_id = 2\ntpdo1 = [\"0x606C:32\", \"0x6078:16\"]\n"
+                                     "velocity_mm_s_per_unit = 0.001\n");
+    const auto tool_at = [](int k) { return k < 100 ? 7U : (k < 200 ? 9U : 12U); };
+    std::string log;
+    for (int k = 0; k < 300; ++k) {
+        const auto line = [&](int after_us, const std::string& frame) {
+            std::array<char, 100> buffer{};
+            std::snprintf(buffer.data(), buffer.size(), "(1700000000.%06d) can0 %s\n", 1000 * k + after_us,
+                          frame.c_str());
+            log += buffer.data();
+        };
+        hal::CanFrame spindle;
+        const unsigned count = 546U * static_cast<unsigned>(k);
+        spindle.data = {static_cast<std::uint8_t>(count),
+                        static_cast<std::uint8_t>(count >> 8U),
+                        static_cast<std::uint8_t>(count >> 16U),
+                        0,
+                        0xA7,
+                        0};
+        if (k % 10 == 0) {
+            line(0, "2FD#" + hex_of(program_status::encode_tool(tool_at(k), 0x2FD)));
+        }
+        line(100, "080#");
+        line(250, "181#" + hex_of(spindle).substr(0, 12));
+        line(400, "182#00000000A700");
+    }
+    inputs.write("log.csv", log);
+    const Ended ended = replay();
+    LONGS_EQUAL(0, ended.exit_code);
+    const std::vector<std::string> tools = tools_of(inputs.read("out.csv"));
+    UNSIGNED_LONGS_EQUAL(15, tools.size());
+    STRCMP_EQUAL("7", tools[2].c_str());
+    STRCMP_EQUAL("", tools[7].c_str());
+    STRCMP_EQUAL("12", tools[12].c_str());
+}
