@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "firmware/tick_record.hpp"
 #include "firmware/tool_tick.hpp"
@@ -21,18 +20,16 @@ constexpr std::uint32_t weak = 12;
 constexpr float operators_override = 0.8F;
 constexpr double exactly = 0.0;
 
-std::map<std::uint32_t, firmware::ToolParameters<float>> two_tools() {
-    std::map<std::uint32_t, firmware::ToolParameters<float>> tools{{strong, machine_and_tool().tool},
-                                                                   {weak, machine_and_tool().tool}};
-    tools[strong].tooth_force_limit_N = 2000.0F;
-    tools[weak].tooth_force_limit_N = 150.0F;
-    tools[weak].control.overload_share = 100.0F;
-    return tools;
+ReadyTool tool_with(std::uint32_t number, float tooth_force_limit_N) {
+    Parameters p = machine_and_tool();
+    p.tool.tooth_force_limit_N = tooth_force_limit_N;
+    p.tool.control.overload_share = 100.0F;
+    return {number, firmware::ForceControlTick<float>(p)};
 }
 
 /// Built once: it takes longer than all cases.
-const ToolsOf& tools() {
-    static const ToolsOf ready(machine_and_tool().machine, two_tools());
+const ToolsOf<2>& tools() {
+    static const ToolsOf<2> ready({tool_with(strong, 2000.0F), tool_with(weak, 150.0F)});
     return ready;
 }
 

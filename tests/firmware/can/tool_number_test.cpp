@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller_on_loopback.hpp"
-#include "files/tool_set.hpp"
+#include "firmware/tools_of.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -18,9 +18,11 @@ sim::Scenario slot() {
 }
 
 /// The scenario's tool under the numbers 7 and 8. Built once: it takes longer than a case.
-const host::PreparedTools& tools() {
-    static const host::PreparedTools ready(slot().parameters.machine,
-                                           {{7, slot().parameters.tool}, {8, slot().parameters.tool}});
+const ToolsOf<2>& tools() {
+    static const ToolsOf<2> ready = [] {
+        const firmware::ForceControlTick<float> tick(slot().parameters);
+        return ToolsOf<2>({ReadyTool{7, tick}, ReadyTool{8, tick}});
+    }();
     return ready;
 }
 

@@ -10,7 +10,6 @@
 
 using namespace millforce;
 using local_link::MessageError;
-using test::ToolsOf;
 
 namespace {
 
@@ -153,7 +152,8 @@ TEST(LinkController, gives_the_same_overrides_whenever_the_samples_come_and_what
 }
 
 TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_it_is_not_known) {
-    const ToolsOf tools(firmware::capped(a_mill().machine, 1.0F), {{7, a_mill().tool}});
+    const firmware::Parameters<float> capped_mill{firmware::capped(a_mill().machine, 1.0F), a_mill().tool};
+    const test::ToolsOf<1> tools({test::ReadyTool{7, firmware::ForceControlTick<float>(capped_mill)}});
     firmware::LinkController controller(a_mill(), 1.0F, nullptr, &tools);
     cnc.message.tool = 7;
     cnc.message.operator_limit = 0.7F;
