@@ -158,6 +158,7 @@ void add_serve(Command& program) {
         program.subcommand("serve", "Run the live controller behind a Unix socket, for a CNC on the same computer");
     command.footer(
         "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
+        "With --tools the samples tell the tool's number; without a known tool the override is the operator's.\n"
         "One connection at a time; each is a new run. Runs until SIGINT or SIGTERM.");
     command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
