@@ -147,7 +147,7 @@ class Bridge {
             heartbeat_ = 0;
         } else if (result == millforce_ok) {
             heartbeat_ += (receiver_.newest.counter - before) & 0xFFFFU;
-        } else if (result != millforce_not_this_frame) {
+        } else if (result != millforce_not_this_frame && result != millforce_counter_repeated) {
             *pins_.refused = *pins_.refused + 1;
         }
     }
