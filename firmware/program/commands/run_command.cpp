@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "check/check_parameters.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "daemon/can_daemon.hpp"
@@ -71,6 +72,7 @@ int run_on_bus(const RunOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     const MachineBus bus = bus_of(options.machine);
     tell_parameter_notes(parameters);
+    tell_parameter_findings(parameters);
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "check/check_parameters.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "control/cut_state.hpp"
@@ -101,6 +102,7 @@ std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Param
 int serve(const ServeOptions& options) {
     const auto parameters = read_parameters(options.machine, options.tool);
     tell_parameter_notes(parameters);
+    tell_parameter_findings(parameters);
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);
