@@ -122,8 +122,8 @@ bool presume_air(std::span<MotionWindow> windows, const estimation::SpindleDrive
                  const IdleTolerance& tolerance) {
     MotionWindow* quietest = nullptr;
     for (MotionWindow& window : windows) {
-        if (may_be_placed(window) && (quietest == nullptr || std::abs(window.spindle_current_A) <
-                                                                 std::abs(quietest->spindle_current_A))) {
+        if (may_be_placed(window) &&
+            (quietest == nullptr || std::abs(window.spindle_current_A) < std::abs(quietest->spindle_current_A))) {
             quietest = &window;
         }
     }

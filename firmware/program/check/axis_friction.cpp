@@ -55,8 +55,7 @@ struct FrictionSeen {
 /// What a current says of the friction, while an axis with these parameters moves at a velocity.
 class FrictionOfAxis {
   public:
-    explicit FrictionOfAxis(const AxisParameters& axis)
-        : axis_(axis), with_(axis), without_(without_friction(axis)) {}
+    explicit FrictionOfAxis(const AxisParameters& axis) : axis_(axis), with_(axis), without_(without_friction(axis)) {}
 
     void add(double current_A, const MotionWindow& window, std::size_t moving_axis) {
         AxisAverage average;
@@ -73,8 +72,8 @@ class FrictionOfAxis {
         const double friction_N = with_friction_N - beyond_friction_N;
         const double friction_A = std::abs(friction_N) / static_cast<double>(axis_.K_x4_N_per_A);
         if (friction_A > static_cast<double>(axis_.current_sd_A) / std::sqrt(static_cast<double>(window.samples))) {
-            means_.at(average.velocity_mm_s > 0.0F ? 1 : 0).add(with_friction_N / friction_N, friction_A,
-                                                           static_cast<double>(window.samples));
+            means_.at(average.velocity_mm_s > 0.0F ? 1 : 0)
+                .add(with_friction_N / friction_N, friction_A, static_cast<double>(window.samples));
         }
     }
 
@@ -235,10 +234,10 @@ std::optional<Finding> check_magnitude(std::span<const MotionWindow> windows,
                        column};
     }
     if (current_stands) {
-        return Finding{Severity::error,
-                       fmt::format("{}: the current never changes although the axis moves: is it connected?",
-                                   axis_name(axis)),
-                       column};
+        return Finding{
+            Severity::error,
+            fmt::format("{}: the current never changes although the axis moves: is it connected?", axis_name(axis)),
+            column};
     }
     const double largest_A = largest_magnitude_A(windows, axis);
     const double allowed_A = largest_current_A(machine, axis + 1);
@@ -269,10 +268,10 @@ Findings check_axis_currents(std::span<const MotionWindow> windows, const firmwa
         }
         const auto friction = friction_seen(windows, axis, axis, parameters);
         if (!friction) {
-            findings.push_back({Severity::note,
-                                fmt::format("{}: no steady motion in air: its friction is not compared",
-                                            axis_name(axis)),
-                                key_of_axis(axis, "K_x3_A")});
+            findings.push_back(
+                {Severity::note,
+                 fmt::format("{}: no steady motion in air: its friction is not compared", axis_name(axis)),
+                 key_of_axis(axis, "K_x3_A")});
         } else if (friction->explains(*friction->seen(), 1.0)) {
             shared.add(axis, friction->seen()->scale);
         } else {

@@ -74,10 +74,9 @@ void RecordingCheck::add_to_spectrum(double time_s, const hal::DriveSample& samp
         return;
     }
     // A first sample turns by more than any may: a new block begins.
-    const double turned_rev =
-        last_count_ ? static_cast<std::int32_t>(sample.spindle_count - *last_count_) /
-                          static_cast<double>(parameters_.machine.encoder_counts_per_rev)
-                    : 1.0;
+    const double turned_rev = last_count_ ? static_cast<std::int32_t>(sample.spindle_count - *last_count_) /
+                                                static_cast<double>(parameters_.machine.encoder_counts_per_rev)
+                                          : 1.0;
     last_count_ = sample.spindle_count;
     blocks_.add(time_s, turned_rev, static_cast<double>(has_force ? sample.force_N[0] : sample.spindle_current_A));
 }

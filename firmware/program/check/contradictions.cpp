@@ -35,9 +35,10 @@ class Contradictions {
 Findings check_override(const Machine& machine) {
     const auto& cnc = machine.cnc;
     Contradictions found;
-    found.find_if(cnc.override_max <= cnc.override_min, Severity::error, "cnc.override_max",
-                  fmt::format("override_max = {:g} is not above override_min = {:g}: the controller would hold the feed",
-                              cnc.override_max, cnc.override_min));
+    found.find_if(
+        cnc.override_max <= cnc.override_min, Severity::error, "cnc.override_max",
+        fmt::format("override_max = {:g} is not above override_min = {:g}: the controller would hold the feed",
+                    cnc.override_max, cnc.override_min));
     found.find_if(cnc.stale_s * cnc.sample_rate_hz < 2.0F, Severity::error, "cnc.stale_s",
                   fmt::format("the input would count as stale after {:g} s, less than two samples at {:g} Hz",
                               cnc.stale_s, cnc.sample_rate_hz));
@@ -56,12 +57,13 @@ Findings check_bus(const Machine& machine, const Tool& tool) {
                   fmt::format("{:g} Hz, and bus.sync_period_ms = {:g} ms gives {:.4g} Hz", machine.cnc.sample_rate_hz,
                               bus.sync_period_ms, sync_hz));
     for (std::size_t drive = 1; drive < bus.drives.size(); ++drive) {
-        found.find_if(bus.drives[drive].node_id > 0 &&
-                          bus.drives[drive].largest_velocity_mm_s < tool.control.highest_programmed_feed_mm_s,
-                      Severity::warning, fmt::format("bus.{}.largest_velocity_mm_s", drive_names[drive]),
-                      fmt::format("{}: velocities above {:g} mm/s are not used, and the program has feeds up to {:g} mm/s",
-                                  drive_names[drive], bus.drives[drive].largest_velocity_mm_s,
-                                  tool.control.highest_programmed_feed_mm_s));
+        found.find_if(
+            bus.drives[drive].node_id > 0 &&
+                bus.drives[drive].largest_velocity_mm_s < tool.control.highest_programmed_feed_mm_s,
+            Severity::warning, fmt::format("bus.{}.largest_velocity_mm_s", drive_names[drive]),
+            fmt::format("{}: velocities above {:g} mm/s are not used, and the program has feeds up to {:g} mm/s",
+                        drive_names[drive], bus.drives[drive].largest_velocity_mm_s,
+                        tool.control.highest_programmed_feed_mm_s));
     }
     return found.take();
 }
@@ -78,15 +80,16 @@ Findings check_drives(const Machine& machine, const Tool& tool) {
         const auto& axis = machine.axes[place];
         const std::string_view name = drive_names[place + 1];
         const float doubt_A = deviations * std::max(axis.friction_ripple_A, axis.friction_relative_sd * axis.K_x3_A);
-        found.find_if(axis.K_x3_A < -doubt_A, Severity::warning, fmt::format("{}.K_x3_A", name),
-                      fmt::format("{}: the constant friction is negative, {:g} A: is the current reversed?", name,
-                                  axis.K_x3_A));
-        found.find_if(axis.K_x4_N_per_A > 0.0F && tool.control.highest_programmed_feed_mm_s > 0.0F &&
-                          axis.velocity_floor_mm_s > tool.control.highest_programmed_feed_mm_s,
-                      Severity::warning, fmt::format("{}.velocity_floor_mm_s", name),
-                      fmt::format("{}: no force below {:g} mm/s, and the program's highest feed is {:g} mm/s; is one of "
-                                  "them in mm/min?",
-                                  name, axis.velocity_floor_mm_s, tool.control.highest_programmed_feed_mm_s));
+        found.find_if(
+            axis.K_x3_A < -doubt_A, Severity::warning, fmt::format("{}.K_x3_A", name),
+            fmt::format("{}: the constant friction is negative, {:g} A: is the current reversed?", name, axis.K_x3_A));
+        found.find_if(
+            axis.K_x4_N_per_A > 0.0F && tool.control.highest_programmed_feed_mm_s > 0.0F &&
+                axis.velocity_floor_mm_s > tool.control.highest_programmed_feed_mm_s,
+            Severity::warning, fmt::format("{}.velocity_floor_mm_s", name),
+            fmt::format("{}: no force below {:g} mm/s, and the program's highest feed is {:g} mm/s; is one of "
+                        "them in mm/min?",
+                        name, axis.velocity_floor_mm_s, tool.control.highest_programmed_feed_mm_s));
     }
     return found.take();
 }
@@ -134,24 +137,23 @@ bool is_far_from_range(const estimation::CuttingLaw<float>& law) {
     constexpr float far = 10.0F;
     const float reference_mm = law.reference_chip_thickness_mm;
     const bool is_known = reference_mm > 0.0F && law.maximum_chip_thickness_mm > 0.0F;
-    return is_known && (reference_mm > far * law.maximum_chip_thickness_mm ||
-                        far * reference_mm < law.minimum_chip_thickness_mm);
+    return is_known &&
+           (reference_mm > far * law.maximum_chip_thickness_mm || far * reference_mm < law.minimum_chip_thickness_mm);
 }
 
 Findings check_law(const Tool& tool) {
     const auto& law = tool.law;
     const auto& control = tool.control;
     Contradictions found;
-    found.find_if(law.maximum_chip_thickness_mm > 0.0F &&
-                      law.maximum_chip_thickness_mm < law.minimum_chip_thickness_mm,
+    found.find_if(law.maximum_chip_thickness_mm > 0.0F && law.maximum_chip_thickness_mm < law.minimum_chip_thickness_mm,
                   Severity::error, "cutting.maximum_chip_thickness_mm",
                   fmt::format("{:g} mm is below minimum_chip_thickness_mm = {:g}", law.maximum_chip_thickness_mm,
                               law.minimum_chip_thickness_mm));
-    found.find_if(is_far_from_range(law), Severity::warning, "cutting.reference_chip_thickness_mm",
-                  fmt::format("{:g} mm is ten times or more beyond the calibrated chips of {:g} to {:g} mm: is it in "
-                              "another unit?",
-                              law.reference_chip_thickness_mm, law.minimum_chip_thickness_mm,
-                              law.maximum_chip_thickness_mm));
+    found.find_if(
+        is_far_from_range(law), Severity::warning, "cutting.reference_chip_thickness_mm",
+        fmt::format("{:g} mm is ten times or more beyond the calibrated chips of {:g} to {:g} mm: is it in "
+                    "another unit?",
+                    law.reference_chip_thickness_mm, law.minimum_chip_thickness_mm, law.maximum_chip_thickness_mm));
     found.find_if(control.max_feed_per_tooth_mm < law.minimum_chip_thickness_mm, Severity::warning,
                   "control.max_feed_per_tooth_mm",
                   fmt::format("no chip is as thick as the thinnest calibrated one: {:g} mm per tooth at most, and "
@@ -169,8 +171,8 @@ Findings check_law(const Tool& tool) {
 double edge_force_of_tooth_N(const Tool& tool, double axial_depth_mm) {
     const double force_N_per_mm =
         std::hypot(static_cast<double>(tool.law.K_te_N_per_mm), static_cast<double>(tool.law.K_re_N_per_mm));
-    const double rad_per_mm =
-        std::tan(static_cast<double>(tool.helix_deg) * std::numbers::pi / 180.0) / (0.5 * static_cast<double>(tool.diameter_mm));
+    const double rad_per_mm = std::tan(static_cast<double>(tool.helix_deg) * std::numbers::pi / 180.0) /
+                              (0.5 * static_cast<double>(tool.diameter_mm));
     const double engaged_mm =
         rad_per_mm > 0.0 ? std::min(axial_depth_mm, std::numbers::pi / rad_per_mm) : axial_depth_mm;
     const double half_lag_rad = 0.5 * rad_per_mm * engaged_mm;

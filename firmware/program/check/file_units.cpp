@@ -30,10 +30,10 @@ Findings check_spindle_units(const Machine& machine) {
     Findings findings;
     const double base_rad_s = static_cast<double>(machine.spindle.base_speed_rad_s);
     if (base_rad_s > fast_rad_s) {
-        findings.push_back({Severity::warning,
-                            fmt::format("a base speed of {:.5g} rad/s is {:.6g} 1/min; is it in 1/min?", base_rad_s,
-                                        base_rad_s * rpm),
-                            "spindle.base_speed_rad_s"});
+        findings.push_back(
+            {Severity::warning,
+             fmt::format("a base speed of {:.5g} rad/s is {:.6g} 1/min; is it in 1/min?", base_rad_s, base_rad_s * rpm),
+             "spindle.base_speed_rad_s"});
     }
     const double rated_A = rated_current_A(machine, 0);
     const double K_t1 = static_cast<double>(machine.spindle.K_t1_Nm_per_A);
@@ -98,12 +98,12 @@ Findings check_feeds_per_tooth(const Tool& tool) {
                              Feed{"control.max_feed_per_tooth_mm", tool.control.max_feed_per_tooth_mm},
                              Feed{"depth_shape.feed_per_tooth_mm", tool.depth_shape.feed_per_tooth_mm}}) {
         if (static_cast<double>(feed.mm) > limit_mm) {
-            findings.push_back({Severity::error,
-                                fmt::format("a chip of {:.4g} mm per tooth on a tool of Ø{:g} mm, expected at most "
-                                            "{:.3g} mm; is it in mm per revolution, or in mm/min?",
-                                            static_cast<double>(feed.mm), static_cast<double>(tool.diameter_mm),
-                                            limit_mm),
-                                feed.key});
+            findings.push_back(
+                {Severity::error,
+                 fmt::format("a chip of {:.4g} mm per tooth on a tool of Ø{:g} mm, expected at most "
+                             "{:.3g} mm; is it in mm per revolution, or in mm/min?",
+                             static_cast<double>(feed.mm), static_cast<double>(tool.diameter_mm), limit_mm),
+                 feed.key});
         }
     }
     return findings;

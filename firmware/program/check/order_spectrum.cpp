@@ -58,8 +58,8 @@ void OrderBlocks::close() {
     block.start_s = samples_.front().time_s;
     block.end_s = samples_.back().time_s;
     block.samples_per_rev = count / revolutions;
-    const auto orders = static_cast<std::size_t>(
-        std::min(highest_useful_order, block.samples_per_rev / fewest_samples_per_period));
+    const auto orders =
+        static_cast<std::size_t>(std::min(highest_useful_order, block.samples_per_rev / fewest_samples_per_period));
     std::vector<double> values;
     for (const Sample& sample : samples_) {
         values.push_back(sample.value);

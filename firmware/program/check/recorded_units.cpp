@@ -25,9 +25,8 @@ std::optional<MotionWindow> median_feed_move(std::span<const MotionWindow> windo
         return std::nullopt;
     }
     const auto middle = feeds.begin() + static_cast<std::ptrdiff_t>(feeds.size() / 2);
-    std::nth_element(feeds.begin(), middle, feeds.end(), [](const MotionWindow& a, const MotionWindow& b) {
-        return a.speed_mm_s() < b.speed_mm_s();
-    });
+    std::nth_element(feeds.begin(), middle, feeds.end(),
+                     [](const MotionWindow& a, const MotionWindow& b) { return a.speed_mm_s() < b.speed_mm_s(); });
     return *middle;
 }
 
@@ -91,8 +90,8 @@ Findings check_motion(const std::string& name, std::span<const MotionWindow> win
     const auto feed = median_feed_move(windows);
     Findings findings = check_rate(windows, parameters.machine.cnc);
     if (!feed) {
-        findings.push_back({Severity::note, "no feed with the spindle turning: the feed is not judged",
-                            "x_velocity_mm_s"});
+        findings.push_back(
+            {Severity::note, "no feed with the spindle turning: the feed is not judged", "x_velocity_mm_s"});
         return findings;
     }
     append(findings, check_cut(name, *feed, parameters.tool));

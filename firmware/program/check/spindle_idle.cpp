@@ -55,8 +55,7 @@ MotionWindow typical(std::vector<MotionWindow> windows) {
 /// The current at which the file expects no torque beyond the idle one.
 double expected_idle_A(const SpindleParameters& spindle, const MotionWindow& window) {
     const estimation::SpindleDrive<float> drive(spindle);
-    const auto K_t =
-        static_cast<double>(drive.torque_constant_Nm_per_A(static_cast<float>(window.spindle_rad_s())));
+    const auto K_t = static_cast<double>(drive.torque_constant_Nm_per_A(static_cast<float>(window.spindle_rad_s())));
     return window.spindle_current_A - torque_beyond_idle_Nm(spindle, window) / K_t;
 }
 
@@ -78,9 +77,9 @@ Finding reversed(const firmware::MachineParameters<float>& machine, const Motion
 Finding other_idle(const firmware::MachineParameters<float>& machine, const MotionWindow& window) {
     const double warm_A = expected_idle_A(machine.spindle, window);
     const double cold_A = expected_cold_idle_A(machine.spindle, window);
-    const std::string what = fmt::format("spindle: {:.4g} A in air, and {:.4g} A by the file", window.spindle_current_A,
-                                         warm_A) +
-                             (cold_A != warm_A ? fmt::format(" ({:.4g} A cold)", cold_A) : std::string());
+    const std::string what =
+        fmt::format("spindle: {:.4g} A in air, and {:.4g} A by the file", window.spindle_current_A, warm_A) +
+        (cold_A != warm_A ? fmt::format(" ({:.4g} A cold)", cold_A) : std::string());
     const int by_warm = peak_for_rms(window.spindle_current_A / warm_A);
     const int by_cold = peak_for_rms(window.spindle_current_A / cold_A);
     if (const int direction = by_warm != 0 ? by_warm : by_cold; direction != 0) {
@@ -94,10 +93,9 @@ Finding other_idle(const firmware::MachineParameters<float>& machine, const Moti
 /// Turning takes a torque: a current that is zero to within its noise, although one far above it is expected.
 bool is_dead(const SpindleParameters& spindle, const MotionWindow& window) {
     constexpr double deviations = 4.0;
-    const double noise_A = deviations * static_cast<double>(spindle.current_sd_A) /
-                           std::sqrt(static_cast<double>(window.samples));
-    return std::abs(window.spindle_current_A) < noise_A &&
-           std::abs(expected_idle_A(spindle, window)) > 2.0 * noise_A;
+    const double noise_A =
+        deviations * static_cast<double>(spindle.current_sd_A) / std::sqrt(static_cast<double>(window.samples));
+    return std::abs(window.spindle_current_A) < noise_A && std::abs(expected_idle_A(spindle, window)) > 2.0 * noise_A;
 }
 
 Findings check_current_in_air(std::vector<MotionWindow> air, const firmware::MachineParameters<float>& machine) {
@@ -156,8 +154,8 @@ MotionWindow with_spindle_current_times(MotionWindow window, double factor) {
     return window;
 }
 
-Findings check_spindle_current(std::span<const MotionWindow> windows,
-                               const firmware::MachineParameters<float>& machine, bool current_stands) {
+Findings check_spindle_current(std::span<const MotionWindow> windows, const firmware::MachineParameters<float>& machine,
+                               bool current_stands) {
     const std::vector<MotionWindow> turning = turning_windows(windows, false);
     if (turning.empty()) {
         return {{Severity::note, "spindle: it never turns at a steady speed: its current is not judged",

@@ -23,7 +23,7 @@ MotionWindow with_spindle_current_times(MotionWindow window, double factor);
 /// The spindle's current in air against the idle torque of the machine's file: dead, reversed, in another unit, peak
 /// for rms, or of another machine. Where no air is known: reversed alone, for a cut cannot make the torque negative.
 /// `current_stands`: it has one value in the whole recording.
-Findings check_spindle_current(std::span<const MotionWindow> windows,
-                               const firmware::MachineParameters<float>& machine, bool current_stands);
+Findings check_spindle_current(std::span<const MotionWindow> windows, const firmware::MachineParameters<float>& machine,
+                               bool current_stands);
 
 }  // namespace millforce::host

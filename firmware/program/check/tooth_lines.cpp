@@ -46,9 +46,11 @@ class CutLines {
         const bool is_of_air = air_.blocks() > 0 && line < clearly_above_air * air_.power(place);
         return is_of_air ? 0.0 : line * static_cast<double>(place) / OrderBlock::per_order;
     }
+    /// The line once per revolution is that of the runout, and of no sum.
+    [[nodiscard]] double runout() const { return strength(per_order); }
     [[nodiscard]] double sum_of_multiples(int number) const {
         double sum = 0.0;
-        for (int order = number; order <= highest_order(); order += number) {
+        for (int order = number == 1 ? 2 : number; order <= highest_order(); order += number) {
             sum += strength(static_cast<std::size_t>(order) * per_order);
         }
         return sum;
@@ -77,15 +79,16 @@ bool contradicts(int number, double sum, int stated, double stated_sum) {
     }
     constexpr double clearly_more = 4.0;
     const double ratio = static_cast<double>(stated) / number;
-    return stated % number == 0 ? sum > (0.65 * ratio + 0.3) * stated_sum : sum > clearly_more * stated_sum;
+    return stated % number == 0 ? stated_sum > 0.0 && sum > (0.65 * ratio + 0.3) * stated_sum
+                                : sum > clearly_more * stated_sum;
 }
 
 /// The largest number whose multiples hold most of what the lines hold.
 int number_of_teeth(const CutLines& lines) {
     constexpr double most = 0.75;
     const double all = lines.sum_of_multiples(1);
-    int number = 1;
-    for (int candidate = 1; candidate <= most_teeth; ++candidate) {
+    int number = 2;
+    for (int candidate = 2; candidate <= most_teeth; ++candidate) {
         number = lines.sum_of_multiples(candidate) >= most * all ? candidate : number;
     }
     return number;
@@ -96,25 +99,29 @@ Finding cannot_tell(const std::string& why) {
 }
 
 Findings wrong_counts(std::size_t place) {
-    return {{Severity::warning,
-             fmt::format("spindle: the cut repeats {:.2f} times per recorded revolution, which no whole number of teeth "
-                         "does: wrong counts per revolution, or chatter",
-                         static_cast<double>(place) / OrderBlock::per_order),
-             "spindle.encoder_counts_per_rev"}};
+    return {
+        {Severity::warning,
+         fmt::format("spindle: the cut repeats {:.2f} times per recorded revolution, which no whole number of teeth "
+                     "does: wrong counts per revolution, or chatter",
+                     static_cast<double>(place) / OrderBlock::per_order),
+         "spindle.encoder_counts_per_rev"}};
 }
 
-Findings judge(const CutLines& lines, int stated, bool counts_are_proven) {
+Findings compare_lines(const CutLines& lines, int stated, bool counts_are_proven) {
     const double all = lines.sum_of_multiples(1);
     const std::size_t between = lines.strongest_between();
-    if (!counts_are_proven && lines.strength(between) > all) {
+    if (!counts_are_proven && lines.strength(between) > all + lines.runout()) {
         return wrong_counts(between);
     }
-    if (!(all > 0.0)) {
+    if (!(all + lines.runout() > 0.0)) {
         return {cannot_tell("no line of a tooth stands out of the noise")};
     }
-    const double stated_sum = lines.sum_of_multiples(stated);
+    if (stated > 1 && lines.runout() > all) {
+        return {cannot_tell("the cut repeats once per revolution, by its runout or because a single tooth cuts")};
+    }
+    const double stated_sum = lines.sum_of_multiples(stated) + (stated == 1 ? lines.runout() : 0.0);
     bool is_wrong = false;
-    for (int number = 1; number <= most_teeth; ++number) {
+    for (int number = 2; number <= most_teeth; ++number) {
         is_wrong = is_wrong || contradicts(number, lines.sum_of_multiples(number), stated, stated_sum);
     }
     if (!is_wrong) {
@@ -122,9 +129,7 @@ Findings judge(const CutLines& lines, int stated, bool counts_are_proven) {
     }
     const int seen = number_of_teeth(lines);
     return {{Severity::warning,
-             fmt::format("the cut repeats {} time{} per revolution, and the tool has {} teeth{}{}", seen,
-                         seen == 1 ? "" : "s", stated,
-                         seen == 1 ? "; or the runout leaves the cut to one of them" : "",
+             fmt::format("the cut repeats {} times per revolution, and the tool has {} teeth{}", seen, stated,
                          counts_are_proven ? "" : "; or spindle.encoder_counts_per_rev is wrong"),
              teeth_key}};
 }
@@ -154,7 +159,7 @@ Findings check_teeth(const ToothEvidence& evidence, std::span<const MotionWindow
         return {cannot_tell(fmt::format("{:.2g} samples per tooth; it takes 2.5",
                                         samples_per_rev / static_cast<double>(cut.blocks()) / teeth))};
     }
-    return judge(CutLines(cut, air), teeth, evidence.counts_are_proven);
+    return compare_lines(CutLines(cut, air), teeth, evidence.counts_are_proven);
 }
 
 }  // namespace millforce::host

@@ -45,7 +45,8 @@ void add_check(Command& program) {
     auto options = std::make_shared<CheckOptions>();
     Command command = program.subcommand("check", "Look for the usual first mistakes in the files and in a recording");
     command.footer(
-        "One line for each finding: error (cannot be right), warning (likely wrong) or note (could not be judged), and\n"
+        "One line for each finding: error (cannot be right), warning (likely wrong) or note (could not be judged), "
+        "and\n"
         "the key or column to look at. The recording should hold some seconds of each: the spindle turning with the\n"
         "axes at rest, steady moves of each axis to and fro in air, and a cut.\n"
         "Exit code 1: an error or a warning.");

@@ -29,10 +29,9 @@ TEST_GROUP(ParameterCheck) {
 
 TEST(ParameterCheck, finds_nothing_in_the_machine_and_the_tools_of_the_scenarios) {
     const std::string scenarios = MILLFORCE_SOURCE_DIR "/sim/scenarios/";
-    for (const char* tool :
-         {"tools/endmill_10mm.toml", "tools/facemill_40mm.toml", "tools/facemill_40mm_centred.toml",
-          "tools/facemill_40mm_dynamometer.toml", "commissioning/endmill_8mm.toml", "commissioning/monitor_only.toml",
-          "commissioning/facemill_40mm_dynamometer.toml"}) {
+    for (const char* tool : {"tools/endmill_10mm.toml", "tools/facemill_40mm.toml", "tools/facemill_40mm_centred.toml",
+                             "tools/facemill_40mm_dynamometer.toml", "commissioning/endmill_8mm.toml",
+                             "commissioning/monitor_only.toml", "commissioning/facemill_40mm_dynamometer.toml"}) {
         const auto right = read_parameters(scenarios + "machines/vmc.toml", scenarios + tool);
         STRCMP_EQUAL("", lines_of(check_parameters(right)).c_str());
     }
@@ -159,7 +158,8 @@ TEST(ParameterCheck, finds_a_range_of_chips_that_is_none) {
 
 TEST(ParameterCheck, finds_a_reference_chip_in_another_unit) {
     parameters.tool.law.reference_chip_thickness_mm = 5.0F;
-    check_finds("warning: 5 mm is ten times or more beyond the calibrated chips", "cutting.reference_chip_thickness_mm");
+    check_finds("warning: 5 mm is ten times or more beyond the calibrated chips",
+                "cutting.reference_chip_thickness_mm");
 }
 
 TEST(ParameterCheck, finds_feeds_that_never_reach_the_calibrated_chips) {

@@ -84,9 +84,8 @@ TEST(RecordingCheck, finds_a_spindle_current_that_is_dead) {
     const auto constant = changed(right, [](hal::DriveSample& drives) { drives.spindle_current_A = 0.0F; });
     check_says(lines_for(constant, parameters), "error: spindle: the current stands at 0 A while it turns");
     int k = 0;
-    const auto noise = changed(right, [&k](hal::DriveSample& drives) {
-        drives.spindle_current_A = 0.05F * static_cast<float>(++k % 3 - 1);
-    });
+    const auto noise = changed(
+        right, [&k](hal::DriveSample& drives) { drives.spindle_current_A = 0.05F * static_cast<float>(++k % 3 - 1); });
     check_says(lines_for(noise, parameters), "error: spindle: no current while it turns in air");
 }
 
@@ -100,7 +99,8 @@ TEST(RecordingCheck, finds_peak_for_rms_by_the_idle_torque_where_that_is_known_w
     parameters.machine.spindle.warm_up_torque_sd_Nm = 0.02F;
     const MadeRecording at_calibrated_speed = made_recording({.spindle_rpm = 4000.0});
     STRCMP_EQUAL("", lines_for(at_calibrated_speed, parameters).c_str());
-    const auto wrong = changed(at_calibrated_speed, [](hal::DriveSample& drives) { drives.spindle_current_A *= 1.414F; });
+    const auto wrong =
+        changed(at_calibrated_speed, [](hal::DriveSample& drives) { drives.spindle_current_A *= 1.414F; });
     check_says(lines_for(wrong, parameters), "a current in peak instead of rms amperes does that");
     check_says(lines_for(wrong, parameters), "[bus.spindle.current_basis]");
 }
@@ -148,9 +148,8 @@ TEST(RecordingCheck, finds_an_axis_current_that_is_dead) {
     const auto constant = changed(right, [](hal::DriveSample& drives) { drives.axis_current_A[1] = 0.0F; });
     check_says(lines_for(constant, parameters), "error: y: the current never changes although the axis moves");
     int k = 0;
-    const auto noise = changed(right, [&k](hal::DriveSample& drives) {
-        drives.axis_current_A[1] = 0.05F * static_cast<float>(++k % 3 - 1);
-    });
+    const auto noise = changed(
+        right, [&k](hal::DriveSample& drives) { drives.axis_current_A[1] = 0.05F * static_cast<float>(++k % 3 - 1); });
     check_says(lines_for(noise, parameters), "error: y: the current does not follow the motion");
 }
 
@@ -190,7 +189,7 @@ TEST(RecordingCheck, finds_wrong_counts_per_revolution_by_the_index_pulses) {
     for (const double factor : {0.5, 2.0, 1.25}) {
         const std::string lines = lines_for(with_counts_times(right, factor), parameters);
         check_says(lines, "error: spindle: from one index pulse to the next the recorded angle turns by");
-        check_says(lines, factor == 0.5 ? ": 4096 counts per revolution instead of 8192?"
+        check_says(lines, factor == 0.5   ? ": 4096 counts per revolution instead of 8192?"
                           : factor == 2.0 ? ": 16384 counts per revolution instead of 8192?"
                                           : ": 10240 counts per revolution instead of 8192?");
     }
@@ -204,7 +203,8 @@ TEST(RecordingCheck, finds_wrong_counts_per_revolution_by_the_teeth_where_no_ind
 }
 
 TEST(RecordingCheck, finds_a_spindle_that_turns_backwards) {
-    const auto wrong = changed(right, [](hal::DriveSample& drives) { drives.spindle_count = 0U - drives.spindle_count; });
+    const auto wrong =
+        changed(right, [](hal::DriveSample& drives) { drives.spindle_count = 0U - drives.spindle_count; });
     check_says(lines_for(wrong, parameters, false), "error: spindle: it turns backwards");
 }
 
@@ -213,7 +213,8 @@ TEST(RecordingCheck, finds_a_wrong_number_of_teeth) {
         int teeth;
         std::uint8_t stated;
     };
-    for (const Case& c : {Case{4, 2}, Case{4, 3}, Case{4, 5}, Case{2, 4}, Case{3, 4}, Case{2, 3}, Case{5, 4}}) {
+    for (const Case& c :
+         {Case{4, 2}, Case{4, 3}, Case{4, 5}, Case{2, 4}, Case{3, 4}, Case{2, 3}, Case{5, 4}, Case{2, 1}}) {
         parameters.tool.teeth = c.stated;
         const std::string lines = lines_for(made_recording({.teeth = c.teeth, .spindle_rpm = 2000.0}), parameters);
         const std::string expected = "warning: the cut repeats " + std::to_string(c.teeth) +
@@ -236,6 +237,10 @@ TEST(RecordingCheck, accepts_the_right_number_of_teeth) {
 TEST(RecordingCheck, cannot_tell_the_teeth_where_the_samples_are_too_slow) {
     check_says(lines_for(made_recording({.rate_hz = 250.0}), parameters),
                "note: the number of teeth is not compared: 1.3 samples per tooth; it takes 2.5");
+}
+
+TEST(RecordingCheck, cannot_tell_one_tooth_that_cuts_from_runout) {
+    check_says(lines_for(made_recording({.teeth = 1}), parameters), "by its runout or because a single tooth cuts");
 }
 
 TEST(RecordingCheck, cannot_tell_the_teeth_without_a_cut) {
@@ -271,21 +276,20 @@ TEST(RecordingCheck, judges_nothing_in_a_recording_that_is_too_short) {
                  lines_for({right.begin(), right.begin() + 50}, parameters).c_str());
 }
 
-TEST_GROUP(OrderSpectrum) {
-    /// 100 revolutions of a sine of an order, 20 samples per revolution.
-    static OrderSpectrum of(double order) {
-        OrderBlocks blocks;
-        for (int k = 0; k < 2000; ++k) {
-            const double noise = 0.1 * std::sin(12.9898 * k * k);
-            blocks.add(0.001 * k, 0.05, std::sin(2.0 * std::numbers::pi * order * 0.05 * k) + noise);
-        }
-        OrderSpectrum spectrum;
-        for (const OrderBlock& block : blocks.blocks()) {
-            spectrum.add(block);
-        }
-        return spectrum;
-    }
-};
+TEST_GROUP(OrderSpectrum){/// 100 revolutions of a sine of an order, 20 samples per revolution.
+                          static OrderSpectrum of(double order){OrderBlocks blocks;
+for (int k = 0; k < 2000; ++k) {
+    const double noise = 0.1 * std::sin(12.9898 * k * k);
+    blocks.add(0.001 * k, 0.05, std::sin(2.0 * std::numbers::pi * order * 0.05 * k) + noise);
+}
+OrderSpectrum spectrum;
+for (const OrderBlock& block : blocks.blocks()) {
+    spectrum.add(block);
+}
+return spectrum;
+}
+}
+;
 
 TEST(OrderSpectrum, has_a_line_where_the_signal_has_one_and_nowhere_else) {
     const OrderSpectrum spectrum = of(3.0);

@@ -26,10 +26,10 @@ std::vector<Leg> legs_of(const RecordingSettings& settings) {
     }
     const double rest_s = settings.has_rest ? 0.8 : 0.0;
     const double y_mm_s = settings.has_y ? 20.0 : 0.0;
-    return {{rest_s, 0.0, 0.0, false},          {1.0, 20.0, 0.0, false},       {1.0, -20.0, 0.0, false},
-            {rest_s, 0.0, 0.0, false},          {1.0, 0.0, y_mm_s, false},     {1.0, 0.0, -y_mm_s, false},
-            {rest_s, 0.0, 0.0, false},          {0.6, 15.0, 0.0, false},       {4.0, 15.0, 0.0, settings.has_cut},
-            {0.6, 15.0, 0.0, false},            {rest_s, 0.0, 0.0, false}};
+    return {{rest_s, 0.0, 0.0, false}, {1.0, 20.0, 0.0, false},   {1.0, -20.0, 0.0, false},
+            {rest_s, 0.0, 0.0, false}, {1.0, 0.0, y_mm_s, false}, {1.0, 0.0, -y_mm_s, false},
+            {rest_s, 0.0, 0.0, false}, {0.6, 15.0, 0.0, false},   {4.0, 15.0, 0.0, settings.has_cut},
+            {0.6, 15.0, 0.0, false},   {rest_s, 0.0, 0.0, false}};
 }
 
 /// Teeth that meet an arc of 66°, each with half a sine; the runout loads them unequally by a tenth.
@@ -66,9 +66,9 @@ class Driven {
             command_.velocity_mm_s[k] += std::clamp(wanted[k] - command_.velocity_mm_s[k], -most_mm_s, most_mm_s);
         }
         command_.position_mm += dt_s * command_.velocity_mm_s;
-        machine_.advance(dt_s, command_,
-                         leg.in_cut ? cutting_load(machine_.spindle_angle_rad(), settings_.teeth)
-                                    : sim::MachinePlant::Load{});
+        machine_.advance(
+            dt_s, command_,
+            leg.in_cut ? cutting_load(machine_.spindle_angle_rad(), settings_.teeth) : sim::MachinePlant::Load{});
     }
     [[nodiscard]] sim::MachinePlant& machine() { return machine_; }
 
