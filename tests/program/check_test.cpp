@@ -15,8 +15,9 @@ TEST_GROUP(Check) {
         return run_millforce(words);
     }
     std::string simulated_recording() const {
-        LONGS_EQUAL(0, run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("run")})
-                           .exit_code);
+        LONGS_EQUAL(0,
+                    run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("run")})
+                        .exit_code);
         return inputs.path("run/recording.csv").string();
     }
 };

@@ -130,13 +130,20 @@ std::optional<FrictionOfAxis> friction_seen(std::span<const MotionWindow> window
     return friction.seen() ? std::optional(friction) : std::nullopt;
 }
 
-/// Another axis whose motion the current follows while its own axis rests.
+/// Another axis whose motion the current follows while its own axis rests: to and fro, or in one direction where the
+/// other's current follows this axis as well. In one direction alone the current of an axis at rest may look like that.
 std::optional<std::size_t> followed_axis(std::span<const MotionWindow> windows,
                                          const firmware::MachineParameters<float>& machine, std::size_t axis) {
     for (std::size_t other = 0; other < machine.axes.size(); ++other) {
-        const auto friction =
-            other == axis ? std::nullopt : friction_seen(windows, axis, other, machine.axes.at(other));
-        if (friction && friction->has_both_directions() && friction->explains(*friction->seen(), 1.0)) {
+        if (other == axis) {
+            continue;
+        }
+        const auto follows = [&](std::size_t current_axis, std::size_t moving_axis) {
+            const auto friction = friction_seen(windows, current_axis, moving_axis, machine.axes.at(moving_axis));
+            return friction && friction->explains(*friction->seen(), 1.0) ? friction : std::nullopt;
+        };
+        const auto friction = follows(axis, other);
+        if (friction && (friction->has_both_directions() || follows(other, axis))) {
             return other;
         }
     }
@@ -168,9 +175,10 @@ Finding wrong_friction(std::span<const MotionWindow> windows, const firmware::Ma
                             name, seen.scale),
                 key_of_current(machine, axis + 1, "current_reversed")};
     }
-    constexpr double dead = 0.1;
+    constexpr double dead = 0.2;
     if (std::abs(seen.scale) < dead) {
-        return {Severity::error, fmt::format("{}: the current does not follow the motion: is it connected?", name),
+        return {Severity::error,
+                fmt::format("{}: the current does not follow the motion: is it connected, and to this axis?", name),
                 fmt::format("{}_current_A", name)};
     }
     const std::string what = fmt::format("{}: the friction in air is {:.3g} times that of the file", name, seen.scale);
@@ -251,6 +259,17 @@ std::optional<Finding> check_magnitude(std::span<const MotionWindow> windows,
     return std::nullopt;
 }
 
+/// A constant current passes for friction then.
+Findings one_direction_only(std::size_t axis, const FrictionOfAxis& friction) {
+    if (friction.has_both_directions()) {
+        return {};
+    }
+    return {{Severity::note,
+             fmt::format("{}: in air it moves in one direction only: friction and a constant current look alike",
+                         axis_name(axis)),
+             key_of_axis(axis, "K_x3_A")}};
+}
+
 }  // namespace
 
 Findings check_axis_currents(std::span<const MotionWindow> windows, const firmware::MachineParameters<float>& machine,
@@ -270,10 +289,12 @@ Findings check_axis_currents(std::span<const MotionWindow> windows, const firmwa
         if (!friction) {
             findings.push_back(
                 {Severity::note,
-                 fmt::format("{}: no steady motion in air: its friction is not compared", axis_name(axis)),
+                 fmt::format("{}: no steady motion in air, or no friction in the file: they are not compared",
+                             axis_name(axis)),
                  key_of_axis(axis, "K_x3_A")});
         } else if (friction->explains(*friction->seen(), 1.0)) {
             shared.add(axis, friction->seen()->scale);
+            append(findings, one_direction_only(axis, *friction));
         } else {
             findings.push_back(wrong_friction(windows, machine, axis, *friction));
         }

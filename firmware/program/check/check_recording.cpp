@@ -10,10 +10,12 @@
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
+#include "firmware/usable_signals.hpp"
 #include "recording/recording.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -23,6 +25,22 @@ namespace {
 
 bool has(const hal::DriveSample& sample, hal::Present quantity) {
     return (sample.present & hal::mask(quantity)) != 0;
+}
+
+/// The sample without what the controller does not use either: what is not finite, or faster than any axis.
+hal::DriveSample usable_sample(const hal::DriveSample& sample) {
+    hal::DriveSample usable = firmware::usable_drives_of(sample);
+    if (has(sample, hal::Present::spindle_count)) {
+        usable.spindle_count = sample.spindle_count;
+        usable.spindle_index_count = sample.spindle_index_count;
+        usable.spindle_index_number = sample.spindle_index_number;
+        hal::set_present(usable, hal::Present::spindle_count);
+    }
+    if (has(sample, hal::Present::force_sensor) && std::isfinite(sample.force_N[0])) {
+        usable.force_N = sample.force_N;
+        hal::set_present(usable, hal::Present::force_sensor);
+    }
+    return usable;
 }
 
 /// An angle in degrees makes all that is worked out from it wrong, and is looked for first.
@@ -57,14 +75,15 @@ void RecordingCheck::Channel::add(bool is_present, float value) {
     }
 }
 
-void RecordingCheck::add(double time_s, const hal::DriveSample& sample, bool is_rapid) {
-    windows_.add(time_s, sample, is_rapid);
-    encoder_.add(sample);
-    channels_[0].add(has(sample, hal::Present::spindle_current), sample.spindle_current_A);
+void RecordingCheck::add(double time_s, const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    const hal::DriveSample usable = usable_sample(sample);
+    windows_.add(time_s, usable, program);
+    encoder_.add(usable);
+    channels_[0].add(has(usable, hal::Present::spindle_current), usable.spindle_current_A);
     for (std::size_t k = 0; k < hal::axis_count; ++k) {
-        channels_.at(k + 1).add((sample.present & hal::axis_mask(k)) != 0, sample.axis_current_A.at(k));
+        channels_.at(k + 1).add((usable.present & hal::axis_mask(k)) != 0, usable.axis_current_A.at(k));
     }
-    add_to_spectrum(time_s, sample);
+    add_to_spectrum(time_s, usable);
 }
 
 void RecordingCheck::add_to_spectrum(double time_s, const hal::DriveSample& sample) {
@@ -92,8 +111,12 @@ Findings RecordingCheck::findings(const std::string& name) const {
         axes_stand.at(k) = channels_.at(k + 1).stands();
     }
     Findings findings = check_motion(name, windows, parameters_);
+    const bool is_motion_wrong = is_something_wrong(findings);
     append(findings, encoder_.findings(has_index_));
     append(findings, check_spindle_current(windows, parameters_.machine, channels_[0].stands()));
+    if (is_motion_wrong) {  // in another unit: nothing of what is worked out from it would help
+        return findings;
+    }
     append(findings, check_axis_currents(windows, parameters_.machine, axes_stand));
     append(findings, check_teeth({blocks_.blocks(), encoder_.is_proven(has_index_)}, windows, parameters_.tool));
     return findings;
@@ -108,7 +131,7 @@ Findings check_recording(const std::filesystem::path& recording, const firmware:
     Progress progress("reading " + recording.string());
     while (reader.next()) {
         progress.update(reader.fraction_read());
-        check.add(reader.time_s(), reader.sample(), reader.program().rapid);
+        check.add(reader.time_s(), reader.sample(), reader.program());
     }
     return check.findings(recording.string());
 }

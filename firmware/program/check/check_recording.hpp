@@ -21,7 +21,7 @@ class RecordingCheck {
     /// `has_index`: index pulses are recorded.
     RecordingCheck(const firmware::Parameters<float>& parameters, bool has_index);
 
-    void add(double time_s, const hal::DriveSample& sample, bool is_rapid);
+    void add(double time_s, const hal::DriveSample& sample, const hal::ProgramStatus& program);
 
     /// After the last sample. `name` of the recording, for messages.
     [[nodiscard]] Findings findings(const std::string& name) const;

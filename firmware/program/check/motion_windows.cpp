@@ -70,7 +70,7 @@ void MotionWindows::begin(double time_s) {
     first_half_rev_ = first_half_s_ = 0.0;
 }
 
-void MotionWindows::add(double time_s, const hal::DriveSample& sample, bool is_rapid) {
+void MotionWindows::add(double time_s, const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     const bool has_count = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
     if (!has_last_ || !has_count || time_s - last_s_ > largest_gap_s) {
         begin(time_s);
@@ -84,7 +84,9 @@ void MotionWindows::add(double time_s, const hal::DriveSample& sample, bool is_r
     window_.has_spindle_current =
         window_.has_spindle_current && (sample.present & hal::mask(hal::Present::spindle_current)) != 0;
     window_.spindle_current_A += static_cast<double>(sample.spindle_current_A);
-    window_.is_rapid = (window_.samples == 1 || window_.is_rapid) && is_rapid;
+    window_.is_rapid = (window_.samples == 1 || window_.is_rapid) && program.rapid;
+    window_.programmed_feed_mm_s =
+        std::max(window_.programmed_feed_mm_s, static_cast<double>(program.programmed_feed_mm_s));
     add_axes(sample);
     if (first_half_s_ == 0.0 && time_s - window_.start_s >= 0.5 * window_s) {
         first_half_rev_ = window_.turned_rev;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/drive_sample.hpp"
+#include "hal/feed_override.hpp"
 
 #include <array>
 #include <cstddef>
@@ -37,6 +38,7 @@ struct MotionWindow {
     double spindle_current_A = 0.0;
     std::array<AxisWindow, hal::axis_count> axes{};
     bool is_rapid = false;
+    double programmed_feed_mm_s = 0.0;  ///< the largest of the window; 0: not known
     ToolPlace place = ToolPlace::unknown;
 
     [[nodiscard]] double end_s() const { return start_s + duration_s; }
@@ -54,7 +56,7 @@ class MotionWindows {
   public:
     explicit MotionWindows(std::uint32_t encoder_counts_per_rev);
 
-    void add(double time_s, const hal::DriveSample& sample, bool is_rapid);
+    void add(double time_s, const hal::DriveSample& sample, const hal::ProgramStatus& program);
     /// The windows that were filled; the rest at the end is left out.
     [[nodiscard]] const std::vector<MotionWindow>& windows() const { return windows_; }
 

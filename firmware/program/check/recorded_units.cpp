@@ -16,11 +16,14 @@ namespace millforce::host {
 
 namespace {
 
+bool is_feed_move(const MotionWindow& window) {
+    return window.moves() && window.turns() && !window.is_rapid;
+}
+
 /// The feed move with the median speed.
 std::optional<MotionWindow> median_feed_move(std::span<const MotionWindow> windows) {
     std::vector<MotionWindow> feeds;
-    std::copy_if(windows.begin(), windows.end(), std::back_inserter(feeds),
-                 [](const MotionWindow& window) { return window.moves() && window.turns() && !window.is_rapid; });
+    std::copy_if(windows.begin(), windows.end(), std::back_inserter(feeds), is_feed_move);
     if (feeds.empty()) {
         return std::nullopt;
     }
@@ -37,8 +40,8 @@ std::size_t fastest_axis(const MotionWindow& window) {
     return static_cast<std::size_t>(fastest - window.axes.begin());
 }
 
-Findings check_cut(const std::string& name, const MotionWindow& window, const firmware::ToolParameters<float>& tool) {
-    const std::string column = fmt::format("{}_velocity_mm_s", drive_names.at(fastest_axis(window) + 1));
+Findings check_cut(const std::string& name, const MotionWindow& window, const std::string& column,
+                   const firmware::ToolParameters<float>& tool) {
     const double teeth_per_s = tool.teeth * window.turned_rev / window.duration_s;
     const CutKinematics cut{static_cast<double>(tool.diameter_mm), window.speed_mm_s(),
                             window.speed_mm_s() / teeth_per_s, window.spindle_rad_s()};
@@ -46,6 +49,43 @@ Findings check_cut(const std::string& name, const MotionWindow& window, const fi
         refuse_implausible_cut(name, cut, column, "spindle_angle_rad");
     } catch (const InputError& refusal) {
         return {{Severity::error, refusal.what(), column}};
+    }
+    return {};
+}
+
+/// The recorded feed over F; 0 where F is not recorded.
+double median_ratio_to_program(std::span<const MotionWindow> windows) {
+    std::vector<double> ratios;
+    for (const MotionWindow& window : windows) {
+        if (is_feed_move(window) && window.programmed_feed_mm_s > 0.0) {
+            ratios.push_back(window.speed_mm_s() / window.programmed_feed_mm_s);
+        }
+    }
+    if (ratios.empty()) {
+        return 0.0;
+    }
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
+}
+
+Findings check_program(std::span<const MotionWindow> windows, const std::string& velocity_column,
+                       const firmware::CncParameters<float>& cnc) {
+    constexpr double margin = 1.5;
+    constexpr double slowest = 0.05;
+    const double ratio = median_ratio_to_program(windows);
+    if (ratio > margin * static_cast<double>(cnc.override_max)) {
+        return {
+            {Severity::error,
+             fmt::format("the feed is {:.3g} times the programmed one, expected at most override_max = {:g}; is the "
+                         "velocity in mm/min?",
+                         ratio, cnc.override_max),
+             velocity_column}};
+    }
+    if (ratio > 0.0 && ratio < std::min(slowest, 0.5 * static_cast<double>(cnc.override_min))) {
+        return {{Severity::error,
+                 fmt::format("the feed is {:.3g} times the programmed one; is programmed_feed_mm_s in mm/min?", ratio),
+                 "programmed_feed_mm_s"}};
     }
     return {};
 }
@@ -94,7 +134,9 @@ Findings check_motion(const std::string& name, std::span<const MotionWindow> win
             {Severity::note, "no feed with the spindle turning: the feed is not judged", "x_velocity_mm_s"});
         return findings;
     }
-    append(findings, check_cut(name, *feed, parameters.tool));
+    const std::string column = fmt::format("{}_velocity_mm_s", drive_names.at(fastest_axis(*feed) + 1));
+    Findings of_feed = check_cut(name, *feed, column, parameters.tool);
+    append(findings, of_feed.empty() ? check_program(windows, column, parameters.machine.cnc) : std::move(of_feed));
     append(findings, check_floors(*feed, parameters.machine));
     return findings;
 }

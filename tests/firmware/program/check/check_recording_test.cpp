@@ -4,6 +4,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <utility>
@@ -185,6 +186,31 @@ TEST(RecordingCheck, finds_velocities_in_mm_per_min) {
     check_says(lines_for(wrong, parameters), "is it in mm/min? [x_velocity_mm_s]");
 }
 
+TEST(RecordingCheck, finds_velocities_in_mm_per_min_of_a_slow_feed_by_the_programmed_one) {
+    parameters.tool.diameter_mm = 100.0F;  // takes any of these chips
+    const auto wrong = changed(right, [](hal::DriveSample& drives) {
+        for (float& velocity : drives.axis_velocity_mm_s) {
+            velocity *= 10.0F;
+        }
+    });
+    check_says(lines_for(wrong, parameters), "times the programmed one, expected at most override_max = 2");
+}
+
+TEST(RecordingCheck, finds_a_programmed_feed_in_mm_per_min) {
+    const auto wrong = changed(right, [](hal::DriveSample& drives) {
+        for (float& velocity : drives.axis_velocity_mm_s) {
+            velocity /= 60.0F;
+        }
+    });
+    parameters.machine.axes[0].velocity_floor_mm_s = 0.1F;
+    check_says(lines_for(wrong, parameters), "[programmed_feed_mm_s]");
+}
+
+TEST(RecordingCheck, finds_a_feed_below_the_velocity_floor) {
+    parameters.machine.axes[0].velocity_floor_mm_s = 60.0F;
+    check_says(lines_for(right, parameters), "warning: x: no force below 60 mm/s, and the feed of the recording is");
+}
+
 TEST(RecordingCheck, finds_wrong_counts_per_revolution_by_the_index_pulses) {
     for (const double factor : {0.5, 2.0, 1.25}) {
         const std::string lines = lines_for(with_counts_times(right, factor), parameters);
@@ -269,6 +295,17 @@ TEST(RecordingCheck, finds_an_angle_in_degrees) {
     }
     const std::string lines = lines_of(check_recording(folder.write("degrees.csv", csv.str()), parameters));
     check_says(lines, "is it in degrees? [spindle_angle_rad]");
+}
+
+TEST(RecordingCheck, survives_values_of_any_size) {
+    int k = 0;
+    const auto absurd = changed(right, [&k](hal::DriveSample& drives) {
+        const float value = ++k % 3 == 0 ? 3e38F : k % 3 == 1 ? -3e38F : std::numeric_limits<float>::infinity();
+        drives.spindle_current_A = drives.axis_current_A[0] = drives.axis_velocity_mm_s[1] = value;
+        drives.spindle_count = drives.spindle_index_count = static_cast<std::uint32_t>(k) * 2654435761U;
+        drives.spindle_index_number = static_cast<std::uint8_t>(k % 255 + 1);
+    });
+    check_says(lines_for(absurd, parameters), "error: spindle: ");
 }
 
 TEST(RecordingCheck, judges_nothing_in_a_recording_that_is_too_short) {

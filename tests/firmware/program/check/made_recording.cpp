@@ -122,8 +122,9 @@ std::string lines_of(const host::Findings& findings) {
 
 std::string lines_for(const MadeRecording& recording, const firmware::Parameters<float>& parameters, bool has_index) {
     host::RecordingCheck check(parameters, has_index);
+    const hal::ProgramStatus program{.programmed_feed_mm_s = 20.0F};
     for (const RecordedSample& sample : recording) {
-        check.add(sample.time_s, sample.drives, false);
+        check.add(sample.time_s, sample.drives, program);
     }
     return lines_of(check.findings("cut.csv"));
 }
