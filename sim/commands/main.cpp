@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
     sim::add_plant(program);
     host::add_parameters(program);
     host::add_import(program);
+    host::add_check(program);
     return line.run(argc, argv);
 }
 

@@ -11,13 +11,17 @@
 
 namespace millforce::host {
 
+double largest_feed_per_tooth_mm(double tool_diameter_mm) {
+    constexpr double largest_mm = 1.5;
+    constexpr double largest_per_diameter = 0.06;
+    return std::min(largest_mm, largest_per_diameter * tool_diameter_mm);
+}
+
 void refuse_implausible_cut(const std::string& place, const CutKinematics& cut, std::string_view feed_column,
                             std::string_view speed_column) {
-    constexpr double largest_feed_mm = 1.5;
-    constexpr double largest_feed_per_diameter = 0.06;
     constexpr double largest_cutting_speed_m_s = 120.0;
     constexpr double rpm = 30.0 / std::numbers::pi;  // in 1 rad/s
-    const double limit_mm = std::min(largest_feed_mm, largest_feed_per_diameter * cut.tool_diameter_mm);
+    const double limit_mm = largest_feed_per_tooth_mm(cut.tool_diameter_mm);
     if (cut.feed_per_tooth_mm > limit_mm) {
         throw InputError(
             fmt::format("{}: column '{}': {:.4g} mm/s is a chip of {:.3g} mm on a tool of Ø{:g} mm; expected at "
@@ -36,8 +40,6 @@ void refuse_implausible_cut(const std::string& place, const CutKinematics& cut, 
 
 void refuse_implausible_pressure(const std::string& file, const std::vector<CutRow>& cuts, estimation::CutSide side,
                                  std::string_view hint) {
-    constexpr double softest_N_per_mm2 = 10.0;
-    constexpr double hardest_N_per_mm2 = 15000.0;
     std::vector<double> pressures;
     for (const CutRow& row : cuts) {
         const auto measured = row.measurement(side);

@@ -13,5 +13,6 @@ void add_calibrate(Command& program);
 void add_estimate(Command& program);
 void add_parameters(Command& program);
 void add_import(Command& program);
+void add_check(Command& program);
 
 }  // namespace millforce::host

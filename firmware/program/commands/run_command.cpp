@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "check/check_parameters.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "daemon/can_daemon.hpp"
@@ -73,6 +74,7 @@ int run_on_bus(const RunOptions& options) {
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     const MachineBus bus = bus_of(options.machine);
     tell_parameter_notes(tools.parameters());
+    tell_parameter_findings(tools.parameters());
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(

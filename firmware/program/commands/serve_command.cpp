@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "check/check_parameters.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "control/cut_state.hpp"
@@ -129,6 +130,7 @@ int serve(const ServeOptions& options) {
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
     tell_parameter_notes(parameters);
+    tell_parameter_findings(parameters);
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);

@@ -69,6 +69,8 @@ class RecordingReader {
     [[nodiscard]] std::uint32_t tool() const { return tool_number_; }
     [[nodiscard]] double time_s() const { return time_s_; }
     [[nodiscard]] bool has_force_sensor() const { return fx_ && fy_; }
+    /// Whether index pulses are recorded; else the angle's zero stands for them.
+    [[nodiscard]] bool has_index() const { return index_angle_.has_value(); }
     [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
     [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/check_recording.hpp"
+
+#include "calibration/plausible_units.hpp"
+#include "check/air.hpp"
+#include "check/axis_friction.hpp"
+#include "check/recorded_units.hpp"
+#include "check/spindle_idle.hpp"
+#include "check/tooth_lines.hpp"
+#include "files/csv.hpp"
+#include "files/input_error.hpp"
+#include "files/progress.hpp"
+#include "firmware/usable_signals.hpp"
+#include "recording/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace millforce::host {
+
+namespace {
+
+bool has(const hal::DriveSample& sample, hal::Present quantity) {
+    return (sample.present & hal::mask(quantity)) != 0;
+}
+
+/// The sample without what the controller does not use either: what is not finite, or faster than any axis.
+hal::DriveSample usable_sample(const hal::DriveSample& sample) {
+    hal::DriveSample usable = firmware::usable_drives_of(sample);
+    if (has(sample, hal::Present::spindle_count)) {
+        usable.spindle_count = sample.spindle_count;
+        usable.spindle_index_count = sample.spindle_index_count;
+        usable.spindle_index_number = sample.spindle_index_number;
+        hal::set_present(usable, hal::Present::spindle_count);
+    }
+    if (has(sample, hal::Present::force_sensor) && std::isfinite(sample.force_N[0])) {
+        usable.force_N = sample.force_N;
+        hal::set_present(usable, hal::Present::force_sensor);
+    }
+    return usable;
+}
+
+/// An angle in degrees makes all that is worked out from it wrong, and is looked for first.
+std::optional<Finding> angle_in_degrees(const std::filesystem::path& recording) {
+    CsvReader csv(recording);
+    const CsvColumn angle = csv.require("spindle_angle_rad");
+    AngleUnit unit;
+    while (csv.next_row()) {
+        const double value = csv.number(angle);
+        try {
+            unit.look_at(csv, angle, value);
+        } catch (const InputError& refusal) {
+            return Finding{Severity::error, refusal.what(), "spindle_angle_rad"};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+RecordingCheck::RecordingCheck(const firmware::Parameters<float>& parameters, bool has_index)
+    : parameters_(parameters),
+      has_index_(has_index),
+      windows_(parameters.machine.encoder_counts_per_rev),
+      encoder_(parameters.machine.encoder_counts_per_rev) {}
+
+void RecordingCheck::Channel::add(bool is_present, float value) {
+    if (is_present) {
+        changed_ = changed_ || (samples_ > 0 && value != first_);
+        first_ = samples_ == 0 ? value : first_;
+        ++samples_;
+    }
+}
+
+void RecordingCheck::add(double time_s, const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    const hal::DriveSample usable = usable_sample(sample);
+    windows_.add(time_s, usable, program);
+    encoder_.add(usable);
+    channels_[0].add(has(usable, hal::Present::spindle_current), usable.spindle_current_A);
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        channels_.at(k + 1).add((usable.present & hal::axis_mask(k)) != 0, usable.axis_current_A.at(k));
+    }
+    add_to_spectrum(time_s, usable);
+}
+
+void RecordingCheck::add_to_spectrum(double time_s, const hal::DriveSample& sample) {
+    const bool has_force = has(sample, hal::Present::force_sensor);
+    if (!has(sample, hal::Present::spindle_count) || !(has_force || has(sample, hal::Present::spindle_current))) {
+        last_count_.reset();
+        return;
+    }
+    // A first sample turns by more than any may: a new block begins.
+    const double turned_rev = last_count_ ? static_cast<std::int32_t>(sample.spindle_count - *last_count_) /
+                                                static_cast<double>(parameters_.machine.encoder_counts_per_rev)
+                                          : 1.0;
+    last_count_ = sample.spindle_count;
+    blocks_.add(time_s, turned_rev, static_cast<double>(has_force ? sample.force_N[0] : sample.spindle_current_A));
+}
+
+Findings RecordingCheck::findings(const std::string& name) const {
+    std::vector<MotionWindow> windows = windows_.windows();
+    if (windows.empty()) {
+        return {{Severity::note, "too short, or too few samples per second, to judge anything", "time_s"}};
+    }
+    find_air(windows, parameters_, !channels_[0].stands());
+    std::array<bool, hal::axis_count> axes_stand{};
+    for (std::size_t k = 0; k < axes_stand.size(); ++k) {
+        axes_stand.at(k) = channels_.at(k + 1).stands();
+    }
+    Findings findings = check_motion(name, windows, parameters_);
+    const bool is_motion_wrong = is_something_wrong(findings);
+    append(findings, encoder_.findings(has_index_));
+    append(findings, check_spindle_current(windows, parameters_.machine, channels_[0].stands()));
+    if (is_motion_wrong) {  // in another unit: nothing of what is worked out from it would help
+        return findings;
+    }
+    append(findings, check_axis_currents(windows, parameters_.machine, axes_stand));
+    append(findings, check_teeth({blocks_.blocks(), encoder_.is_proven(has_index_)}, windows, parameters_.tool));
+    return findings;
+}
+
+Findings check_recording(const std::filesystem::path& recording, const firmware::Parameters<float>& parameters) {
+    if (const auto degrees = angle_in_degrees(recording)) {
+        return {*degrees};
+    }
+    RecordingReader reader(recording, parameters.machine.encoder_counts_per_rev);
+    RecordingCheck check(parameters, reader.has_index());
+    Progress progress("reading " + recording.string());
+    while (reader.next()) {
+        progress.update(reader.fraction_read());
+        check.add(reader.time_s(), reader.sample(), reader.program());
+    }
+    return check.findings(recording.string());
+}
+
+}  // namespace millforce::host
