@@ -29,6 +29,7 @@ pin in bit enable "The controller must be there, e.g. spindle.0.on";
 pin in bit reset "Its rising edge clears a latched fault if enable is false or the controller is healthy";
 pin in float requested_velocity "motion.requested-vel, to find out that the override is not obeyed (M52 missing); not wired: not checked";
 pin in float current_velocity "motion.current-vel, for that check and for machine-ok";
+pin in float mm_per_unit=1.0 "millimetres per machine unit, of the two velocities: millforce.mm-per-unit";
 pin out float out "To motion.adaptive-feed";
 pin out bit feed_inhibit "To motion.feed-inhibit";
 pin out bit machine_ok=1 "For the emergency-stop chain: false if the machine keeps moving after a stop was demanded; true again when it is at rest with enable false";
@@ -50,7 +51,7 @@ variable int was_reset;
 variable int was_held;
 variable real_t age_s;
 variable real_t disobeyed_s;
-variable real_t slowest;
+variable real_t slowest_mm_s;
 variable real_t moving_s;
 variable real_t last_out=1.0;
 function _ fp "Before motion-controller, so that the override acts in the same cycle";
@@ -60,12 +61,15 @@ author "The millforce authors";
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 enum { NONE, NEVER_HEARD, HEARTBEAT, NOT_A_NUMBER, NEGATIVE, NOT_OBEYED };
 
+static const double at_rest_mm_s = 0.01;
+
 static int is_number(double value) { return value - value == 0.0; }
 
 FUNCTION(_) {
     const double dt_s = fperiod;
     const double asked = override;  /* read once: another processor may write it meanwhile */
     const rtapi_u32 beat = heartbeat;
+    const double speed_mm_s = current_velocity * mm_per_unit, feed_mm_s = requested_velocity * mm_per_unit;
     int alive, sound, began_anew = 0, why = NONE, stopping;
     double target;
 
@@ -91,9 +95,9 @@ FUNCTION(_) {
         why = is_number(asked) ? NEGATIVE : NOT_A_NUMBER;
     }
     /* Without M52 P1 the machine runs as programmed, whatever the pin says; with it, it slows down. */
-    if (enable && requested_velocity > 0.0 && current_velocity > requested_velocity * last_out * 1.02 + 0.02) {
-        if (disobeyed_s == 0.0 || current_velocity < 0.98 * slowest) {
-            slowest = current_velocity;
+    if (enable && feed_mm_s > 0.0 && speed_mm_s > feed_mm_s * last_out * 1.02 + 0.02) {
+        if (disobeyed_s == 0.0 || speed_mm_s < 0.98 * slowest_mm_s) {
+            slowest_mm_s = speed_mm_s;
             disobeyed_s = 0.0;
         }
         disobeyed_s += dt_s;
@@ -125,11 +129,11 @@ FUNCTION(_) {
     out = target;
     feed_inhibit = stopping;
 
-    if (stopping && current_velocity > 0.01) {
+    if (stopping && speed_mm_s > at_rest_mm_s) {
         moving_s += dt_s;
         if (moving_s > stop_time) machine_ok = 0;
     } else {
         moving_s = 0.0;
-        if (!enable && current_velocity <= 0.01) machine_ok = 1;
+        if (!enable && speed_mm_s <= at_rest_mm_s) machine_ok = 1;
     }
 }

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <strings.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <time.h>
@@ -66,6 +67,7 @@ struct Pins {
     hal_bit_t* depth_valid;
     hal_bit_t* tool_unknown;
     hal_u32_t* dropped;
+    hal_float_t* mm_per_unit;
 };
 
 int export_pins(Pins& p, int component) {
@@ -85,7 +87,8 @@ int export_pins(Pins& p, int component) {
                        bit(&p.force_valid, "tooth-force-valid") | f32(&p.immersion, "immersion") |
                        f32(&p.immersion_sd, "immersion-sd") | bit(&p.immersion_valid, "immersion-valid") |
                        f32(&p.depth, "depth") | f32(&p.depth_sd, "depth-sd") | bit(&p.depth_valid, "depth-valid") |
-                       bit(&p.tool_unknown, "tool-unknown") | u32(&p.dropped, "dropped");
+                       bit(&p.tool_unknown, "tool-unknown") | u32(&p.dropped, "dropped") |
+                       f32(&p.mm_per_unit, "mm-per-unit");
     if (failed == 0) {
         *p.hold = true;
     }
@@ -245,6 +248,21 @@ class Bridge {
     std::uint64_t next_connect_us_ = 0;
 };
 
+/// By [TRAJ]LINEAR_UNITS of the INI file, in the words that LinuxCNC takes; 0: another word.
+real_t mm_per_unit_of(const char* linear_units) {
+    for (const char* word : {"mm", "metric"}) {
+        if (strcasecmp(linear_units, word) == 0) {
+            return 1.0;
+        }
+    }
+    for (const char* word : {"inch", "in", "imperial"}) {
+        if (strcasecmp(linear_units, word) == 0) {
+            return 25.4;
+        }
+    }
+    return 0.0;
+}
+
 bool set_address(const char* path, sockaddr_un& address) {
     address.sun_family = AF_UNIX;
     const std::size_t length = strlen(path);
@@ -255,12 +273,13 @@ bool set_address(const char* path, sockaddr_un& address) {
     return true;
 }
 
-int run(int component, const sockaddr_un& address) {
+int run(int component, const sockaddr_un& address, real_t mm_per_unit) {
     auto* pins = static_cast<Pins*>(hal_malloc(sizeof(Pins)));
     if (pins == nullptr || export_pins(*pins, component) != 0) {
         fprintf(stderr, "millforce-hal: no memory for HAL pins\n");
         return 1;
     }
+    *pins->mm_per_unit = mm_per_unit;
     hal_stream_t stream{};
     if (hal_stream_attach(&stream, component, MILLFORCE_STREAM_KEY, MILLFORCE_STREAM_TYPES) < 0) {
         fprintf(stderr, "millforce-hal: no samples: load millforce_sample first ('loadrt millforce_sample')\n");
@@ -281,9 +300,16 @@ int run(int component, const sockaddr_un& address) {
 
 int main(int argc, char** argv) {
     sockaddr_un address{};
-    if (argc != 2 || !set_address(argv[1], address)) {
-        fprintf(stderr, "usage: millforce-hal SOCKET    the socket of 'millforce serve', at most %zu characters\n",
+    if (argc != 3 || !set_address(argv[1], address)) {
+        fprintf(stderr,
+                "usage: millforce-hal SOCKET UNITS    the socket of 'millforce serve', at most %zu characters, and "
+                "[TRAJ]LINEAR_UNITS\n",
                 sizeof address.sun_path - 1);
+        return 2;
+    }
+    const real_t mm_per_unit = mm_per_unit_of(argv[2]);
+    if (mm_per_unit == 0.0) {
+        fprintf(stderr, "millforce-hal: [TRAJ]LINEAR_UNITS = %s: expected mm or inch\n", argv[2]);
         return 2;
     }
     struct sigaction action {};
@@ -295,7 +321,7 @@ int main(int argc, char** argv) {
         fprintf(stderr, "millforce-hal: no HAL: is LinuxCNC running, and no other millforce-hal?\n");
         return 1;
     }
-    const int result = run(component, address);
+    const int result = run(component, address, mm_per_unit);
     hal_exit(component);
     return result;
 }

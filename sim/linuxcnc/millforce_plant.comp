@@ -6,11 +6,12 @@ it also waits until the controller has answered the sample of the last cycle; th
 computer is. A controller that does not answer within
 .B patience
 is waited for no longer until it answers again.""";
-pin in float position_cmd#[3] "mm, joint.N.motor-pos-cmd";
+pin in float mm_per_unit=1.0 "millimetres per machine unit, in which positions and velocities are";
+pin in float position_cmd#[3] "Machine units, joint.N.motor-pos-cmd";
 pin in s32 motion_type;
 pin in bit spindle_on;
 pin in float spindle_rps "spindle.0.speed-out-rps";
-pin in float requested_velocity "mm/s, F of the block in work";
+pin in float requested_velocity "Machine units/s, F of the block in work";
 pin in float override "What stands at motion.adaptive-feed";
 pin in unsigned state "Of the controller; this and the next ones are for the record";
 pin in unsigned limit;
@@ -28,8 +29,8 @@ pin in bit depth_valid;
 pin in unsigned sample_cycle "millforce-sample.cycle";
 pin in unsigned answered "millforce.answered";
 pin in bit connected "millforce.connected";
-pin out float position_fb#[3] "mm";
-pin out float velocity#[3] "mm/s";
+pin out float position_fb#[3] "Machine units";
+pin out float velocity#[3] "Machine units/s";
 pin out float current#[3] "A rms";
 pin out float spindle_current "A rms";
 pin out s32 spindle_count;
@@ -144,9 +145,9 @@ FUNCTION(_) {
     command.has_depth = depth_valid;
     command.has_tooth_force = tooth_force_valid;
     command.period_s = fperiod;
-    for (k = 0; k < MILLFORCE_PLANT_AXES; ++k) command.position_mm[k] = position_cmd(k);
+    for (k = 0; k < MILLFORCE_PLANT_AXES; ++k) command.position_mm[k] = position_cmd(k) * mm_per_unit;
     command.spindle_rev_s = spindle_rps;
-    command.feed_mm_s = requested_velocity;
+    command.feed_mm_s = requested_velocity * mm_per_unit;
     command.override_ratio = override;
     command.tangential_N = tangential_force;
     command.feed_N = feed_force;
@@ -158,8 +159,8 @@ FUNCTION(_) {
     alive = exchange(&command, &reply);
     if (!alive) return;
     for (k = 0; k < MILLFORCE_PLANT_AXES; ++k) {
-        position_fb(k) = reply.position_mm[k];
-        velocity(k) = reply.velocity_mm_s[k];
+        position_fb(k) = reply.position_mm[k] / mm_per_unit;
+        velocity(k) = reply.velocity_mm_s[k] / mm_per_unit;
         current(k) = reply.current_A[k];
     }
     spindle_current = reply.spindle_current_A;

@@ -14,6 +14,8 @@ from drive import Drive
 
 PREAMBLE = {"m52_missing": "M52 P0", "m51_p0": "M52 P1\nM51 P0", "m52_and_m51_missing": "M52 P0\nM51 P0"}
 INJECTED = {"nan": "nan", "infinite": "inf", "negative": "-0.5", "zero": "0", "above_one": "5", "thread": "0.07"}
+# What hangs, so that the readings of the spindle's current stand still.
+HANGS = {"hy_vfd_hangs": "millforce-slow-drive.0.hangs", "mb2hal_hangs": "modbus-slave.hangs"}
 # A spindle with the position that G33 wants.
 THREADING = """loadrt sim_spindle names=thread-spindle
 addf thread-spindle servo-thread
@@ -100,6 +102,8 @@ def act(case):
         set_patience(0.2)
     if case in INJECTED:
         inject(INJECTED[case])
+    elif case in HANGS:
+        halcmd("setp", HANGS[case], "1")
     elif case in ("client_killed", "m51_p0"):
         os.kill(client(), signal.SIGKILL)
     elif case == "fall_back":

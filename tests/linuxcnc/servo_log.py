@@ -29,6 +29,12 @@ class Cycle(NamedTuple):
         return self.motion == FEED_MOTION
 
 
+def in_mm(cycles, mm_per_unit):
+    """The log of a machine in other units than millimetres."""
+    return [c._replace(speed=c.speed * mm_per_unit, requested=c.requested * mm_per_unit, x=c.x * mm_per_unit, y=c.y * mm_per_unit,
+                       z=c.z * mm_per_unit) for c in cycles]
+
+
 class Answer(NamedTuple):
     """answers.txt: what stood on the pins once the controller had answered all samples so far."""
     number: int
