@@ -121,10 +121,9 @@ Findings check_current_in_air(std::vector<MotionWindow> air, const firmware::Mac
 
 /// Half of the windows or more would be cuts that push the spindle.
 Findings check_sign(const std::vector<MotionWindow>& turning, const firmware::MachineParameters<float>& machine) {
-    std::vector<double> torques;
-    for (const MotionWindow& window : turning) {
-        torques.push_back(torque_beyond_idle_Nm(machine.spindle, window));
-    }
+    std::vector<double> torques(turning.size());
+    std::transform(turning.begin(), turning.end(), torques.begin(),
+                   [&](const MotionWindow& window) { return torque_beyond_idle_Nm(machine.spindle, window); });
     const MotionWindow window = typical(turning);
     if (median_of(torques) < 0.0 && !is_plausible_idle(machine.spindle, window)) {
         return {reversed(machine, window, "while it turns")};

@@ -48,10 +48,12 @@ class CutLines {
     }
     /// The line once per revolution is that of the runout, and of no sum.
     [[nodiscard]] double runout() const { return strength(per_order); }
-    [[nodiscard]] double sum_of_multiples(int number) const {
+    /// `but_of`: its multiples are left out; 0: none.
+    [[nodiscard]] double sum_of_multiples(int number, int but_of = 0) const {
         double sum = 0.0;
         for (int order = number == 1 ? 2 : number; order <= highest_order(); order += number) {
-            sum += strength(static_cast<std::size_t>(order) * per_order);
+            const bool is_left_out = but_of > 0 && order % but_of == 0;
+            sum += is_left_out ? 0.0 : strength(static_cast<std::size_t>(order) * per_order);
         }
         return sum;
     }
@@ -72,15 +74,19 @@ class CutLines {
     const OrderSpectrum& air_;
 };
 
-bool contradicts(int number, double sum, int stated, double stated_sum) {
+bool contradicts(const CutLines& lines, int number, int stated) {
+    const double stated_sum = lines.sum_of_multiples(stated) + (stated == 1 ? lines.runout() : 0.0);
+    const double sum = lines.sum_of_multiples(number);
     if (number % stated == 0) {
         constexpr double nearly_all = 0.9;
         return number > stated && stated_sum > 0.0 && sum >= nearly_all * stated_sum;
     }
+    if (stated % number == 0) {
+        const double ratio = static_cast<double>(stated) / number;
+        return stated_sum > 0.0 && sum > (0.65 * ratio + 0.3) * stated_sum;
+    }
     constexpr double clearly_more = 4.0;
-    const double ratio = static_cast<double>(stated) / number;
-    return stated % number == 0 ? stated_sum > 0.0 && sum > (0.65 * ratio + 0.3) * stated_sum
-                                : sum > clearly_more * stated_sum;
+    return lines.sum_of_multiples(number, stated) > clearly_more * lines.sum_of_multiples(stated, number);
 }
 
 /// The largest number whose multiples hold most of what the lines hold.
@@ -119,10 +125,9 @@ Findings compare_lines(const CutLines& lines, int stated, bool counts_are_proven
     if (stated > 1 && lines.runout() > all) {
         return {cannot_tell("the cut repeats once per revolution, by its runout or because a single tooth cuts")};
     }
-    const double stated_sum = lines.sum_of_multiples(stated) + (stated == 1 ? lines.runout() : 0.0);
     bool is_wrong = false;
     for (int number = 2; number <= most_teeth; ++number) {
-        is_wrong = is_wrong || contradicts(number, lines.sum_of_multiples(number), stated, stated_sum);
+        is_wrong = is_wrong || contradicts(lines, number, stated);
     }
     if (!is_wrong) {
         return {};

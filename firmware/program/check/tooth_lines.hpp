@@ -18,7 +18,7 @@ namespace millforce::host {
 ///
 ///   a multiple of N has ≥ 0.9 S_N                   more teeth
 ///   a divisor n = N/q has > (0.65 q + 0.3) S_N      fewer teeth: of a narrow cut n has q S_N, runout adds far less
-///   another number has > 4 S_N
+///   another number has > 4 S_N, without the common multiples of both
 ///
 /// Where the line at 1 is stronger than all others nothing is said: such is a single tooth, but also a slot of a
 /// helical tool, in which the teeth add up to an even torque and only the runout is left. Lines that the air shows as

@@ -249,6 +249,22 @@ TEST(RecordingCheck, finds_a_wrong_number_of_teeth) {
     }
 }
 
+TEST(RecordingCheck, finds_a_wrong_number_of_teeth_by_a_force_sensor_that_sees_many_harmonics) {
+    parameters.machine.cnc.sample_rate_hz = 4000.0F;
+    const auto with_force =
+        changed(made_recording({.rate_hz = 4000.0, .spindle_rpm = 2000.0}), [](hal::DriveSample& drives) {
+            const bool in_cut = drives.time_us > 7'000'000 && drives.time_us < 11'000'000;
+            const bool tooth_cuts = drives.spindle_count % 2048 < 256;  // four teeth, each for 11°
+            drives.force_N = {in_cut && tooth_cuts ? 300.0F : 0.0F, 0.0F};
+            hal::set_present(drives, hal::Present::force_sensor);
+        });
+    STRCMP_EQUAL(nothing_but_the_basis, lines_for(with_force, parameters).c_str());
+    for (const int stated : {2, 3, 6, 8}) {
+        parameters.tool.teeth = static_cast<std::uint8_t>(stated);
+        check_says(lines_for(with_force, parameters), "warning: the cut repeats 4 times per revolution");
+    }
+}
+
 TEST(RecordingCheck, accepts_the_right_number_of_teeth) {
     for (int teeth = 1; teeth <= 5; ++teeth) {
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
