@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -25,12 +27,6 @@ SpindleAverage average_of(const MotionWindow& window) {
     average.samples = static_cast<float>(window.samples);
     average.present = true;
     return average;
-}
-
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// The windows from which the spindle's current is judged.
@@ -104,7 +100,7 @@ Findings check_current_in_air(std::vector<MotionWindow> air, const firmware::Mac
         return {{Severity::error, "spindle: no current while it turns in air: is it connected?", "spindle_current_A"}};
     }
     if (is_plausible_idle(machine.spindle, window)) {
-        const MotionWindow peak = with_spindle_current_times(window, 1.41);
+        const MotionWindow peak = with_spindle_current_times(window, std::numbers::sqrt2);
         if (is_plausible_idle(machine.spindle, peak)) {
             return {{Severity::note,
                      "spindle: whether the current is peak or rms cannot be told: a factor of 1.41 is within the "
@@ -119,19 +115,17 @@ Findings check_current_in_air(std::vector<MotionWindow> air, const firmware::Mac
     return {other_idle(machine, window)};
 }
 
-/// Half of the windows or more would be cuts that push the spindle.
-Findings check_sign(const std::vector<MotionWindow>& turning, const firmware::MachineParameters<float>& machine) {
-    std::vector<double> torques(turning.size());
-    std::transform(turning.begin(), turning.end(), torques.begin(),
-                   [&](const MotionWindow& window) { return torque_beyond_idle_Nm(machine.spindle, window); });
-    const MotionWindow window = typical(turning);
-    if (median_of(torques) < 0.0 && !is_plausible_idle(machine.spindle, window)) {
+/// No cut pushes the spindle: a torque below the idle one is that of a reversed current.
+Findings check_sign(std::vector<MotionWindow> turning, const firmware::MachineParameters<float>& machine) {
+    const MotionWindow window = typical(std::move(turning));
+    const double torque_Nm = torque_beyond_idle_Nm(machine.spindle, window);
+    if (torque_Nm < 0.0 && !is_plausible_idle(machine.spindle, window)) {
         return {reversed(machine, window, "while it turns")};
     }
     return {{Severity::note,
              fmt::format("spindle: no air is known in the recording, in which the idle current could be compared; the "
                          "torque is {:.3g} N·m above the idle one in the median",
-                         median_of(torques)),
+                         torque_Nm),
              "spindle.K_t2_Nm"}};
 }
 
