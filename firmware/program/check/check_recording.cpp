@@ -65,7 +65,9 @@ RecordingCheck::RecordingCheck(const firmware::Parameters<float>& parameters, bo
     : parameters_(parameters),
       has_index_(has_index),
       windows_(parameters.machine.encoder_counts_per_rev),
-      encoder_(parameters.machine.encoder_counts_per_rev) {}
+      encoder_(parameters.machine.encoder_counts_per_rev) {
+    parameters_.machine.spindle = firmware::spindle_parameters(parameters.machine);
+}
 
 void RecordingCheck::Channel::add(bool is_present, float value) {
     if (is_present) {
@@ -88,6 +90,7 @@ void RecordingCheck::add(double time_s, const hal::DriveSample& sample, const ha
 
 void RecordingCheck::add_to_spectrum(double time_s, const hal::DriveSample& sample) {
     const bool has_force = has(sample, hal::Present::force_sensor);
+    has_force_ = has_force_ || has_force;
     if (!has(sample, hal::Present::spindle_count) || !(has_force || has(sample, hal::Present::spindle_current))) {
         last_count_.reset();
         return;
@@ -118,7 +121,9 @@ Findings RecordingCheck::findings(const std::string& name) const {
         return findings;
     }
     append(findings, check_axis_currents(windows, parameters_.machine, axes_stand));
-    append(findings, check_teeth({blocks_.blocks(), encoder_.is_proven(has_index_)}, windows, parameters_.tool));
+    const bool comes_seldom = !has_force_ && parameters_.machine.spindle_load_period_s > 0.0F;
+    append(findings,
+           check_teeth({blocks_.blocks(), encoder_.is_proven(has_index_), comes_seldom}, windows, parameters_.tool));
     return findings;
 }
 

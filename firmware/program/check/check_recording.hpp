@@ -47,6 +47,7 @@ class RecordingCheck {
     EncoderCounts encoder_;
     std::array<Channel, 1 + hal::axis_count> channels_{};
     OrderBlocks blocks_;  ///< of the force sensor's direction x where there is one, else of the spindle's current
+    bool has_force_ = false;
     std::optional<std::uint32_t> last_count_;
 };
 

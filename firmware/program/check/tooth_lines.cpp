@@ -143,6 +143,9 @@ Findings compare_lines(const CutLines& lines, int stated, bool counts_are_proven
 
 Findings check_teeth(const ToothEvidence& evidence, std::span<const MotionWindow> windows,
                      const firmware::ToolParameters<float>& tool) {
+    if (evidence.comes_seldom) {
+        return {cannot_tell("the spindle's current comes too seldom (spindle.load_period_s)")};
+    }
     OrderSpectrum cut;
     OrderSpectrum air;
     double samples_per_rev = 0.0;

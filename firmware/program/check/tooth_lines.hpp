@@ -27,6 +27,7 @@ namespace millforce::host {
 struct ToothEvidence {
     std::span<const OrderBlock> blocks;
     bool counts_are_proven = false;  ///< by index pulses
+    bool comes_seldom = false;       ///< the signal is not sampled as often as it is recorded
 };
 
 Findings check_teeth(const ToothEvidence& evidence, std::span<const MotionWindow> windows,

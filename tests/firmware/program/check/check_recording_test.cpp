@@ -281,6 +281,20 @@ TEST(RecordingCheck, cannot_tell_the_teeth_where_the_samples_are_too_slow) {
                "note: the number of teeth is not compared: 1.3 samples per tooth; it takes 2.5");
 }
 
+TEST(RecordingCheck, takes_a_spindle_current_that_comes_seldom_for_no_more_than_it_is) {
+    parameters.machine.spindle_load_period_s = 0.05F;
+    int k = 0;
+    float held_A = 0.0F;
+    const auto seldom = changed(right, [&](hal::DriveSample& drives) {
+        held_A = k++ % 50 == 0 ? drives.spindle_current_A : held_A;
+        drives.spindle_current_A = held_A;
+    });
+    const std::string lines = lines_for(seldom, parameters);
+    check_says(lines, "note: the number of teeth is not compared: the spindle's current comes too seldom");
+    CHECK_FALSE(contains(lines, "error"));
+    CHECK_FALSE(contains(lines, "warning"));
+}
+
 TEST(RecordingCheck, cannot_tell_one_tooth_that_cuts_from_runout) {
     check_says(lines_for(made_recording({.teeth = 1}), parameters), "by its runout or because a single tooth cuts");
 }
