@@ -17,7 +17,7 @@ constexpr double band = 1.96;
 RunJudge::RunJudge(const Scenario& scenario)
     : limit_N_(static_cast<double>(scenario.parameters.tool.tooth_force_limit_N)),
       break_N_(limit_N_ * static_cast<double>(scenario.parameters.tool.break_share)),
-      override_latency_s_(static_cast<double>(scenario.parameters.machine.cnc.override_latency_s)),
+      latency_s_(static_cast<double>(firmware::reaction_s(scenario.parameters.machine))),
       acceleration_mm_s2_(static_cast<double>(scenario.parameters.machine.cnc.acceleration_mm_s2)),
       teeth_(scenario.cutter.teeth),
       radius_mm_(0.5 * scenario.cutter.diameter_mm) {}
@@ -62,7 +62,7 @@ void RunJudge::observe(double dt_s, const Motion& motion, const CuttingLoad& loa
 void RunJudge::close_revolution(bool cutting) {
     RunFigures& figures = result_.figures;
     revolutions_[revolution_count_++ % revolutions_.size()] = {revolution_s_, section_mm2_};
-    const double reaction_s = override_latency_s_ + motion_.feed_mm_s / acceleration_mm_s2_ + 2.0 * revolution_s_;
+    const double reaction_s = latency_s_ + motion_.feed_mm_s / acceleration_mm_s2_ + 2.0 * revolution_s_;
     figures.reaction_time_s = std::max(figures.reaction_time_s, cutting ? reaction_s : 0.0);
     const bool over = revolution_peak_N_ > limit_N_;
     over_since_s_ = over ? over_since_s_ + revolution_s_ : 0.0;

@@ -45,7 +45,7 @@ class RunJudge {
 
     double limit_N_;
     double break_N_;
-    double override_latency_s_;
+    double latency_s_;  // of the override, and of a load that comes late
     double acceleration_mm_s2_;
     std::size_t teeth_;
     RunResult result_;

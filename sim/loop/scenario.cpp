@@ -152,6 +152,15 @@ void read_force_sensor(Table& root, Scenario& scenario) {
     table.reject_unknown_keys();
 }
 
+void read_load_meter(Table& root, LoadMeterSettings& meter) {
+    Table table = root.table("load_meter");
+    meter.period_s = table.number("period_s", 0.0, 10.0, meter.period_s);
+    meter.age_s = table.number("age_s", 0.0, 10.0, meter.age_s);
+    meter.smoothing_s = table.number("smoothing_s", 0.0, 10.0, meter.smoothing_s);
+    meter.resolution_A = table.number("resolution_A", 1e-6, 100.0, meter.resolution_A);
+    table.reject_unknown_keys();
+}
+
 void read_deviation(Table& root, PlantDeviation& deviation) {
     Table table = root.table("plant");
     deviation.cutting_force_scale = table.number("cutting_force_scale", 0.1, 10.0, 1.0);
@@ -195,6 +204,7 @@ Scenario read_scenario(const std::string& path) {
     read_deviation(root, scenario.deviation);
     read_operation(root, scenario.parameters.tool);
     read_force_sensor(root, scenario);
+    read_load_meter(root, scenario.machine.load_meter);
     const std::string program = root.text("program", "");
     if (program.empty()) {
         read_profile(root, scenario);

@@ -33,6 +33,7 @@ MachinePlant::MachinePlant(const MachinePlantSettings& settings)
       spindle_sensor_(settings.current_channel, settings.spindle.rated_current_A, settings.current_noise_share,
                       settings.seed * 4U),
       axis_sensors_{axis_sensor(settings, 0), axis_sensor(settings, 1), axis_sensor(settings, 2)},
+      load_meter_(settings.load_meter),
       encoder_(settings.encoder_counts_per_rev, settings.index_offset_rad) {}
 
 void MachinePlant::start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s) {
@@ -40,6 +41,7 @@ void MachinePlant::start_at(const Eigen::Vector3d& position_mm, double spindle_s
         axes_[k].start_at(position_mm[static_cast<Eigen::Index>(k)]);
     }
     spindle_.start_at(spindle_speed_rad_s);
+    load_meter_.start_at(spindle_.current_A());
 }
 
 void MachinePlant::advance(double dt_s, const Command& command, const Load& load) {
@@ -49,6 +51,9 @@ void MachinePlant::advance(double dt_s, const Command& command, const Load& load
     }
     spindle_.advance(dt_s, command.spindle_speed_rad_s, load.spindle_torque_Nm);
     encoder_.update(spindle_.angle_rad());
+    if (settings_.load_meter.is_there()) {
+        load_meter_.advance(dt_s, spindle_sensor_.read(spindle_.current_A()));
+    }
     if (settings_.force_sensor.is_there()) {
         advance_force_sensor(dt_s, load.force_on_workpiece_N);
     }
@@ -73,7 +78,8 @@ hal::DriveSample MachinePlant::sample() {
     sample.spindle_count = encoder_.count();
     sample.spindle_index_count = encoder_.index_count();
     sample.spindle_index_number = encoder_.index_number();
-    sample.spindle_current_A = static_cast<float>(spindle_sensor_.read(spindle_.current_A()));
+    sample.spindle_current_A = static_cast<float>(
+        settings_.load_meter.is_there() ? load_meter_.shown_A() : spindle_sensor_.read(spindle_.current_A()));
     const double step = settings_.velocity_resolution_mm_s;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         sample.axis_current_A[k] = static_cast<float>(axis_sensors_[k].read(axes_[k].current_A()));

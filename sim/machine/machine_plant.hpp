@@ -9,6 +9,7 @@
 #include "hal/drive_sample.hpp"
 #include "machine/drive_plant.hpp"
 #include "machine/force_sensor.hpp"
+#include "machine/load_meter.hpp"
 
 namespace millforce::sim {
 
@@ -22,6 +23,7 @@ struct MachinePlantSettings {
     std::uint32_t encoder_counts_per_rev = 8192;
     double index_offset_rad = 1.0;       ///< the index may be anywhere relative to tooth 0
     ForceSensorSettings force_sensor{};  ///< under the workpiece
+    LoadMeterSettings load_meter{};      ///< in place of the spindle's own current
     std::uint64_t seed = 1;
 
     /// A table that weighs 250 kg in x, 320 kg in y, and a head of 180 kg in z that a weight pulls down.
@@ -63,6 +65,7 @@ class MachinePlant {
     std::array<FeedPlant, 3> axes_;
     CurrentSensor spindle_sensor_;
     std::array<CurrentSensor, 3> axis_sensors_;
+    LoadMeter load_meter_;
     EncoderSensor encoder_;
     std::vector<ForceChannel> force_channels_;  ///< x and y; made with the first step, which sets their rate
     double time_s_ = 0.0;

@@ -88,7 +88,7 @@ class FeedAhead {
         Scalar tangential_N{0};     ///< F_at
         Scalar tangential_sd_N{0};
         Scalar mean_feed_mm_s{0};   ///< over the estimate's window
-        Scalar window_mm{0};        ///< way gone in it
+        Scalar window_mm{0};        ///< way gone in it, and since it where the force comes late
         Scalar contact_level_N{0};  ///< from which on the tool counts as in contact
         bool feed_force_valid = false;
         Scalar feed_force_N{0};  ///< F_ax

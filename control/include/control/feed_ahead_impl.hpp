@@ -83,7 +83,7 @@ void FeedAhead<Scalar, Capacity>::drop_passed(Scalar behind_mm) {
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     const Expected expected = expected_around(now);
-    const Scalar travel_mm = since_estimate_mm_;
+    const Scalar travel_mm = since_estimate_mm_ < now.window_mm ? since_estimate_mm_ : now.window_mm;
     const bool is_in_contact = now.tangential_N > now.contact_level_N;
     const bool touches_in_air = is_in_contact && !(expected.tangential_N.high > Scalar(0));
     since_estimate_mm_ = Scalar(0);

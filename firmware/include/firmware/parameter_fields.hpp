@@ -24,7 +24,7 @@ struct ParameterName {
 };
 
 /// How many fields for_each_parameter visits.
-inline constexpr std::size_t parameter_count = 308;
+inline constexpr std::size_t parameter_count = 310;
 
 /// A field's value out of a float within the field's range.
 template <typename Field>
@@ -82,6 +82,8 @@ void visit_spindle(Machine& machine, Visit& visit) {
     field("warm_up_time_s", machine.spindle.warm_up_time_s, 0.0F, 1e5F);
     field("current_sd_A", machine.spindle.current_sd_A, 0.0F, 1e3F);
     field("rated_current_A", machine.spindle_rated_current_A, 0.0F, 1e4F);
+    field("load_period_s", machine.spindle_load_period_s, 0.0F, 1.0F);
+    field("load_age_s", machine.spindle_load_age_s, 0.0F, 1.0F);
     field("encoder_counts_per_rev", machine.encoder_counts_per_rev, 16, 1048576);
 }
 

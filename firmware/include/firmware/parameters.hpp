@@ -83,6 +83,8 @@ template <typename Scalar>
 struct MachineParameters {
     estimation::SpindleDriveParameters<Scalar> spindle{};
     Scalar spindle_rated_current_A{0};
+    Scalar spindle_load_period_s{0};
+    Scalar spindle_load_age_s{0};
     std::uint32_t encoder_counts_per_rev{4096};
     std::array<estimation::FeedDriveParameters<Scalar>, 3> axes{};
     std::array<Scalar, 3> axis_rated_current_A{};
@@ -142,6 +144,29 @@ struct Parameters {
     MachineParameters<Scalar> machine{};
     ToolParameters<Scalar> tool{};
 };
+
+/// What the spindle estimator is told. A current that comes seldom is the same one for many samples: their mean is no
+/// better known than one of them.
+template <typename Scalar>
+estimation::SpindleDriveParameters<Scalar> spindle_parameters(const MachineParameters<Scalar>& machine) {
+    using std::sqrt;
+    estimation::SpindleDriveParameters<Scalar> spindle = machine.spindle;
+    const Scalar samples = machine.spindle_load_period_s * machine.cnc.sample_rate_hz;
+    spindle.current_sd_A *= samples > Scalar(1) ? sqrt(samples) : Scalar(1);
+    return spindle;
+}
+
+/// How late a spindle current that comes seldom shows a change at the latest.
+template <typename Scalar>
+Scalar load_delay_s(const MachineParameters<Scalar>& machine) {
+    return machine.spindle_load_age_s + machine.spindle_load_period_s;
+}
+
+/// From a change of the cut to the first change of the commanded velocity, beside the estimator's own window.
+template <typename Scalar>
+Scalar reaction_s(const MachineParameters<Scalar>& machine) {
+    return machine.cnc.override_latency_s + load_delay_s(machine);
+}
 
 /// Settings of the estimator, worked out from the parameters.
 template <typename Scalar>

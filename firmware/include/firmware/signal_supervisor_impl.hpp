@@ -25,7 +25,7 @@ SignalSupervisor<Scalar>::SignalSupervisor(const Parameters<Scalar>& p)
       contact_significance_(p.tool.control.contact_significance),
       override_max_(p.machine.cnc.override_max),
       per_radius_(p.tool.diameter_mm > Scalar(0) ? Scalar(2) / p.tool.diameter_mm : Scalar(0)),
-      reaction_s_(p.machine.cnc.override_latency_s),
+      reaction_s_(reaction_s(p.machine)),
       per_acceleration_(p.machine.cnc.acceleration_mm_s2 > Scalar(0) ? Scalar(1) / p.machine.cnc.acceleration_mm_s2
                                                                      : Scalar(0)),
       counts_per_rev_(static_cast<std::int32_t>(p.machine.encoder_counts_per_rev)) {}

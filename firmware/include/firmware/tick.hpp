@@ -7,6 +7,7 @@
 #include "estimation/cut_estimator.hpp"
 #include "firmware/carried_immersion.hpp"
 #include "firmware/parameters.hpp"
+#include "firmware/settled_feed.hpp"
 #include "firmware/signal_supervisor.hpp"
 #include "firmware/surface_monitor.hpp"
 #include "firmware/wide_band_monitor.hpp"
@@ -66,6 +67,8 @@ class ForceControlTick {
     void set_way_ahead(const control::WayAhead<Scalar>& way) { input_.way = way; }
     /// There is an estimate that no answer has seen yet.
     [[nodiscard]] bool has_new_estimate() const { return has_new_estimate_; }
+    /// The estimate belongs to the present feed, however late the spindle current comes.
+    [[nodiscard]] bool feed_is_settled() const { return settled_feed_.is_settled(); }
 
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);
@@ -115,6 +118,7 @@ class ForceControlTick {
     void set_cut();
     void set_motion(Velocity velocity);
     void run_law(const hal::ProgramStatus& program);
+    [[nodiscard]] bool belongs_to_this_feed() const;
     void use_tooth_force_of_map();
     hal::FeedOverride output();
 
@@ -141,6 +145,7 @@ class ForceControlTick {
     Scalar since_whole_sample_s_{0};
     std::uint32_t last_count_ = 0;
     Scalar encoder_stands_s_{0};
+    SettledFeed<Scalar> settled_feed_;
     std::uint32_t heartbeat_ = 0;
 };
 

@@ -23,16 +23,17 @@ static Scalar contact_current_A(const Parameters<Scalar>& p) {
 
 template <typename Scalar, typename WideBand>
 ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
-    : estimator_(estimator_settings(parameters), parameters.machine.spindle, parameters.machine.axes,
+    : estimator_(estimator_settings(parameters), spindle_parameters(parameters.machine), parameters.machine.axes,
                  parameters.tool.law),
       wide_band_(parameters),
       surface_(parameters.tool),
       supervisor_(parameters),
       controller_(controller_parameters(parameters)),
       control_parameters_(controller_parameters(parameters)),
-      reaction_s_(parameters.machine.cnc.override_latency_s),
+      reaction_s_(reaction_s(parameters.machine)),
       K_t1_Nm_per_A_(parameters.machine.spindle.K_t1_Nm_per_A),
-      contact_current_A_(contact_current_A(parameters)) {}
+      contact_current_A_(contact_current_A(parameters)),
+      settled_feed_(load_delay_s(parameters.machine)) {}
 
 // Each sample
 
@@ -49,6 +50,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     }
     set_motion(signals.velocity());
     input_.dt_s = dt_s;
+    settled_feed_.follow(estimator_.estimate().feed_mm_s, dt_s);
     watch_sample(sample, signals, dt_s);
 }
 
@@ -154,7 +156,7 @@ void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& progr
     input_.operator_override = Scalar(program.operator_override);
     input_.rapid = program.rapid;
     input_.feed_hold = program.feed_hold;
-    input_.cut.fresh = has_new_estimate_;
+    input_.cut.fresh = has_new_estimate_ && belongs_to_this_feed();
     input_.cut.spindle_turning = estimator_.spindle_turns();
     input_.cut.force_valid = estimator_.estimate().tangential_N.valid && input_.cut.spindle_turning;
     use_tooth_force_of_map();
@@ -162,6 +164,12 @@ void ForceControlTick<Scalar, WideBand>::run_law(const hal::ProgramStatus& progr
     program_ = program;
     input_.implausible = supervisor_.fault();
     control_ = controller_.step(input_);
+}
+
+/// In the cut a force that comes late says nothing of a feed that has changed since.
+template <typename Scalar, typename WideBand>
+bool ForceControlTick<Scalar, WideBand>::belongs_to_this_feed() const {
+    return feed_is_settled() || control_.state != control::CutState::in_cut;
 }
 
 /// The map knows the arc, and with it the tooth's share of F_at, better than the forces can give it. The lower end of

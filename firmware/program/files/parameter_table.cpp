@@ -42,6 +42,8 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"spindle", "warm_up_time_s", "s", "Time constant of the warm-up; 0: not known."},
     {"spindle", "current_sd_A", "A", "Noise of one sample of the spindle current."},
     {"spindle", "rated_current_A", "A", "Rated current, the unit of CiA 402 object 0x6078; 0: not known."},
+    {"spindle", "load_period_s", "s", "Period of a spindle current that comes seldom, as a frequency converter gives it over Modbus; 0: with each sample."},
+    {"spindle", "load_age_s", "s", "Age of such a current when it arrives, its smoothing included."},
     {"spindle", "encoder_counts_per_rev", "1", "Counts of the spindle encoder per revolution, after quadrature."},
 
     {"axis", "K_x1_positive_A_min2_per_m2", "A/(m/min)²", "Friction current travelling in + direction, quadratic term."},

@@ -46,11 +46,11 @@ void MapFollower::look_ahead(firmware::ForceControlTick<float>& tick, const hal:
     now.travel_mm = std::max(path_mm - path_mm_, 0.0F);
     now.blind_feed_mm_s = control.entry_feed_per_tooth_mm * static_cast<float>(parameters_.tool.teeth) *
                           estimate.spindle_speed_rad_s * estimation::turns_per_rad<float>;
-    now.fresh = tick.has_new_estimate() && estimate.tangential_N.valid;
+    now.fresh = tick.has_new_estimate() && tick.feed_is_settled() && estimate.tangential_N.valid;
     now.tangential_N = estimate.tangential_N.value;
     now.tangential_sd_N = std::sqrt(estimate.tangential_N.variance);
     now.mean_feed_mm_s = estimate.feed_mm_s;
-    now.window_mm = estimate.feed_mm_s * estimate.window_s;
+    now.window_mm = estimate.feed_mm_s * (estimate.window_s + firmware::load_delay_s(parameters_.machine));
     now.contact_level_N = control::contact_level_N(control, now.tangential_sd_N);
     now.feed_force_valid = estimate.feed_N.valid;
     now.feed_force_N = estimate.feed_N.value;

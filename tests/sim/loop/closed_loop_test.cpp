@@ -3,6 +3,7 @@
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
+#include "sim/converter_load.hpp"
 #include "sim/without_axis_currents.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -133,6 +134,24 @@ TEST(ClosedLoop, holds_the_limit_on_a_machine_whose_spindle_alone_is_measured) {
             const RunFigures figures = controlled(scenario);
             CHECK(bounds_hold(figures));
             STRCMP_EQUAL("none", figures.fault.c_str());
+        }
+    }
+}
+
+TEST(ClosedLoop, holds_the_limit_by_a_converters_load_that_comes_seldom_and_late) {
+    struct Source {
+        double period_s;
+        double age_s;
+    };
+    for (const char* name : {"depth_ramp", "width_step", "slot_entry"}) {
+        for (const Source& source : {Source{0.01, 0.05}, Source{0.1, 0.2}}) {
+            for (const Conditions& conditions : {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}}) {
+                const Scenario scenario = scenario_named(name, conditions);
+                const RunFigures figures =
+                    controlled(millforce::test::with_converter_load(scenario, source.period_s, source.age_s));
+                CHECK(bounds_hold(figures));
+                STRCMP_EQUAL("none", figures.fault.c_str());
+            }
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machine/drive_plant.hpp"
+#include "machine/load_meter.hpp"
 
 using namespace millforce::sim;
 
@@ -148,4 +149,35 @@ TEST(EncoderSensor, the_count_wraps_at_32_bits_and_its_differences_do_not_care) 
     encoder.update(256.1 * turn_rad);
     CHECK(encoder.count() < before);
     DOUBLES_EQUAL(0.2 * (1U << 24U), static_cast<double>(encoder.count() - before), 2.0);
+}
+
+TEST_GROUP(LoadMeter){};
+
+TEST(LoadMeter, shows_a_step_late_and_stepwise) {
+    LoadMeter meter({.period_s = 0.1, .age_s = 0.15, .smoothing_s = 0.0, .resolution_A = 0.1});
+    meter.start_at(2.0);
+    double last_A = 2.0;
+    double first_change_s = 0.0;
+    int changes = 0;
+    for (int k = 1; k <= 1000; ++k) {
+        const double time_s = 0.001 * k;
+        meter.advance(0.001, time_s < 0.35 ? 2.0 : 2.0 + 2.0 * (time_s - 0.35));
+        if (std::abs(meter.shown_A() - last_A) > 1e-9) {
+            first_change_s = changes == 0 ? time_s : first_change_s;
+            last_A = meter.shown_A();
+            ++changes;
+        }
+    }
+    DOUBLES_EQUAL(0.55, first_change_s, 0.005);  // asked at 0.4 s, there 0.15 s later
+    LONGS_EQUAL(5, changes);
+}
+
+TEST(LoadMeter, smooths_and_rounds) {
+    LoadMeter meter({.period_s = 0.01, .age_s = 0.0, .smoothing_s = 0.1, .resolution_A = 0.1});
+    meter.start_at(0.0);
+    for (int k = 0; k < 100; ++k) {
+        meter.advance(0.001, 10.0);
+    }
+    DOUBLES_EQUAL(6.2, meter.shown_A(), 0.15);  // 10 (1 - 1/e), up to 10 ms old
+    DOUBLES_EQUAL(std::round(meter.shown_A() * 10.0), meter.shown_A() * 10.0, 1e-9);
 }

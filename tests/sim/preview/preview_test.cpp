@@ -12,6 +12,7 @@
 
 #include "cnc/cnc.hpp"
 #include "loop/simulation.hpp"
+#include "sim/converter_load.hpp"
 #include "sim/without_axis_currents.hpp"
 
 using namespace millforce::sim;
@@ -220,6 +221,23 @@ TEST(Preview, a_machine_whose_spindle_alone_is_measured_is_as_fast_with_the_map)
         CHECK_COMPARE(run.figures.peak_over_limit, <=, 1.05);
         CHECK_COMPARE(run.figures.time_s, <, 1.02 * with_map(with_axes, map).figures.time_s);
         CHECK_COMPARE(run.figures.time_s, <, 0.6 * blind(scenario).time_s);
+    }
+}
+
+TEST(Preview, a_converters_load_that_comes_seldom_and_late_holds_the_limit_with_the_map) {
+    for (const char* name : {"slot_entry", "width_step"}) {
+        for (const double K_s_scale : {1.0, 1.3}) {
+            Scenario with_currents = scenario_named(name, K_s_scale);
+            const PartMap map = preview(with_currents);
+            const Scenario scenario = millforce::test::with_converter_load(with_currents, 0.1, 0.1);
+            const Run run = with_map(scenario, map);
+            CHECK_FALSE(run.is_refuted);
+            CHECK_COMPARE(run.figures.peak_over_limit, <=, 1.05);
+            CHECK_COMPARE(run.figures.time_s, <, 0.95 * blind(scenario).time_s);
+            if (K_s_scale == 1.0) {
+                CHECK_COMPARE(run.figures.time_s, <, 1.25 * with_map(with_currents, map).figures.time_s);
+            }
+        }
     }
 }
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace millforce::firmware {
+
+/// Whether a force that is known late belongs to the present feed: the feed has stayed within 5 % for as long as the
+/// force is late. Late by 0 s: always.
+///
+/// follow() with each sample. Cost: two comparisons. One thread.
+template <typename Scalar>
+class SettledFeed {
+  public:
+    explicit SettledFeed(Scalar late_s) : late_s_(late_s), settled_s_(late_s) {}
+
+    void follow(Scalar feed_mm_s, Scalar dt_s) {
+        constexpr Scalar tolerated_share = Scalar(0.05F);
+        const Scalar change = feed_mm_s - feed_mm_s_;
+        const Scalar tolerated = tolerated_share * feed_mm_s_;
+        if (!(change <= tolerated && -change <= tolerated)) {
+            feed_mm_s_ = feed_mm_s;
+            settled_s_ = Scalar(0);
+        }
+        settled_s_ += settled_s_ < late_s_ ? dt_s : Scalar(0);
+    }
+    [[nodiscard]] bool is_settled() const { return settled_s_ >= late_s_; }
+
+  private:
+    Scalar late_s_;
+    Scalar settled_s_;
+    Scalar feed_mm_s_{0};
+};
+
+}  // namespace millforce::firmware

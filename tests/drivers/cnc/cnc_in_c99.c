@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cnc_in_c99.h"
+
+void c99_encode_override(const millforce_override* content, uint32_t id, millforce_can_frame* frame) {
+    millforce_encode_override(content, id, frame);
+}
+
+millforce_result c99_decode_override(const millforce_can_frame* frame, uint32_t id, millforce_override* content) {
+    return millforce_decode_override(frame, id, content);
+}
+
+void c99_encode_status(const millforce_program_status* content, uint32_t counter, uint32_t id,
+                       millforce_can_frame* frame) {
+    millforce_encode_status(content, counter, id, frame);
+}
+
+millforce_result c99_decode_status(const millforce_can_frame* frame, uint32_t id, millforce_program_status* content,
+                                   uint32_t* counter) {
+    return millforce_decode_status(frame, id, content, counter);
+}
+
+void c99_receiver_start(millforce_receiver* receiver) {
+    millforce_receiver_start(receiver, millforce_default_settings());
+}
+
+millforce_result c99_on_frame(millforce_receiver* receiver, const millforce_can_frame* frame, uint32_t now_us) {
+    return millforce_on_frame(receiver, frame, now_us);
+}
+
+millforce_received c99_now(millforce_receiver* receiver, uint32_t now_us) {
+    return millforce_now(receiver, now_us);
+}
+
+void c99_status_start(millforce_status_sender* sender) {
+    millforce_status_start(sender);
+}
+
+bool c99_status_due(millforce_status_sender* sender, const millforce_program_status* status, uint32_t now_us,
+                    millforce_can_frame* frame) {
+    return millforce_status_due(sender, status, now_us, frame);
+}
