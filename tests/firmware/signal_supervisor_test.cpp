@@ -136,6 +136,28 @@ TEST(SignalSupervisor, finds_an_idle_torque_that_its_calibration_does_not_leave_
     CHECK(bench.after_ms(600) == Fault::idle_torque);
 }
 
+TEST(SignalSupervisor, lets_the_current_of_a_spindle_that_stands_stand) {
+    constexpr int turning = 600;
+    Bench bench(0, [](hal::DriveSample& sample, hal::ProgramStatus&, int since) {
+        const bool turns = since < turning;
+        const float noise_A = 0.05F * std::sin(static_cast<float>(since * since));
+        sample.spindle_count = sample_of(turns ? since : turning).spindle_count;
+        sample.spindle_current_A = turns ? idle_A() + noise_A : 0.0F;
+        sample.axis_current_A[0] = sample_of(0).axis_current_A[0];
+    });
+    CHECK(bench.after_ms(turning + 2000) == Fault::none);
+}
+
+TEST(SignalSupervisor, finds_a_current_of_0_while_the_spindle_turns) {
+    constexpr int sound = 600;
+    Bench bench(0, [](hal::DriveSample& sample, hal::ProgramStatus&, int since) {
+        const float noise_A = 0.05F * std::sin(static_cast<float>(since * since));
+        sample.spindle_current_A = since < sound ? idle_A() + noise_A : 0.0F;
+        sample.axis_current_A[0] = sample_of(0).axis_current_A[0];
+    });
+    CHECK(bench.after_ms(sound + 100) != Fault::none);
+}
+
 TEST(SignalSupervisor, finds_a_cut_in_a_rapid) {
     Bench bench(in_the_cut, [](hal::DriveSample& sample, hal::ProgramStatus& status, int) {
         sample.spindle_current_A += idle_A();

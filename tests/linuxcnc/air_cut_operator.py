@@ -24,9 +24,11 @@ def main():
     with open(os.path.join(HOME, "air_cut_runs"), "w", encoding="ascii"):
         pass
     drive.await_end(300.0)
+    fault = subprocess.run(["halcmd", "getp", "millforce.fault"], capture_output=True, text=True, check=True).stdout.strip()
+    drive.say(f"with the spindle off: fault {fault}")
     while not os.path.exists(os.path.join(HOME, "checked")):
         time.sleep(0.1)
-    return 1 if drive.errors else 0
+    return 1 if drive.errors or fault != "0" else 0
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@
 ///   stale_input        the samples' time stands or runs backwards: 32 samples
 ///   encoder_mismatch   counts between two index pulses are not one revolution: three in a row;
 ///                      the spindle's speed changes by 40 % within one revolution of a cut
-///   signal_stuck       the current of the spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)
+///   signal_stuck       the current of a turning spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)
 ///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
 ///   force_jumped       F_x or F_y changes within two teeth by more than that
 ///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
@@ -108,6 +108,8 @@ class SignalSupervisor {
 
     control::Fault fault_ = control::Fault::none;
     std::uint8_t standing_samples_ = 0;
+    std::uint8_t standing_counts_ = 0;
+    std::uint32_t spindle_count_ = 0;
     std::uint32_t index_count_ = 0;
     std::uint8_t index_number_ = 0;
     std::uint8_t wrong_indices_ = 0;

@@ -97,8 +97,12 @@ void SignalSupervisor<Scalar>::watch_index(const hal::DriveSample& sample) {
 template <typename Scalar>
 void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, control::CutState state) {
     constexpr float moving_mm_s = 1.0F;
+    constexpr std::uint8_t surely_stands = 20;
     const bool cuts = control::is_cutting(state);
-    const bool has_turned = last_speed_rad_s_ > Scalar(0);
+    // A spindle that stands may show one current for ever: its drive is off.
+    const bool stands = is_so_in_a_row(standing_counts_, sample.spindle_count == spindle_count_, surely_stands);
+    spindle_count_ = sample.spindle_count;
+    const bool has_turned = last_speed_rad_s_ > Scalar(0) && !stands;
     const bool has_spindle = (sample.present & hal::mask(hal::Present::spindle_current)) != 0 && has_turned;
     spindle_[0].follow(sample.spindle_current_A, has_spindle && !cuts);
     spindle_[1].follow(sample.spindle_current_A, has_spindle && cuts);
