@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "files/drive_names.hpp"
 #include "firmware/parameters.hpp"
 
-#include <array>
 #include <string>
 #include <string_view>
 
@@ -11,8 +11,6 @@
 /// the drive is not on the bus.
 
 namespace millforce::host {
-
-inline constexpr std::array<std::string_view, 4> drive_names{"spindle", "x", "y", "z"};
 
 /// `drive`: 0 spindle, 1 x, 2 y, 3 z. `bus_key`: "current_reversed".
 std::string key_of_current(const firmware::MachineParameters<float>& machine, std::size_t drive,

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "cia402/drive_bus.hpp"
+#include "files/drive_names.hpp"
 #include "socketcan/can_socket.hpp"
 
 /// Words for the states of the bus, in logs and on the status line.
 
 namespace millforce::host {
 
-inline constexpr std::array<const char*, cia402::drive_capacity> drive_names{"spindle", "x", "y", "z"};
+static_assert(drive_names.size() == cia402::drive_capacity);
 
 constexpr const char* name(cia402::NodeState state) {
     constexpr const char* names[] = {"unused", "preparing", "refused", "starting", "operational", "lost"};
