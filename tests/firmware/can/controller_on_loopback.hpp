@@ -22,6 +22,16 @@
 
 namespace millforce::test {
 
+/// The n-th millisecond of a spindle that turns at 4000 rpm without a cut; the axes rest.
+inline hal::DriveSample turning_in_air(std::uint32_t n) {
+    hal::DriveSample sample;
+    sample.present = hal::all_present;
+    sample.time_us = 1000U * n;
+    sample.spindle_count = 546U * n;
+    sample.spindle_current_A = 2.0F;
+    return sample;
+}
+
 struct LoggedFrame {
     std::uint64_t time_us = 0;
     hal::CanFrame frame{};

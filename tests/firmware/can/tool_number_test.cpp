@@ -36,11 +36,7 @@ class MachineWithTools {
         hal::FeedOverride newest;
         for (int k = 0; k < duration_ms; ++k) {
             ++sample_count_;
-            hal::DriveSample sample;
-            sample.present = hal::all_present;
-            sample.time_us = 1000U * sample_count_;
-            sample.spindle_count = 546U * sample_count_;
-            sample.spindle_current_A = 2.0F;
+            hal::DriveSample sample = turning_in_air(sample_count_);
             sample.axis_velocity_mm_s = {velocity_mm_s, 0.0F, 0.0F};
             newest = bus.step(sample, status_);
         }
