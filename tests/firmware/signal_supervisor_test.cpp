@@ -127,6 +127,17 @@ TEST(SignalSupervisor, finds_a_torque_below_the_idle_torque) {
     CHECK(bench.after_ms(79) == Fault::negative_torque);
 }
 
+TEST(SignalSupervisor, lets_a_spindle_brake_where_the_axes_rest_or_move_in_a_rapid) {
+    for (const bool is_rapid : {false, true}) {
+        Bench bench(in_air, [is_rapid](hal::DriveSample& sample, hal::ProgramStatus& status, int) {
+            sample.spindle_current_A = -3.0F;
+            sample.axis_velocity_mm_s[0] *= is_rapid ? 1.0F : 0.0F;
+            status.rapid = is_rapid;
+        });
+        CHECK(bench.after_ms(79) == Fault::none);
+    }
+}
+
 TEST(SignalSupervisor, finds_an_idle_torque_that_its_calibration_does_not_leave_open) {
     Bench bench(0, [](hal::DriveSample& sample, hal::ProgramStatus& status, int) {
         sample.spindle_current_A = 0.0F;

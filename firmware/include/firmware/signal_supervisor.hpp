@@ -23,7 +23,7 @@
 ///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
-///   negative_torque    F_at below zero by twice the contact level: 3 revolutions
+///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions
 ///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions
 ///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer
 ///                      than the CNC takes to react and 0.15 s. Whether it follows the override is not judged: a
@@ -80,6 +80,7 @@ class SignalSupervisor {
     static constexpr Scalar total_per_tangential =
         Scalar(2);                                   // the in-plane force is at most that much larger than F_at
     static constexpr std::uint8_t surely_turns = 3;  // revolutions in a row
+    static constexpr float moving_mm_s = 1.0F;
 
     /// By how much a force changed within two estimates, beyond what it changes by in a revolution anyway; 0 where the
     /// two have different signs: the slower of both has the say.

@@ -96,7 +96,6 @@ void SignalSupervisor<Scalar>::watch_index(const hal::DriveSample& sample) {
 
 template <typename Scalar>
 void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, control::CutState state) {
-    constexpr float moving_mm_s = 1.0F;
     constexpr std::uint8_t surely_stands = 20;
     const bool cuts = control::is_cutting(state);
     // A spindle that stands may show one current for ever: its drive is off.
@@ -209,7 +208,9 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
     } else {
         const Scalar level_N = Scalar(2) * control::contact_level_N(contact_force_N_, contact_significance_,
                                                                     sqrt(e.tangential_N.variance));
-        if (is_so_in_a_row(negative_turns_, -e.tangential_N.value > level_N, surely_turns)) {
+        // After a move the spindle may be switched off: its drive brakes, or its current falls before its speed does.
+        const bool feeds = e.feed_mm_s > Scalar(moving_mm_s) && !program.rapid;
+        if (is_so_in_a_row(negative_turns_, feeds && -e.tangential_N.value > level_N, surely_turns)) {
             find(control::Fault::negative_torque);
         }
         if (is_so_in_a_row(rapid_turns_, program.rapid && e.tangential_N.value > level_N, surely_turns)) {
