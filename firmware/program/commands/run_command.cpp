@@ -14,10 +14,10 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/machine_bus.hpp"
-#include "files/parameter_files.hpp"
-#include "files/parameter_notes.hpp"
-#include "files/tool_set.hpp"
+#include "parameters/machine_bus.hpp"
+#include "parameters/parameter_files.hpp"
+#include "parameters/parameter_notes.hpp"
+#include "parameters/tool_set.hpp"
 
 namespace millforce::host {
 
