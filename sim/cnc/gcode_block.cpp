@@ -19,8 +19,8 @@ class Sorter {
         SortedBlock sorted;
         for (const GcodeWord& word : block.words) {
             const bool is_code = word.letter == 'G' || word.letter == 'M';
-            if (!is_code && std::string_view("FHIJLNPQRSTXYZ").find(word.letter) == std::string_view::npos) {
-                fail(word, "one of the words F G H I J L M N P Q R S T X Y Z");
+            if (!is_code && std::string_view("FHIJKLNPQRSTXYZ").find(word.letter) == std::string_view::npos) {
+                fail(word, "one of the words F G H I J K L M N P Q R S T X Y Z");
             }
             const GcodeWord*& slot = word.letter == 'G' ? sorted.codes[group_of_g(word)]
                                      : word.letter == 'M'

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cnc/arc_plane.hpp"
 #include "cnc/drilling_cycle.hpp"
 #include "cnc/gcode.hpp"
 #include "cnc/gcode_block.hpp"
@@ -83,7 +84,7 @@ class Interpreter {
     bool has_bottom_ = false;
     bool has_retract_ = false;
     bool returns_to_retract_ = false;
-    bool is_xy_plane_ = true;
+    ArcPlane plane_ = ArcPlane::xy;
     bool has_cut_ = false;
     bool relative_ = false;
     bool spindle_on_ = false;

@@ -97,7 +97,7 @@ void Interpreter::set_modes(const SortedBlock& block) {
         returns_to_retract_ = tenths(*word) == 990;
     }
     if (const GcodeWord* word = block.code(plane)) {
-        is_xy_plane_ = tenths(*word) == 170;
+        plane_ = tenths(*word) == 170 ? ArcPlane::xy : tenths(*word) == 180 ? ArcPlane::zx : ArcPlane::yz;
     }
     if (const GcodeWord* word = block.code(coordinate_system)) {
         choose_coordinates(*word);

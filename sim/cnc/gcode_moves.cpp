@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "cnc/arc_plane.hpp"
 #include "cnc/gcode_interpreter.hpp"
 
 namespace millforce::sim::gcode {
@@ -13,6 +15,18 @@ namespace {
 
 constexpr double arc_tolerance_mm = 0.005;
 constexpr double coincident_mm = 1e-7;
+
+/// The words of an arc's centre in a plane, and the one that has no meaning there.
+struct CentreWords {
+    std::string_view of_plane;
+    std::string_view of_axis;
+    std::string_view names;
+};
+
+CentreWords centre_words(ArcPlane plane) {
+    constexpr std::array<CentreWords, 3> words{{{"IJ", "K", "I, J"}, {"IK", "J", "I, K"}, {"JK", "I", "J, K"}}};
+    return words[static_cast<std::size_t>(plane)];
+}
 
 }  // namespace
 
@@ -69,7 +83,7 @@ void Interpreter::require_cutting_conditions(const GcodeWord& subject) const {
 }
 
 void Interpreter::run_motion(const SortedBlock& block) {
-    const GcodeWord* word = block.first_of("XYZIJR");
+    const GcodeWord* word = block.first_of("XYZIJKR");
     if (word == nullptr) {
         return;
     }
@@ -79,39 +93,48 @@ void Interpreter::run_motion(const SortedBlock& block) {
     const GcodeWord& subject = block.code(motion) != nullptr ? *block.code(motion) : *word;
     const Eigen::Vector3d target_mm = target(block);
     Move move = next_move(*motion_, target_mm);
+    const ArcPlane plane = is_arc(move) ? plane_ : ArcPlane::xy;
     if (is_arc(move)) {
-        if (!is_xy_plane_) {
-            fail(subject, "G17: arcs lie in the xy plane only");
-        }
+        move.start_mm = in_plane(move.start_mm, plane);
+        move.end_mm = in_plane(move.end_mm, plane);
         set_centre(move, block, subject);
-    } else if (const GcodeWord* stray = block.first_of("IJR")) {
-        fail(*stray, "I, J and R with an arc (G2, G3) only");
+    } else if (const GcodeWord* stray = block.first_of("IJKR")) {
+        fail(*stray, "I, J, K and R with an arc (G2, G3) only");
     }
     if (move.kind != MoveKind::rapid) {
         require_cutting_conditions(subject);
         move.feed_mm_s = feed_mm_s_;
         has_cut_ = true;
     }
-    position_mm_ = move.end_mm;
+    position_mm_ = from_plane(move.end_mm, plane);
     if (length_mm(move) > 0.0) {
-        append(move, subject);
+        for (const Move& part : moves_from_plane(move, plane)) {
+            append(part, subject);
+        }
     }
 }
 
+/// Of an arc in the plane's axes.
 void Interpreter::set_centre(Move& move, const SortedBlock& block, const GcodeWord& subject) const {
+    const CentreWords words = centre_words(plane_);
     const GcodeWord* radius = block.address('R');
-    const GcodeWord* centre = block.first_of("IJ");
+    const GcodeWord* centre = block.first_of(words.of_plane);
+    if (const GcodeWord* stray = block.first_of(words.of_axis)) {
+        fail(*stray, fmt::format("a centre in {}, the arc's plane", words.names));
+    }
     if (radius != nullptr && centre != nullptr) {
-        fail(*radius, fmt::format("either a radius R or a centre I, J, not both ('{}')", centre->text));
+        fail(*radius, fmt::format("either a radius R or a centre {}, not both ('{}')", words.names, centre->text));
     }
     if (radius == nullptr && centre == nullptr) {
-        fail(subject, "an arc with a centre (I, J) or a radius (R) in the same block");
+        fail(subject, fmt::format("an arc with a centre ({}) or a radius (R) in the same block", words.names));
     }
     if (radius != nullptr) {
         set_centre_from_radius(move, *radius);
         return;
     }
-    move.centre_mm = move.start_mm + Eigen::Vector3d(offset_mm(block.address('I')), offset_mm(block.address('J')), 0.0);
+    const Eigen::Vector3d offsets_mm(offset_mm(block.address('I')), offset_mm(block.address('J')),
+                                     offset_mm(block.address('K')));
+    move.centre_mm = move.start_mm + in_plane(offsets_mm, plane_);
     if ((move.end_mm - move.start_mm).head<2>().norm() < coincident_mm) {
         move.end_mm.head<2>() = move.start_mm.head<2>();  // a full circle, whatever relative sums round to
     }
@@ -135,7 +158,8 @@ void Interpreter::set_centre_from_radius(Move& move, const GcodeWord& word) cons
         fail(word, "an arc radius above 0.005 mm");
     }
     if (!(chord_mm > 0.0)) {
-        fail(word, "an end away from the start: a full circle needs its centre as I, J");
+        fail(word, fmt::format("an end away from the start: a full circle needs its centre as {}",
+                               centre_words(plane_).names));
     }
     if (!(0.5 * chord_mm <= radius_mm + arc_tolerance_mm)) {
         fail(word,
@@ -180,7 +204,7 @@ void Interpreter::run_dwell(const SortedBlock& block) {
     if (!(time->value >= 0.0 && time->value <= longest_dwell_s)) {
         fail(*time, "a dwell from 0 to 3600 s");
     }
-    if (const GcodeWord* word = block.first_of("XYZIJR")) {
+    if (const GcodeWord* word = block.first_of("XYZIJKR")) {
         fail(*word, "no motion in a block with G4");
     }
     if (time->value > 0.0) {
@@ -194,7 +218,7 @@ void Interpreter::run_dwell(const SortedBlock& block) {
 void Interpreter::run_retreat(const SortedBlock& block) {
     const GcodeWord& code = *block.code(retreat);
     note("G28, G30, G53: a rapid straight up to the height of the start; the machine's own positions are not known");
-    if (const GcodeWord* word = block.first_of("IJR")) {
+    if (const GcodeWord* word = block.first_of("IJKR")) {
         fail(*word, "no arc with G28, G30 or G53");
     }
     if (motion_.has_value() && *motion_ != MoveKind::rapid && tenths(code) == 530) {

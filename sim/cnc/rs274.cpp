@@ -6,22 +6,26 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "cnc/arc_plane.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
@@ -32,6 +36,57 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t largest_output_bytes = std::size_t{256} << 20U;
 constexpr std::chrono::seconds patience{60};
+
+/// rs274's own table has three tools, some with a diameter by which it would shift a path under G41. This one has those
+/// that LinuxCNC can number, without length and diameter: coordinates are those of the tip. Returns a descriptor.
+int open_tool_table(const std::string& file) {
+    constexpr int most_tools = 999;
+    std::string table;
+    for (int tool = 1; tool <= most_tools; ++tool) {
+        table += fmt::format("T{0} P{0} Z0 D0\n", tool);
+    }
+    const int descriptor = ::memfd_create("tools", MFD_CLOEXEC);
+    if (descriptor < 0 || ::write(descriptor, table.data(), table.size()) != static_cast<ssize_t>(table.size())) {
+        throw host::InputError(fmt::format("{}: no memory for rs274's tool table", file));
+    }
+    return descriptor;
+}
+
+/// A line without comments and blanks, in upper case.
+std::string code_of(std::string_view line) {
+    std::string code;
+    bool in_comment = false;
+    for (const char letter : line) {
+        in_comment = in_comment || letter == '(';
+        if (letter == ';') {
+            break;
+        }
+        if (!in_comment && letter != ' ' && letter != '\t') {
+            code += static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+        }
+        in_comment = in_comment && letter != ')';
+    }
+    return code;
+}
+
+/// The canonical commands do not say by which radius a path was shifted.
+void require_no_compensation(const std::string& file) {
+    std::ifstream program(file);
+    std::size_t number = 0;
+    for (std::string line; std::getline(program, line);) {
+        ++number;
+        const std::string code = code_of(line);
+        for (const char* word : {"G41", "G42"}) {
+            const std::size_t place = code.find(word);
+            const char next = place == std::string::npos || place + 3 >= code.size() ? ' ' : code[place + 3];
+            if (place != std::string::npos && std::isdigit(static_cast<unsigned char>(next)) == 0) {
+                throw host::InputError(
+                    fmt::format("{}:{}: found '{}', expected G40: let the CAM system compensate the cutter's radius",
+                                file, number, word));
+            }
+        }
+    }
+}
 
 // ---- The process -----------------------------------------------------------------------------------------------
 
@@ -52,9 +107,14 @@ class Rs274 {
         std::string program = "rs274";
         std::string batch = "-g";
         std::string name = std::filesystem::absolute(file).string();
-        std::array<char*, 4> arguments{program.data(), batch.data(), name.data(), nullptr};
+        std::string option = "-t";
+        std::string tools = "/dev/fd/3";
+        const int table = open_tool_table(file);
+        ::posix_spawn_file_actions_adddup2(&actions, table, 3);
+        std::array<char*, 6> arguments{program.data(), option.data(), tools.data(), batch.data(), name.data(), nullptr};
         const int failed = ::posix_spawnp(&process_, program.c_str(), &actions, nullptr, arguments.data(), environ);
         ::posix_spawn_file_actions_destroy(&actions);
+        ::close(table);
         ::close(out[1]);
         ::close(error[1]);
         pipes_ = {out[0], error[0]};
@@ -169,7 +229,9 @@ class CanonicalReader {
         } else if (command.name == "STOP_SPINDLE_TURNING") {
             spindle_on_ = false;
         } else if (command.name == "SELECT_PLANE") {
-            is_xy_plane_ = command.arguments == "CANON_PLANE_XY";
+            plane_ = command.arguments == "CANON_PLANE_XY"   ? ArcPlane::xy
+                     : command.arguments == "CANON_PLANE_XZ" ? ArcPlane::zx
+                                                             : ArcPlane::yz;
         } else if (command.name == "CHANGE_TOOL") {
             change_tool(number(command, 0));
         } else {
@@ -201,18 +263,19 @@ class CanonicalReader {
         }
     }
 
-    /// ARC_FEED(end x, end y, centre x, centre y, turns, end z, …): turns > 0 counter-clockwise.
+    /// ARC_FEED(end, centre, turns, end along the axis, …), end and centre in the plane's axes: turns > 0
+    /// counter-clockwise.
     void run_arc(const Command& command) {
         const double turns = number(command, 4);
-        if (!is_xy_plane_) {
-            fail("an arc outside G17, expected arcs in the xy plane");
-        }
         if (std::abs(turns) != 1.0) {
             fail("an arc of more than one turn, expected one at most");
         }
         Move move = next_move(turns > 0.0 ? MoveKind::arc_ccw : MoveKind::arc_cw, position(command, 0, 1, 5));
-        move.centre_mm = {length(command, 2), length(command, 3), position_mm_.z()};
-        go(move);
+        move.start_mm = in_plane(move.start_mm, plane_);
+        move.centre_mm = {length(command, 2), length(command, 3), 0.0};
+        for (const Move& part : moves_from_plane(move, plane_)) {
+            go(part);
+        }
     }
 
     void change_tool(double tool) {
@@ -291,7 +354,7 @@ class CanonicalReader {
     double spindle_speed_rad_s_ = 0.0;
     double tool_ = 0.0;
     bool spindle_on_ = false;
-    bool is_xy_plane_ = true;
+    ArcPlane plane_ = ArcPlane::xy;
     bool has_cut_ = false;
 };
 
@@ -324,6 +387,7 @@ GcodeProgram moves_of_canonical(std::string_view text, const std::string& file, 
 }
 
 GcodeProgram read_by_rs274(const std::string& file, const GcodeSettings& settings) {
+    require_no_compensation(file);
     return moves_of_canonical(Rs274(file).output(), file, settings);
 }
 

@@ -149,6 +149,15 @@ TEST(GcodePosts, a_roughing_path_of_short_lines_in_relative_coordinates) {
     DOUBLES_EQUAL(2.0 + 100.0 * std::hypot(0.5, 0.2), sums_of(program).cut_mm, 1e-9);
 }
 
+TEST(GcodePosts, leads_in_and_out_on_upright_arcs) {
+    const GcodeProgram program = read(
+        "%\n(ADAPTIVE WITH VERTICAL LEADS)\nG90 G94 G17 G91.1\nG21\nT1 M6\nS8000 M3\nG54\nG0 X10 Y5\nZ5\nG1 Z2 F500\n"
+        "G18 G2 X11 Z1 I1 K0\nG1 X30\nG17 G3 X32 Y7 I0 J2\nG1 Y20\nG19 G3 Y21 Z2 J0 K1\nG0 Z15\nG17\nM30\n%\n");
+    const Sums sums = sums_of(program);
+    DOUBLES_EQUAL(1.0, sums.lowest_mm, 1e-9);
+    DOUBLES_EQUAL(3.0 + 0.5 * pi + 19.0 + pi + 13.0 + 0.5 * pi, sums.cut_mm, 0.01);
+}
+
 TEST(GcodePosts, an_optional_stop_and_a_work_offset_other_than_the_first) {
     const GcodeProgram program =
         read("O0001\nG21\nG55 G90 G0 X0 Y0 Z5\nM1\nS3000 M3\nG1 Z-1 F100\nX10\nM0\nG55 G0 Z5\nM2\n");

@@ -20,6 +20,14 @@ void check_near(const Eigen::Vector3d& expected, const Eigen::Vector3d& found) {
     DOUBLES_EQUAL(0.0, (expected - found).norm(), 1e-9);
 }
 
+double way_of(const std::vector<Move>& moves, std::size_t from) {
+    double way_mm = 0.0;
+    for (std::size_t k = from; k < moves.size(); ++k) {
+        way_mm += length_mm(moves[k]);
+    }
+    return way_mm;
+}
+
 }  // namespace
 
 TEST_GROUP(Gcode){};
@@ -84,6 +92,32 @@ TEST(Gcode, an_arc_with_z_is_a_helix) {
     LONGS_EQUAL(1, moves.size());
     DOUBLES_EQUAL(std::hypot(10.0 * pi, 2.0), length_mm(moves[0]), 1e-9);
     check_near({6, 8, -1}, position_at(moves[0], 0.5 * length_mm(moves[0])));
+}
+
+TEST(Gcode, an_arc_in_an_upright_plane_is_lines_that_keep_to_it) {
+    // Seen from where the third axis points to: z to x and y to z are counter-clockwise.
+    const std::array programs{"G1 X0 Y0 Z3\nG18 G3 X3 Z0 K-3", "G1 X0 Y0 Z3\nG18 G3 X3 Z0 R3",
+                              "G1 X0 Y0 Z3\nG19 G2 Y3 Z0 J0 K-3"};
+    for (const char* program : programs) {
+        const auto moves = parse_body(program);
+        double way = 0.0;
+        for (std::size_t k = 1; k < moves.size(); ++k) {
+            CHECK(moves[k].kind == MoveKind::feed_line);
+            check_near(moves[k - 1].end_mm, moves[k].start_mm);
+            DOUBLES_EQUAL(3.0, moves[k].end_mm.norm(), 1e-9);
+            DOUBLES_EQUAL(3.0, position_at(moves[k], 0.5 * length_mm(moves[k])).norm(), 0.001);
+            way += length_mm(moves[k]);
+        }
+        DOUBLES_EQUAL(1.5 * pi, way, 0.01);
+        DOUBLES_EQUAL(0.0, moves.back().end_mm.z(), 1e-9);
+    }
+    DOUBLES_EQUAL(4.5 * pi, way_of(parse_body("G1 X0 Y0 Z3\nG18 G2 X3 Z0 K-3"), 1), 0.01);
+}
+
+TEST(Gcode, an_upright_arc_may_be_a_full_circle_or_a_helix) {
+    const auto moves = parse_body("G1 X0 Y0 Z3\nG18 G2 X0 Y4 Z3 K-3");
+    DOUBLES_EQUAL(std::hypot(6.0 * pi, 4.0), way_of(moves, 1), 0.01);
+    check_near({0, 4, 3}, moves.back().end_mm);
 }
 
 TEST(Gcode, positions_and_tangents_along_every_kind_of_move_agree) {

@@ -115,6 +115,7 @@ TEST(Rs274, comes_to_the_same_moves_as_our_own_reader) {
     for (const char* text :
          {"G21 G90 S2000 M3 F300\nG0 X0 Y0 Z5\nG1 Z-1\nX20\nG2 X30 Y-10 I0 J-10\nG3 X40 Y-20 R10\nG0 Z5\nM2\n",
           "G21 G90 S2000 M3 F300\nG0 X0 Y0 Z10\nG99 G81 X5 Y5 Z-4 R2\nX15\nG98 G83 X20 Z-6 R2 Q3\nG80\nM2\n",
+          "G21 G90 S2000 M3 F300\nG0 X0 Y0 Z5\nG18 G2 X3 Z2 K-3\nG3 X0 Y2 Z5 I-3\nG19 G3 Y5 Z2 J0 K-3\nG17\nM2\n",
           "G20 G90 S2000 M3\nF10\nG0 X0 Y0 Z0.5\nG91 G1 Z-0.5\nX1.5\nG90 G0 Z1\nM30\n"}) {
         const ProgramFile file(text);
         const GcodeProgram theirs = read_by_rs274(file.name());
@@ -124,6 +125,16 @@ TEST(Rs274, comes_to_the_same_moves_as_our_own_reader) {
         }
         DOUBLES_EQUAL(0.0, (ours.moves.back().end_mm - theirs.moves.back().end_mm).norm(), 0.01);
     }
+}
+
+TEST(Rs274, knows_every_tool_and_shifts_no_path_by_one) {
+    if (!has_rs274()) {
+        return;
+    }
+    const ProgramFile file("T321 M6 G43 H321\n#1=5\nS2000 M3 F300\nG0 X0 Y0 Z5\nG1 Z-1\nX#1\nM2\n");
+    const GcodeProgram program = read_by_rs274(file.name());
+    DOUBLES_EQUAL(11.0, way_mm(program, MoveKind::feed_line), 1e-9);
+    CHECK(contains(refusal_by_rs274("T1 M6\nS100 M3 F1\n(not this G42)\ng 41 D1\nG1 X10\nM2\n"), ":4: found 'G41'"));
 }
 
 TEST(Rs274, passes_on_the_words_with_which_it_refuses) {
