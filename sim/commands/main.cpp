@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
         "'millforce COMMAND --help' describes a command.");
     sim::add_simulate(program);
     sim::add_ensemble(program);
+    sim::add_kinds(program);
     host::add_replay(program);
     host::add_run(program);
     host::add_calibrate(program);

@@ -11,6 +11,7 @@ void add_simulate(host::Command& program);
 void add_preview(host::Command& program);
 void add_plant(host::Command& program);
 void add_ensemble(host::Command& program);
+void add_kinds(host::Command& program);
 void add_bench(host::Command& program);
 void add_reproduce(host::Command& program);
 void add_cut_table(host::Command& program);

@@ -13,11 +13,17 @@ namespace millforce::sim {
 
 namespace {
 
-RunFigures run_one(Scenario scenario, std::uint64_t seed) {
+RunFigures run_one(Scenario scenario, std::uint64_t seed, const EnsembleSettings& settings) {
     scenario.seed = seed;
     scenario.deviation = drawn_deviation(scenario, seed);
+    SimulationSettings simulation;
+    simulation.longest_run_s = settings.longest_run_s;
+    if (settings.map) {
+        MappedController controller(scenario.parameters, *settings.map);
+        return simulate(scenario, controller, "millforce", simulation).result.figures;
+    }
     MillforceController controller(scenario.parameters);
-    return simulate(scenario, controller, "millforce").result.figures;
+    return simulate(scenario, controller, "millforce", simulation).result.figures;
 }
 
 /// Root of the mean square, and mean, over the runs that have a value.
@@ -37,10 +43,11 @@ struct Pool {
     [[nodiscard]] double rms() const { return count > 0 ? std::sqrt(sum_of_squares / count) : host::no_estimate; }
 };
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+/// The value that this share of them does not exceed. 0 < share < 1, and there is at least one value.
+double quantile(std::vector<double> values, double share) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
 }
 
 }  // namespace
@@ -65,15 +72,16 @@ PlantDeviation drawn_deviation(const Scenario& scenario, std::uint64_t seed) {
     return deviation;
 }
 
-std::vector<RunFigures> run_ensemble(const Scenario& scenario, int runs, const std::function<bool(double)>& progress) {
+std::vector<RunFigures> run_ensemble(const Scenario& scenario, int runs, const std::function<bool(double)>& progress,
+                                     const EnsembleSettings& settings) {
     const int workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::vector<RunFigures> figures;
     while (static_cast<int>(figures.size()) < runs) {
         const int first = static_cast<int>(figures.size());
         std::vector<std::future<RunFigures>> batch;
         for (int k = first; k < std::min(runs, first + workers); ++k) {
-            batch.push_back(
-                std::async(std::launch::async, run_one, scenario, scenario.seed + static_cast<std::uint64_t>(k)));
+            const std::uint64_t seed = scenario.seed + static_cast<std::uint64_t>(k);
+            batch.push_back(std::async(std::launch::async, run_one, scenario, seed, std::cref(settings)));
         }
         for (std::future<RunFigures>& run : batch) {
             figures.push_back(run.get());
@@ -87,7 +95,7 @@ std::vector<RunFigures> run_ensemble(const Scenario& scenario, int runs, const s
 
 EnsembleFigures summarise_ensemble(const std::vector<RunFigures>& runs) {
     EnsembleFigures all;
-    Pool time, share, immersion, immersion_coverage, depth, depth_coverage;
+    Pool time, tangential, feed_force, share, immersion, immersion_coverage, depth_share, depth, depth_coverage;
     std::vector<double> peaks;
     for (const RunFigures& run : runs) {
         ++all.runs;
@@ -96,21 +104,28 @@ EnsembleFigures summarise_ensemble(const std::vector<RunFigures>& runs) {
         all.late_over_limit_s_worst = std::max(all.late_over_limit_s_worst, run.late_over_limit_s);
         peaks.push_back(run.peak_over_limit);
         time.add(run.time_s);
+        tangential.add(run.tangential_error);
+        feed_force.add(run.feed_force_error);
         share.add(run.estimate_share);
         immersion.add(run.immersion_rms);
         immersion_coverage.add(run.immersion_coverage);
+        depth_share.add(run.depth_share);
         depth.add(run.depth_rms_mm);
         depth_coverage.add(run.depth_coverage);
     }
     if (peaks.empty()) {
         return all;
     }
-    all.peak_over_limit_median = median(peaks);
+    all.peak_over_limit_median = quantile(peaks, 0.5);
+    all.peak_over_limit_95 = quantile(peaks, 0.95);
     all.peak_over_limit_worst = *std::max_element(peaks.begin(), peaks.end());
     all.time_s_mean = time.mean();
+    all.tangential_error = tangential.rms();
+    all.feed_force_error = feed_force.rms();
     all.estimate_share = share.mean();
     all.immersion_rms = immersion.rms();
     all.immersion_coverage = immersion_coverage.mean();
+    all.depth_share = depth_share.mean();
     all.depth_rms_mm = depth.rms();
     all.depth_coverage = depth_coverage.mean();
     return all;

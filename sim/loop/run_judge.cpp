@@ -147,6 +147,8 @@ void RunJudge::judge_estimate(const TracePoint& point) {
         return;
     }
     ++cutting_samples_;
+    tangential_error_.add(point.tangential_force_N, point.true_tangential_force_N);
+    feed_force_error_.add(point.feed_force_N, point.true_feed_force_N);
     if (!std::isnan(point.radial_immersion)) {
         const double error = point.radial_immersion - point.true_radial_immersion;
         immersion_error2_ += error * error;
@@ -176,11 +178,14 @@ RunResult RunJudge::result(const std::string& controller, bool finished) const {
     const auto share = [](int part, int count) {
         return count > 0 ? static_cast<double>(part) / count : host::no_estimate;
     };
+    f.tangential_error = tangential_error_.value();
+    f.feed_force_error = feed_force_error_.value();
     f.immersion_rms = rms(immersion_error2_, immersion_samples_);
     f.immersion_coverage = share(immersion_inside_, immersion_samples_);
     f.depth_rms_mm = rms(depth_error2_, depth_samples_);
     f.depth_coverage = share(depth_inside_, depth_samples_);
-    f.estimate_share = cutting_samples_ > 0 ? static_cast<double>(immersion_samples_) / cutting_samples_ : 0.0;
+    f.estimate_share = cutting_samples_ > 0 ? share(immersion_samples_, cutting_samples_) : 0.0;
+    f.depth_share = cutting_samples_ > 0 ? share(depth_samples_, cutting_samples_) : 0.0;
     return result;
 }
 

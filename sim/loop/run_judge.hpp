@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "cutting/cutting_force.hpp"
 #include "loop/override_source.hpp"
@@ -81,6 +82,23 @@ class RunJudge {
     double stopped_s_ = 0.0;
     double stopped_at_mm_ = 0.0;
 
+    /// Root of the mean square error, over that of the truth.
+    class RelativeError {
+      public:
+        void add(double estimate, double truth) {
+            if (std::isfinite(estimate)) {
+                error2_ += (estimate - truth) * (estimate - truth);
+                truth2_ += truth * truth;
+            }
+        }
+        [[nodiscard]] double value() const { return truth2_ > 0.0 ? std::sqrt(error2_ / truth2_) : host::no_estimate; }
+
+      private:
+        double error2_ = 0.0;
+        double truth2_ = 0.0;
+    };
+    RelativeError tangential_error_;
+    RelativeError feed_force_error_;
     double immersion_error2_ = 0.0;
     double depth_error2_ = 0.0;
     int immersion_samples_ = 0;

@@ -7,6 +7,7 @@
 #include "cutting/oblique_cutting.hpp"
 #include "files/input_error.hpp"
 #include "files/toml_reader.hpp"
+#include "loop/machine_kind.hpp"
 #include "parameters/parameter_files.hpp"
 
 namespace millforce::sim {
@@ -149,15 +150,6 @@ void read_force_sensor(Table& root, Scenario& scenario) {
     if (!(sensor.low_pass_hz > 0.0)) {
         table.fail("noise_N", "a force sensor without its low-pass, expected low_pass_hz in the tool's [force_sensor]");
     }
-    table.reject_unknown_keys();
-}
-
-void read_load_meter(Table& root, LoadMeterSettings& meter) {
-    Table table = root.table("load_meter");
-    meter.period_s = table.number("period_s", 0.0, 10.0, meter.period_s);
-    meter.age_s = table.number("age_s", 0.0, 10.0, meter.age_s);
-    meter.smoothing_s = table.number("smoothing_s", 0.0, 10.0, meter.smoothing_s);
-    meter.resolution_A = table.number("resolution_A", 1e-6, 100.0, meter.resolution_A);
     table.reject_unknown_keys();
 }
 

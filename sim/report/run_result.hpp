@@ -63,11 +63,15 @@ struct RunFigures {
     double mean_override = 0.0;         ///< over cutting time
     double mean_force_use = 0.0;        ///< mean of true tooth force / limit over cutting time
 
+    double tangential_error = host::no_estimate;  ///< rms error of F_at in cut over the rms of the true one
+    double feed_force_error = host::no_estimate;  ///< the same of F_ax
+
     double immersion_rms = host::no_estimate;       ///< error of the estimate over samples with an estimate
     double immersion_coverage = host::no_estimate;  ///< share of them within the estimate's 95 % band
     double depth_rms_mm = host::no_estimate;
     double depth_coverage = host::no_estimate;
     double estimate_share = 0.0;    ///< share of cutting samples that had an immersion estimate
+    double depth_share = 0.0;       ///< the same for the depth
     double real_time_factor = 0.0;  ///< simulated time per wall-clock time
     std::string fault = "none";
     bool finished = false;  ///< the part program came to its end

@@ -3,6 +3,7 @@
 """LinuxCNC's DISPLAY program of a hazard: starts a straight cut, does in the middle of it what MILLFORCE_CASE says, and
 waits for what comes of it. What happened in the servo thread is judged afterwards, from motion.txt."""
 import os
+import select
 import signal
 import subprocess
 import sys
@@ -73,7 +74,11 @@ def set_patience(seconds):
 
 
 def kill_controller():
-    os.kill(controller(), signal.SIGKILL)
+    """Until it is dead: as long as it holds the socket, the next one is refused."""
+    pid = controller()
+    death = os.pidfd_open(pid)
+    os.kill(pid, signal.SIGKILL)
+    select.select([death], [], [])
 
 
 def start_controller():
