@@ -24,7 +24,7 @@ struct EnsembleFigures {
     double peak_over_limit_worst = 0.0;
     double late_over_limit_s_worst = 0.0;  ///< see RunFigures
     double time_s_mean = 0.0;
-    double estimate_share = 0.0;  ///< of the time in cut: with an immersion
+    double estimate_share = 0.0;  ///< share of the time in cut: with an immersion
     double immersion_rms = host::no_estimate;
     double immersion_coverage = host::no_estimate;  ///< mean over the runs
     double depth_rms_mm = host::no_estimate;

@@ -99,7 +99,8 @@ struct ForceSensorParameters {
     Scalar zero_drift_sd_N{0};
 };
 
-/// Radial immersion from force drops. The law's `valid` is left to who uses it: no largest immersion, no law.
+/// Radial immersion from force drops. The law's `valid` is set by the user of this struct: no largest immersion, no
+/// law.
 template <typename Scalar>
 struct ForceDropParameters {
     estimation::ForceDropLaw<Scalar> law{};
@@ -176,7 +177,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.teeth = Scalar(p.tool.teeth);
     s.cutter_radius_mm = radius_mm;
     s.helix_rad = p.tool.helix_deg * estimation::pi<Scalar> / Scalar(180);
-    s.runout_mm = p.tool.runout_um * Scalar(0.001F);
+    s.runout_mm = p.tool.runout_um * estimation::literal<Scalar>(0.001L);
     s.side = p.tool.side;
     s.centre_offset_in_radii = p.tool.centre_offset_mm / radius_mm;
     s.largest_depth_mm = p.tool.flute_length_mm;

@@ -26,7 +26,7 @@ struct LeastSquaresSolution {
     Eigen::Matrix<Scalar, N, N> covariance = Eigen::Matrix<Scalar, N, N>::Zero();
     Scalar residual_rms{0};      ///< √(Σe²/rows), weighted.
     Scalar residual_sd{0};       ///< s; NaN without a degree of freedom.
-    Scalar condition_number{0};  ///< of X with its columns scaled to length 1; infinity where a column is zero.
+    Scalar condition_number{0};  ///< that of X with its columns scaled to length 1; infinity where a column is zero.
     unsigned undetermined{0};    ///< bit j: the rows cannot determine parameter j (alone or apart from another one).
     int rows{0};
 

@@ -59,14 +59,14 @@ struct RoughnessModel {
     RoughnessMeasure measure{RoughnessMeasure::Ra};
     Scalar constant_um{0};                 ///< C; 0: there is no model
     RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
-    RoughnessValues<Scalar> minimum{};     ///< of the tests: lower end of the range; 0: not given
-    RoughnessValues<Scalar> maximum{};     ///< of the tests: upper end of the range; 0: not given
+    RoughnessValues<Scalar> minimum{};     ///< lower end of the tests' range; 0: not given
+    RoughnessValues<Scalar> maximum{};     ///< upper end of the tests' range; 0: not given
     RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
     Scalar tests{0};                       ///< n
     Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
     Scalar residual_ln_sd{0};              ///< s
     std::array<Scalar, pairs> leverage{};  ///< M, lower triangle by rows; see pair()
-    Scalar largest_leverage{0};            ///< of a test on the fit; 0: not given
+    Scalar largest_leverage{0};            ///< leverage of a test on the fit; 0: not given
 
     /// Place of M(row, column) in `leverage`; row ≥ column.
     static constexpr std::size_t pair(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }

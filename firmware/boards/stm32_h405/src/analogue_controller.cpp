@@ -139,7 +139,7 @@ bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {
            hal::is_within_limits(output, largest_ratio_);
 }
 
-bool AnalogueController::send_last_words(Reason reason, std::uint32_t detail) {
+bool AnalogueController::send_final_frames(Reason reason, std::uint32_t detail) {
     output_.hold = true;
     ++output_.heartbeat;
     hal::CanFrame heartbeat;

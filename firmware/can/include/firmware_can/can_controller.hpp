@@ -153,8 +153,8 @@ class CanController {
     std::uint64_t next_boot_up_us_ = 0;
     std::uint64_t heard_us_ = 0;  ///< by the clock of poll()
     std::uint64_t bus_time_us_ = 0;
-    std::uint64_t sync_time_us_ = 0;      ///< of the newest sample
-    std::uint64_t complete_time_us_ = 0;  ///< of the newest complete one
+    std::uint64_t sync_time_us_ = 0;      ///< time of the newest sample
+    std::uint64_t complete_time_us_ = 0;  ///< time of the newest complete one
     std::uint64_t next_silent_us_ = 0;
     std::uint64_t tick_time_us_ = 0;
     hal::DriveSample sample_{};
