@@ -146,8 +146,8 @@ struct Parameters {
     ToolParameters<Scalar> tool{};
 };
 
-/// What the spindle estimator is told. A current that comes seldom is the same one for many samples: their mean is no
-/// better known than one of them.
+/// What the spindle estimator knows of its drive. A current that comes seldom is the same one for many samples: their
+/// mean is no better known than one of them.
 template <typename Scalar>
 estimation::SpindleDriveParameters<Scalar> spindle_parameters(const MachineParameters<Scalar>& machine) {
     using std::sqrt;

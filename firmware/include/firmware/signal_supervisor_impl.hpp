@@ -164,7 +164,7 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     }
 }
 
-/// A change that no cut makes from one tooth to the next but one; none where that cannot be told.
+/// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.
 template <typename Scalar>
 control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     using std::sqrt;

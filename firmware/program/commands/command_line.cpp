@@ -130,7 +130,7 @@ void add_tools(Command& command, ToolChoice& tools) {
     command.option("--tool", tools.file, "Tool parameters").value_name("T.toml");
     command
         .option("--tools", tools.folder,
-                "Folder of tool parameters T<number>.toml, in place of --tool: the CNC tells the tool's number")
+                "Folder of tool parameters T<number>.toml, in place of --tool: the CNC sends the tool's number")
         .value_name("FOLDER");
 }
 

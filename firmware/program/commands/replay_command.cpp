@@ -132,7 +132,7 @@ void add_replay(Command& program) {
         "the\n"
         "radial immersion from force drops and both depths from the force's shape, by the tool's tables\n"
         "[force_sensor], [force_drop] and [depth_shape].\n"
-        "With --tools the column tool, or the log's tool frames, tell the number of the tool.\n"
+        "With --tools the column tool, or the log's tool frames, give the number of the tool.\n"
         "A candump log ('candump -l', 'candump -L', 'millforce run --record') is decoded with the machine's [bus] "
         "tables.\n"
         "What was recorded during 'millforce run', from its start on, gives the estimates of that run digit for "

@@ -133,7 +133,7 @@ void add_run(Command& program) {
         "that is not\n"
         "there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
-        "With --tools the CNC's tool frame tells the number; without a known tool the override is the operator's.\n"
+        "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");

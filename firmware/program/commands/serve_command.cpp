@@ -35,7 +35,7 @@ struct ServeOptions {
     std::string program;
 };
 
-/// Tells of a fault as it comes and goes.
+/// Reports a fault as it comes and goes.
 class FaultTeller {
   public:
     void follow(const hal::FeedOverride& output, LinePrinter& printer) {
@@ -49,7 +49,7 @@ class FaultTeller {
     std::uint8_t fault_ = 0;
 };
 
-/// Tells when a part map is dropped.
+/// Reports when a part map is dropped.
 class MapTeller {
   public:
     void follow(const MapFollower& follower, LinePrinter& printer) {
@@ -63,7 +63,7 @@ class MapTeller {
     bool was_refuted_ = false;
 };
 
-/// Tells which tool the override is for.
+/// Reports which tool the override is for.
 class ToolTeller {
   public:
     void follow(const firmware::LinkController& controller, LinePrinter& printer) {
@@ -160,7 +160,7 @@ void add_serve(Command& program) {
         program.subcommand("serve", "Run the live controller behind a Unix socket, for a CNC on the same computer");
     command.footer(
         "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
-        "With --tools the samples tell the tool's number; without a known tool the override is the operator's.\n"
+        "With --tools the samples hold the tool's number; without a known tool the override is the operator's.\n"
         "One connection at a time; each is a new run. Runs until SIGINT or SIGTERM.");
     command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");

@@ -81,7 +81,7 @@ class AnalogueController {
     [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
 
   private:
-    void tell_start(const StartReport& report);
+    void report_start(const StartReport& report);
     void receive_frames(std::uint64_t now_us);
     void send_frames();
     bool send_final_frames(emergency::Reason reason, std::uint32_t detail);
