@@ -129,9 +129,8 @@ void add_run(Command& program) {
     auto options = std::make_shared<RunOptions>();
     Command command = program.subcommand("run", "Run the live controller on a CAN interface");
     command.footer(
-        "Runs until SIGINT, SIGTERM or SIGHUP; then the override says hold and the heartbeat 'stopped'. An interface "
-        "that is not\n"
-        "there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
+        "Runs until SIGINT, SIGTERM or SIGHUP; then the feed is held, and the heartbeat says 'stopped'. An interface\n"
+        "that is not there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");

@@ -54,7 +54,7 @@ class MapTeller {
   public:
     void follow(const MapFollower& follower, LinePrinter& printer) {
         if (follower.ahead().is_refuted() && !was_refuted_) {
-            printer.print("millforce: the part map does not fit this cut: on without it");
+            printer.print("millforce: the part map does not fit this cut: continuing without it");
         }
         was_refuted_ = follower.ahead().is_refuted();
     }
