@@ -53,7 +53,7 @@ constexpr const char* baseline = "constant";
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
     scenario.interpreter = options.interpreter;
-    host::tell_parameter_notes(scenario.parameters);
+    host::show_parameter_notes(scenario.parameters);
     for (const std::string& note : program_of(scenario).notes) {
         host::print_line(stderr, "millforce: note: " + note);
     }

@@ -69,7 +69,7 @@ int replay_table(const ReplayOptions& options) {
     const firmware::Parameters<float>& parameters = tools.parameters();
     RecordingReader recording(options.log, parameters.machine.encoder_counts_per_rev);
     if (!recording.has_force_sensor()) {
-        tell_parameter_notes(parameters);
+        show_parameter_notes(parameters);
     }
     refuse_without_tool_numbers(tools, recording, options.log);
     firmware::ToolTick tick(parameters, tools.source());

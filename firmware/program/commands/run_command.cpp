@@ -73,8 +73,8 @@ int run_on_bus(const RunOptions& options) {
     options.tools.require_one();
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     const MachineBus bus = bus_of(options.machine);
-    tell_parameter_notes(tools.parameters());
-    tell_parameter_findings(tools.parameters());
+    show_parameter_notes(tools.parameters());
+    show_parameter_findings(tools.parameters());
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(

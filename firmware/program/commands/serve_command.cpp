@@ -36,7 +36,7 @@ struct ServeOptions {
 };
 
 /// Reports a fault as it comes and goes.
-class FaultTeller {
+class FaultReporter {
   public:
     void follow(const hal::FeedOverride& output, LinePrinter& printer) {
         if (output.fault != fault_) {
@@ -50,7 +50,7 @@ class FaultTeller {
 };
 
 /// Reports when a part map is dropped.
-class MapTeller {
+class MapReporter {
   public:
     void follow(const MapFollower& follower, LinePrinter& printer) {
         if (follower.ahead().is_refuted() && !was_refuted_) {
@@ -64,7 +64,7 @@ class MapTeller {
 };
 
 /// Reports which tool the override is for.
-class ToolTeller {
+class ToolReporter {
   public:
     void follow(const firmware::LinkController& controller, LinePrinter& printer) {
         if (controller.is_tool_known() == is_known_ && controller.tool() == tool_) {
@@ -83,9 +83,9 @@ class ToolTeller {
 
 void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower,
                 LinePrinter& printer) {
-    FaultTeller faults;
-    MapTeller maps;
-    ToolTeller tools;
+    FaultReporter faults;
+    MapReporter maps;
+    ToolReporter tools;
     while (server.has_peer()) {
         const auto bytes = server.receive();
         if (bytes.empty()) {
@@ -129,8 +129,8 @@ int serve(const ServeOptions& options) {
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
-    tell_parameter_notes(parameters);
-    tell_parameter_findings(parameters);
+    show_parameter_notes(parameters);
+    show_parameter_findings(parameters);
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);
