@@ -44,7 +44,7 @@ typedef struct {
 typedef struct {
     uint32_t ratio;    ///< 0.0001 of the programmed feed, 0…65535
     bool hold;         ///< stop the feed whatever the ratio says
-    uint32_t state;    ///< of the controller, for display
+    uint32_t state;    ///< state of the controller, for display
     uint32_t fault;    ///< 0: none; for display
     uint32_t counter;  ///< 0…65535, the controller's tick
 } millforce_override;
@@ -183,7 +183,7 @@ static inline millforce_result millforce_decode_status(const millforce_can_frame
 typedef struct {
     uint32_t node;
     uint32_t id;
-    uint32_t timeout_us;            ///< without a fresh counter for longer, the controller is dead
+    uint32_t timeout_us;            ///< longest time without a fresh counter; after it the controller is dead
     uint32_t largest_counter_step;  ///< ticks between two frames, lost frames included
     uint32_t frames_to_trust;       ///< fresh frames in sequence before the override is used (again)
     uint32_t largest_ratio;         ///< a frame with a larger one is refused

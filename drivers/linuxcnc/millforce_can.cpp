@@ -6,9 +6,7 @@
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/socket.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +18,7 @@
 #include <hal.h>
 
 #include "millforce_cnc.h"
+#include "millforce_program.h"
 
 namespace {
 
@@ -27,17 +26,9 @@ constexpr const char* component_name = "millforce-can";
 constexpr long wait_ns = 1'000'000;
 constexpr real_t mm_min_per_mm_s = 60.0;
 
-volatile sig_atomic_t stop_asked = 0;
-
-void ask_to_stop(int) {
-    stop_asked = 1;
-}
-
 /// Wraps after 71.6 minutes.
-std::uint32_t monotonic_us() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<std::uint32_t>(now.tv_sec) * 1'000'000U + static_cast<std::uint32_t>(now.tv_nsec / 1000);
+std::uint32_t now_us() {
+    return static_cast<std::uint32_t>(monotonic_us());
 }
 
 /// In HAL's shared memory, and nowhere else: linking a pin to a signal moves the pointer here.
@@ -142,7 +133,7 @@ class Bridge {
     /// The bus counts to 65 535, the guard to 2^32: it takes a number that falls for a restarted controller.
     void take(const millforce_can_frame& frame) {
         const std::uint32_t before = receiver_.newest.counter;
-        const millforce_result result = millforce_on_frame(&receiver_, &frame, monotonic_us());
+        const millforce_result result = millforce_on_frame(&receiver_, &frame, now_us());
         if (result == millforce_counter_jumped) {
             heartbeat_ = 0;
         } else if (result == millforce_ok) {
@@ -153,7 +144,7 @@ class Bridge {
     }
 
     void set_pins() {
-        const millforce_received now = millforce_now(&receiver_, monotonic_us());
+        const millforce_received now = millforce_now(&receiver_, now_us());
         *pins_.ratio = static_cast<real_t>(now.ratio) / MILLFORCE_RATIO_OF_1;
         *pins_.hold = now.hold;
         *pins_.state = now.state;
@@ -172,7 +163,7 @@ class Bridge {
         status.is_feed_held = *pins_.feed_hold;
         status.resets_fault = *pins_.reset;
         millforce_can_frame ours{};
-        if (!millforce_status_due(&sender_, &status, monotonic_us(), &ours)) {
+        if (!millforce_status_due(&sender_, &status, now_us(), &ours)) {
             return;
         }
         can_frame frame{};
@@ -218,10 +209,7 @@ int main(int argc, char** argv) {
         fprintf(stderr, "usage: millforce-can INTERFACE    the CAN interface, e.g. can0\n");
         return 2;
     }
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    ask_to_stop_on_signals();
     const int component = hal_init(component_name);
     if (component < 0) {
         fprintf(stderr, "millforce-can: no HAL: is LinuxCNC running, and no other millforce-can?\n");

@@ -5,11 +5,9 @@
 // millforce_guard in the servo thread does the rest.
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
 #include <strings.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -22,6 +20,7 @@
 #include <hal.h>
 
 #include "local_link/messages.hpp"
+#include "millforce_program.h"
 #include "millforce_stream.h"
 
 namespace {
@@ -32,18 +31,6 @@ constexpr const char* component_name = "millforce";
 constexpr long wait_ns = 250'000;  // the HAL stream cannot wake a reader: it is polled four times per millisecond
 constexpr std::uint64_t connect_every_us = 100'000;
 constexpr int most_unanswered = 128;  // half of what a socket holds: neither side ever finds it full
-
-volatile sig_atomic_t stop_asked = 0;
-
-void ask_to_stop(int) {
-    stop_asked = 1;
-}
-
-std::uint64_t monotonic_us() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000U + static_cast<std::uint64_t>(now.tv_nsec) / 1000U;
-}
 
 /// In HAL's shared memory, and nowhere else: linking a pin to a signal moves the pointer here.
 struct Pins {
@@ -312,10 +299,7 @@ int main(int argc, char** argv) {
         fprintf(stderr, "millforce-hal: [TRAJ]LINEAR_UNITS = %s: expected mm or inch\n", argv[2]);
         return 2;
     }
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    ask_to_stop_on_signals();
     const int component = hal_init(component_name);
     if (component < 0) {
         fprintf(stderr, "millforce-hal: no HAL: is LinuxCNC running, and no other millforce-hal?\n");

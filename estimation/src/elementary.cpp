@@ -2,6 +2,7 @@
 #include "estimation/number/elementary.hpp"
 
 #include "estimation/number/circle.hpp"
+#include "estimation/number/finite.hpp"
 
 #include <bit>
 #include <cmath>
@@ -101,7 +102,7 @@ float exp(float x) {
     constexpr float lowest = -87.0F;
     constexpr float log2_e = 1.44269504089F;
     if (!(x < highest)) {
-        return x - x == 0.0F || x > 0.0F ? HUGE_VALF : x;
+        return x > 0.0F ? HUGE_VALF : x;  // NaN stays NaN
     }
     if (x < lowest) {
         return 0.0F;
@@ -126,7 +127,7 @@ float log(float x) {
     if (!(x > 0.0F)) {
         return x < 0.0F || x != x ? std::numeric_limits<float>::quiet_NaN() : -HUGE_VALF;
     }
-    if (x - x != 0.0F) {
+    if (!is_finite(x)) {
         return x;
     }
     constexpr float least_normal = 1.17549435e-38F;

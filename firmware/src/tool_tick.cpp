@@ -12,7 +12,7 @@ ToolTick::ToolTick(const Parameters<float>& parameters, const ToolSource* tools)
 void ToolTick::follow_tool(std::uint32_t number, bool axes_rest) {
     const bool is_first = !has_begun_;
     has_begun_ = true;
-    told_ = number;
+    reported_ = number;
     if (tools_ != nullptr && number != number_ && (is_first || (axes_rest && may_change()))) {
         change_to(number);
     }

@@ -9,6 +9,7 @@ namespace millforce::sim {
 
 namespace {
 
+// Written from the standard on purpose, not taken from hal: a wrong number there must not agree with the one here.
 constexpr std::uint32_t nmt_id = 0x000;
 constexpr std::uint32_t sync_id = 0x080;
 constexpr std::uint32_t emergency_id = 0x080;  // + node, as those below

@@ -18,8 +18,8 @@ struct DriveOnBus {
     double drive_A_per_A = 1.0;     ///< what the drive calls current over A rms: √2 for peak, negative where reversed
     double rated_torque_Nm = 8.0;
     double torque_Nm_per_A = 0.0;       ///< per ampere as the drive defines it
-    double velocity_unit_mm_s = 0.001;  ///< of 0x606C
-    double position_unit_mm = 0.0001;   ///< of 0x6064
+    double velocity_unit_mm_s = 0.001;  ///< unit of 0x606C
+    double position_unit_mm = 0.0001;   ///< unit of 0x6064
     bool count_reversed = false;
 };
 

@@ -14,7 +14,7 @@ struct CncSettings {
     double servo_period_s = 0.25e-3;      ///< 1e-6…0.1
     double acceleration_mm_s2 = 2000.0;   ///< along the path and across it (arcs, corners); 1…1e6
     double override_latency_s = 0.010;    ///< from the override's arrival to the first change of velocity; 0…10
-    double rapid_feed_mm_s = 250.0;       ///< of G0, and the largest of any move; 0.1…1e5
+    double rapid_feed_mm_s = 250.0;       ///< feed of G0, and the largest of any move; 0.1…1e5
     double junction_deviation_mm = 0.01;  ///< how far a corner may be cut: sets the speed through it; 1e-6…10
     double spindle_wait_s = 0.5;          ///< after a change of S, M3, M5 before the next move; 0…60
 };
@@ -56,7 +56,7 @@ class Cnc {
     [[nodiscard]] double path_mm() const { return path_mm_; }  ///< travelled since the start
     [[nodiscard]] double total_path_mm() const { return limits_.total_mm(); }
     [[nodiscard]] bool finished() const { return index_ >= moves_.size(); }
-    [[nodiscard]] bool waiting() const { return wait_periods_ > 0; }  ///< in a dwell, or for the spindle
+    [[nodiscard]] bool waiting() const { return wait_periods_ > 0; }  ///< true in a dwell, or for the spindle
     [[nodiscard]] const CncSettings& settings() const { return settings_; }
 
   private:

@@ -20,7 +20,7 @@ struct DrillingCycle {
     struct Step {
         MoveKind kind = MoveKind::rapid;
         double z_mm = 0.0;
-        double dwell_s = 0.0;  ///< of a dwell
+        double dwell_s = 0.0;  ///< length of a dwell
     };
     /// From R down and back. Needs bottom_mm < retract_mm; pecks of less than a thousandth of the way are taken as
     /// that.

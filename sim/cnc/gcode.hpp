@@ -11,7 +11,7 @@
 namespace millforce::sim {
 
 inline constexpr double mm_per_inch = 25.4;
-inline constexpr double largest_coordinate_mm = 1e5;  ///< of a part program
+inline constexpr double largest_coordinate_mm = 1e5;  ///< largest in a part program
 
 /// Part programs in plain G-code (RS-274, the common subset), read as if hostile. The codes, with what each does, is
 /// ignored for or is refused with: sim/cnc/README.md.

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "cnc/gcode_interpreter.hpp"
+#include "cutting/angle_units.hpp"
 
 namespace millforce::sim::gcode {
 
@@ -88,7 +88,7 @@ void Interpreter::set_modes(const SortedBlock& block) {
         if (!(word->value >= 0.0 && word->value <= largest_spindle_speed_rpm)) {
             fail(*word, "a spindle speed from 0 to 1000000 rev/min");
         }
-        spindle_speed_rad_s_ = word->value * 2.0 * std::numbers::pi / 60.0;
+        spindle_speed_rad_s_ = word->value * rad_s_per_rpm;
     }
     if (const GcodeWord* word = block.code(spindle)) {
         spindle_on_ = word->value == 3.0;

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "cutting/angle_units.hpp"
 
 namespace millforce::sim {
 
@@ -27,14 +28,14 @@ PolarArc polar_arc(const Move& move) {
     arc.start_radius_mm = std::hypot(from.x(), from.y());
     arc.radius_change_mm = std::hypot(to.x(), to.y()) - arc.start_radius_mm;
     arc.rise_mm = move.end_mm.z() - move.start_mm.z();
-    const double turn = move.kind == MoveKind::arc_ccw ? 1.0 : -1.0;
-    double sweep = 2.0 * std::numbers::pi;
+    const double sense = move.kind == MoveKind::arc_ccw ? 1.0 : -1.0;
+    double sweep = turn;
     if (move.start_mm.x() != move.end_mm.x() || move.start_mm.y() != move.end_mm.y()) {
-        sweep = turn * (std::atan2(to.y(), to.x()) - arc.start_angle_rad);
-        sweep = sweep <= 0.0 ? sweep + 2.0 * std::numbers::pi : sweep;
-        sweep = sweep > 2.0 * std::numbers::pi ? sweep - 2.0 * std::numbers::pi : sweep;
+        sweep = sense * (std::atan2(to.y(), to.x()) - arc.start_angle_rad);
+        sweep = sweep <= 0.0 ? sweep + turn : sweep;
+        sweep = sweep > turn ? sweep - turn : sweep;
     }
-    arc.signed_sweep_rad = turn * sweep;
+    arc.signed_sweep_rad = sense * sweep;
     const double mean_radius_mm = arc.start_radius_mm + 0.5 * arc.radius_change_mm;
     arc.length_mm = std::hypot(mean_radius_mm * sweep, arc.radius_change_mm, arc.rise_mm);
     return arc;

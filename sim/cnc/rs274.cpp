@@ -20,12 +20,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "cnc/arc_plane.hpp"
+#include "cutting/angle_units.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
@@ -221,7 +221,7 @@ class CanonicalReader {
         } else if (command.name == "SET_FEED_RATE") {
             feed_mm_s_ = number(command, 0) * mm_per_unit_ / 60.0;
         } else if (command.name == "SET_SPINDLE_SPEED") {
-            spindle_speed_rad_s_ = number(command, 1) * 2.0 * std::numbers::pi / 60.0;
+            spindle_speed_rad_s_ = number(command, 1) * rad_s_per_rpm;
         } else if (command.name == "START_SPINDLE_CLOCKWISE") {
             spindle_on_ = true;
         } else if (command.name == "START_SPINDLE_COUNTERCLOCKWISE") {

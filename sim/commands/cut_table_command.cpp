@@ -106,7 +106,7 @@ void add_cut_table(host::Command& program) {
     command.option("--noise", options->noise_share, "Standard deviation of a measured value, relative")
         .within(0.0, 0.5)
         .shows_default();
-    command.option("--seed", options->seed, "Seed of the noise").within(0.0, 4e9).shows_default();
+    command.option("--seed", options->seed, "Seed of the noise").within(0.0, 4294967295.0).shows_default();
     command.on_run([options] { return cut_table(*options); });
 }
 

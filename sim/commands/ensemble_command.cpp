@@ -61,7 +61,7 @@ int ensemble(const EnsembleOptions& options) {
 void add_ensemble(host::Command& program) {
     auto options = std::make_shared<EnsembleOptions>();
     host::Command command =
-        program.subcommand("ensemble", "Mill the same scenario with many plants: how certain the figures are");
+        program.subcommand("ensemble", "Mill the same scenario with many plants, to show how far the figures vary");
     command.footer(
         "K_s, friction, torque and force constants of each plant are drawn from the deviations that the machine and\n"
         "tool files state. Exit code 1: a tooth broke, a peak went beyond 110 % of the tooth's limit or above the "

@@ -17,22 +17,23 @@ int run(int argc, char** argv) {
     program.footer(
         "Exit codes: 0 done; 1 done, and a stated bound does not hold; 2 bad usage or input.\n"
         "'millforce COMMAND --help' describes a command.");
+    // In the order of firmware/program/README.md.
     sim::add_simulate(program);
+    sim::add_preview(program);
     sim::add_ensemble(program);
     sim::add_kinds(program);
-    host::add_replay(program);
     host::add_run(program);
-    host::add_calibrate(program);
-    host::add_estimate(program);
-    sim::add_preview(program);
-    sim::add_reproduce(program);
-    sim::add_cut_table(program);
-    sim::add_bench(program);
     host::add_serve(program);
     sim::add_plant(program);
-    host::add_parameters(program);
+    host::add_replay(program);
     host::add_import(program);
     host::add_check(program);
+    host::add_calibrate(program);
+    host::add_estimate(program);
+    sim::add_reproduce(program);
+    sim::add_cut_table(program);
+    host::add_parameters(program);
+    sim::add_bench(program);
     return line.run(argc, argv);
 }
 

@@ -59,7 +59,7 @@ bool exchange(host::UnixServer& server, LinuxCncPlant& plant) {
 }
 
 /// Returns whether the run keeps the bounds.
-bool tell(const Scenario& scenario, const std::filesystem::path& out, const RunResult& result) {
+bool report(const Scenario& scenario, const std::filesystem::path& out, const RunResult& result) {
     const ScenarioInfo info = info_of(scenario, 1.0);
     const std::vector<RunResult> results{result};
     fmt::print("{}", summary_table(info, results));
@@ -83,7 +83,7 @@ int run_plant(const PlantOptions& options) {
                 plant.disconnect();
             }
             if (const auto result = plant.take_result()) {
-                is_good = tell(scenario, out, *result);
+                is_good = report(scenario, out, *result);
             }
         }
         if (options.once) {

@@ -99,7 +99,7 @@ void add_preview(host::Command& program) {
     command.option("-o,--output", options->output, "Part map to write").required().value_name("PART.map");
     command.choice<Interpreter>(
         "--interpreter", options->interpreter,
-        "Who reads the part program: our reader, LinuxCNC's rs274, or rs274 where ours refuses",
+        "Reader of the part program: own, LinuxCNC's rs274, or auto (own, then rs274)",
         {{"auto", Interpreter::automatic}, {"own", Interpreter::own}, {"rs274", Interpreter::rs274}});
     command.on_run([options] { return write_preview(*options); });
 }

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "cutting/angle_units.hpp"
 #include "loop/simulation.hpp"
 
 namespace millforce::sim {
@@ -16,7 +16,7 @@ ScenarioInfo info_of(const Scenario& scenario, double constant_ratio) {
     info.title = scenario.title;
     info.description = scenario.description;
     info.tool = fmt::format("{} teeth, Ø{:g} mm, helix {:g}°", scenario.cutter.teeth, scenario.cutter.diameter_mm,
-                            scenario.cutter.helix_rad * 180.0 / std::numbers::pi);
+                            scenario.cutter.helix_rad / degree);
     info.material = scenario.material;
     info.seed = scenario.seed;
     info.tooth_force_limit_N = static_cast<double>(scenario.parameters.tool.tooth_force_limit_N);

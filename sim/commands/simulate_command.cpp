@@ -53,7 +53,7 @@ constexpr const char* baseline = "constant";
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
     scenario.interpreter = options.interpreter;
-    host::tell_parameter_notes(scenario.parameters);
+    host::show_parameter_notes(scenario.parameters);
     for (const std::string& note : program_of(scenario).notes) {
         host::print_line(stderr, "millforce: note: " + note);
     }
@@ -208,7 +208,7 @@ void add_simulate(host::Command& program) {
     host::Option controller = command.option("--controller", options->controller, "Controller that sets the override")
                                   .one_of(controller_names())
                                   .shows_default();
-    command.option("--seed", options->seed, "Seed of all noise; default: the scenario's").within(0.0, 4e9);
+    command.option("--seed", options->seed, "Seed of all noise; default: the scenario's").within(0.0, 4294967295.0);
     command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
         .value_name("DIR")
         .shows_default();
@@ -217,7 +217,7 @@ void add_simulate(host::Command& program) {
     host::Option preview = command.flag(
         "--preview", options->preview, "Let the controller see what lies ahead: a part map of program, stock and tool");
     preview.excludes(controller).excludes(record);
-    command.option("--map", options->map, "The same from a file of 'millforce preview', which need not fit this stock")
+    command.option("--map", options->map, "Part map made by 'millforce preview', possibly for another stock")
         .value_name("PART.map")
         .excludes(controller)
         .excludes(record)
@@ -236,7 +236,7 @@ void add_simulate(host::Command& program) {
         .shows_default();
     command.choice<Interpreter>(
         "--interpreter", options->interpreter,
-        "Who reads the part program: our reader, LinuxCNC's rs274, or rs274 where ours refuses",
+        "Reader of the part program: own, LinuxCNC's rs274, or auto (own, then rs274)",
         {{"auto", Interpreter::automatic}, {"own", Interpreter::own}, {"rs274", Interpreter::rs274}});
     command
         .option("--bus", options->interface,

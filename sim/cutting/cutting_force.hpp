@@ -96,7 +96,7 @@ class CuttingForce {
         double edge_per_height;
     };
     struct ToothAngle {
-        double bins;  ///< of the tip, 0…bin_count
+        double bins;  ///< place of the tip, 0…bin_count
         double sine;
         double cosine;
     };

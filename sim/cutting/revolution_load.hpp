@@ -16,7 +16,7 @@ struct RevolutionLoad {
     double peak_total_N = 0.0;  ///< largest √(F_x² + F_y²) of all teeth together
     double peak_tooth_N = 0.0;  ///< largest √(F_x² + F_y²) of one tooth alone: what breaks it
     double peak_torque_Nm = 0.0;
-    std::array<double, Cutter::max_teeth> tooth_peak_N{};  ///< of each tooth
+    std::array<double, Cutter::max_teeth> tooth_peak_N{};  ///< peak of each tooth
 };
 
 /// Means and peaks over a revolution by numeric integration: the truth for the force threshold (the ratio

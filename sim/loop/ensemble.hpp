@@ -29,10 +29,10 @@ struct EnsembleFigures {
     double time_s_mean = 0.0;
     double tangential_error = host::no_estimate;  ///< rms over the runs, as are the other errors
     double feed_force_error = host::no_estimate;
-    double estimate_share = 0.0;  ///< of the time in cut: with an immersion
+    double estimate_share = 0.0;  ///< share of the time in cut: with an immersion
     double immersion_rms = host::no_estimate;
     double immersion_coverage = host::no_estimate;  ///< mean over the runs
-    double depth_share = 0.0;                       ///< of the time in cut: with a depth
+    double depth_share = 0.0;                       ///< share of the time in cut: with a depth
     double depth_rms_mm = host::no_estimate;
     double depth_coverage = host::no_estimate;
 };

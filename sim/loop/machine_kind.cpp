@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::sim {
 

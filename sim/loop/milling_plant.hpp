@@ -80,7 +80,7 @@ class MillingPlant {
 
     struct Command {
         Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the path; zero: at rest
+        Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< direction of the path; zero: at rest
         double feed_mm_s = 0.0;
         double programmed_feed_mm_s = 0.0;
         double path_mm = 0.0;  ///< commanded, since the start
@@ -99,7 +99,7 @@ class MillingPlant {
     [[nodiscard]] hal::DriveSample sample() { return machine_.sample(); }
     [[nodiscard]] const MachinePlant& machine() const { return machine_; }
     [[nodiscard]] double time_s() const { return machine_.time_s(); }
-    [[nodiscard]] const CuttingLoad& load() const { return cutting_load_; }  ///< of the last step
+    [[nodiscard]] const CuttingLoad& load() const { return cutting_load_; }  ///< load of the last step
     [[nodiscard]] const HardestCut& hardest_cut() const { return hardest_cut_; }
     [[nodiscard]] RunJudge& judge() { return judge_; }
 
@@ -112,7 +112,7 @@ class MillingPlant {
     std::unique_ptr<Workpiece> workpiece_;
     FeedHistory since_tooth_before_;                       ///< the chip is what that tooth left
     FeedHistory since_last_revolution_;                    ///< over it the axes' shaking under the teeth cancels out
-    Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  ///< in which the tool goes
+    Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  ///< the tool goes in it
     RunJudge judge_;
     MachinePlant::Load load_{};
     CuttingLoad cutting_load_{};

@@ -50,7 +50,7 @@ struct ProfileSettings {
     std::vector<ProfilePoint> points;
     bool linear = false;  ///< between points; else each point holds until the next
     double length_mm = 0.0;
-    double direction_deg = 0.0;  ///< of the straight path in machine x, y
+    double direction_deg = 0.0;  ///< direction of the straight path in machine x, y
 };
 
 /// How the plant differs from what the controller believes. All of it is written into the report.
@@ -60,8 +60,8 @@ struct PlantDeviation {
     double size_effect_shift = 0.0;    ///< added to the exponent of K_s over chip thickness, K_s fixed at the pivot
     double radial_size_effect_shift = 0.0;  ///< added to the exponent of r_1 over chip thickness
     double size_effect_pivot_mm = 1.0;
-    double friction_scale = 1.0;        ///< of the feed drives and the spindle bearing
-    double current_noise_share = 0.01;  ///< of rated current, per sample
+    double friction_scale = 1.0;        ///< factor on the friction of the feed drives and the spindle bearing
+    double current_noise_share = 0.01;  ///< share of the rated current, per sample
     double spindle_gain_scale = 1.0;    ///< torque constant true / believed
     double axis_gain_scale = 1.0;       ///< force constant true / believed
 };

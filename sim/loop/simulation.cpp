@@ -8,11 +8,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include "cnc/cnc.hpp"
 #include "cnc/gcode.hpp"
 #include "cnc/rs274.hpp"
+#include "cutting/angle_units.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::sim {
@@ -21,7 +21,7 @@ namespace {
 
 /// One straight move for each feed of the profile.
 std::vector<Move> profile_moves(const Scenario& scenario) {
-    const double direction = scenario.profile.direction_deg * std::numbers::pi / 180.0;
+    const double direction = scenario.profile.direction_deg * degree;
     const Eigen::Vector3d along(std::cos(direction), std::sin(direction), 0.0);
     Move move;
     move.kind = MoveKind::feed_line;

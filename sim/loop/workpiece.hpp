@@ -15,7 +15,7 @@ namespace millforce::sim {
 class Workpiece {
   public:
     virtual ~Workpiece() = default;
-    /// Tells where the tool is; returns true where the engagement is another than before.
+    /// Takes the place of the tool; returns true where the engagement is another than before.
     virtual bool move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double path_mm) = 0;
     [[nodiscard]] const EngagementMap& engagement() const { return map_; }
     [[nodiscard]] const EngagementBounds& bounds() const { return bounds_; }

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "cutting/angle_units.hpp"
 
 namespace millforce::sim {
 
@@ -35,7 +36,7 @@ void SpindlePlant::start_at(double speed_rad_s) {
 }
 
 void SpindlePlant::advance(double dt_s, double commanded_speed_rad_s, double cutting_torque_Nm) {
-    const double loop_rad_s = 2.0 * std::numbers::pi * settings_.speed_loop_bandwidth_hz;
+    const double loop_rad_s = sim::turn * settings_.speed_loop_bandwidth_hz;
     const double constant = torque_constant(speed_rad_s_);
     const double gain_A_s = settings_.inertia_kg_m2 * loop_rad_s / constant;
     const double error = commanded_speed_rad_s - speed_rad_s_;
@@ -75,8 +76,7 @@ void FeedPlant::start_at(double position_mm) {
 // Dahl's bristle with Stribeck's curve, its state advanced implicitly: stable at any step.
 double FeedPlant::friction_force_N(double dt_s) {
     const bool forward = velocity_mm_s_ >= 0.0;
-    const double ripple =
-        1.0 + settings_.ripple_share * std::sin(2.0 * std::numbers::pi * position_mm_ / settings_.screw_pitch_mm);
+    const double ripple = 1.0 + settings_.ripple_share * std::sin(sim::turn * position_mm_ / settings_.screw_pitch_mm);
     const double coulomb_N = (forward ? settings_.coulomb_positive_N : settings_.coulomb_negative_N) * ripple;
     const double stribeck = std::exp(-std::pow(velocity_mm_s_ / settings_.stribeck_velocity_mm_s, 2.0));
     const double level_N = std::max(1e-6, coulomb_N * (1.0 + settings_.stribeck_excess * stribeck));
@@ -91,7 +91,7 @@ double FeedPlant::friction_force_N(double dt_s) {
 
 void FeedPlant::advance(double dt_s, double commanded_position_mm, double commanded_velocity_mm_s,
                         double cutting_force_N) {
-    const double loop_rad_s = 2.0 * std::numbers::pi * settings_.velocity_loop_bandwidth_hz;
+    const double loop_rad_s = sim::turn * settings_.velocity_loop_bandwidth_hz;
     const double kg_per_A = settings_.mass_kg * 1e-3 / settings_.force_constant_N_per_A;  // mm/s² of N per kg: 1e3
     const double wanted_mm_s =
         commanded_velocity_mm_s + settings_.position_gain_per_s * (commanded_position_mm - position_mm_);
@@ -125,20 +125,21 @@ double CurrentSensor::read(double current_A) {
 }
 
 void EncoderSensor::update(double angle_rad) {
-    const double turns = angle_rad / (2.0 * std::numbers::pi);
-    const double offset_turns = index_offset_rad_ / (2.0 * std::numbers::pi);
+    const double turns = angle_rad / sim::turn;
+    const double offset_turns = index_offset_rad_ / sim::turn;
     const auto whole_count = static_cast<std::int64_t>(std::floor(turns * counts_per_rev_));
     count_ = static_cast<std::uint32_t>(whole_count);
-    const auto turn = static_cast<std::int64_t>(std::floor(turns - offset_turns));
-    if (started_ && turn != last_turn_) {
-        const double at_index = (static_cast<double>(std::max(turn, last_turn_)) + offset_turns) * counts_per_rev_;
+    const auto whole_turn = static_cast<std::int64_t>(std::floor(turns - offset_turns));
+    if (started_ && whole_turn != last_turn_) {
+        const double at_index =
+            (static_cast<double>(std::max(whole_turn, last_turn_)) + offset_turns) * counts_per_rev_;
         index_count_ = static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(at_index)));
         ++index_number_;
         if (index_number_ == 0) {
             index_number_ = 1;  // 0 means that no index is wired
         }
     }
-    last_turn_ = turn;
+    last_turn_ = whole_turn;
     started_ = true;
 }
 

@@ -75,7 +75,7 @@ struct FeedPlantSettings {
     double viscous_negative_N_s_per_mm = 5.0;
     double presliding_stiffness_N_per_mm = 25000.0;  ///< some 10 µm of elastic travel before it breaks away
     double presliding_damping_N_s_per_mm = 25.0;
-    double ripple_share = 0.02;  ///< of the Coulomb friction, over the screw's pitch
+    double ripple_share = 0.02;  ///< share of the Coulomb friction, over the screw's pitch
     double screw_pitch_mm = 10.0;
     double weight_N = 0.0;
     double position_gain_per_s = 80.0;

@@ -15,7 +15,7 @@ struct ForceSensorSettings {
     double low_pass_hz = 0.0;  ///< Butterworth, second order; 0: no sensor
     double noise_N = 10.0;
     double zero_drift_N = 2.0;  ///< deviation of what the amplifier drifted since its zeroing in air
-    double resolution_N = 1.0;  ///< of a 12-bit converter over ± 2 kN
+    double resolution_N = 1.0;  ///< that of a 12-bit converter over ± 2 kN
 
     [[nodiscard]] bool is_there() const { return low_pass_hz > 0.0; }
 };

@@ -7,13 +7,13 @@
 
 namespace millforce::sim {
 
-/// A spindle current as a frequency converter shows it to whoever asks over Modbus: smoothed by the converter, asked
-/// for once per period, there some time later, and shown until the next one comes.
+/// A spindle current as a frequency converter reports it to a Modbus master: smoothed by the converter, asked for once
+/// per period, answered some time later, and valid until the next answer.
 struct LoadMeterSettings {
     double period_s = 0.0;      ///< between two answers; 0: the current itself is read with each sample
-    double age_s = 0.0;         ///< of an answer when it arrives
+    double age_s = 0.0;         ///< age of an answer when it arrives
     double smoothing_s = 0.0;   ///< time constant of the converter's display filter
-    double resolution_A = 0.1;  ///< of the answer
+    double resolution_A = 0.1;  ///< resolution of the answer
 
     [[nodiscard]] bool is_there() const { return period_s > 0.0; }
 };

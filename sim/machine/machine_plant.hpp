@@ -18,12 +18,12 @@ struct MachinePlantSettings {
     SpindlePlantSettings spindle{};
     std::array<FeedPlantSettings, 3> axes = standard_axes();
     CurrentChannel current_channel = CurrentChannel::per_mille_int16;
-    double current_noise_share = 0.01;        ///< of rated current, per sample
-    double velocity_resolution_mm_s = 0.001;  ///< of the drive's velocity object
+    double current_noise_share = 0.01;        ///< share of the rated current, per sample
+    double velocity_resolution_mm_s = 0.001;  ///< resolution of the drive's velocity object
     std::uint32_t encoder_counts_per_rev = 8192;
     double index_offset_rad = 1.0;       ///< the index may be anywhere relative to tooth 0
     ForceSensorSettings force_sensor{};  ///< under the workpiece
-    LoadMeterSettings load_meter{};      ///< in place of the spindle's own current
+    LoadMeterSettings load_meter{};      ///< replaces the spindle's own current
     std::uint64_t seed = 1;
 
     /// A table that weighs 250 kg in x, 320 kg in y, and a head of 180 kg in z that a weight pulls down.

@@ -81,7 +81,7 @@ void write_bands(JsonWriter& json, const BucketedRun& run) {
                &TracePoint::axial_depth_sd_mm);
 }
 
-/// How telling a state is: of the states in one bucket the most telling is shown, so that a short hold is not lost.
+/// How important a state is: of the states in one bucket the most important is shown, so that a short hold is not lost.
 constexpr int weight_of_state(std::uint8_t state) {
     constexpr int weights[control::state_count] = {0, 3, 1, 2, 4, 5};  // air, entry, in_cut, exit, hold, fault
     return state < control::state_count ? weights[state] : 0;

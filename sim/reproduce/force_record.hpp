@@ -20,7 +20,7 @@ struct SteadyCut {
     double axial_depth_mm = 1.0;
     double radial_depth_mm = 1.0;
     bool up_milling = false;
-    double tip_angle_rad = 0.0;  ///< of tooth 0 at the encoder's zero
+    double tip_angle_rad = 0.0;  ///< angle of tooth 0 at the encoder's zero
 };
 
 struct ForceSensor {

@@ -21,7 +21,7 @@ struct DriveCut {
 };
 
 struct DriveRecording {
-    std::vector<hal::DriveSample> samples;  ///< of the cut alone, its first half second left out
+    std::vector<hal::DriveSample> samples;  ///< samples of the cut alone, its first half second left out
     std::uint32_t encoder_counts_per_rev = 0;
 };
 

@@ -29,7 +29,7 @@ using FloatForceDropEstimate = estimation::ForceDropEstimate<float>;
 struct ForceDropRun {
     double immersion = 0.0;  ///< true
     FloatForceDropEstimate estimate{};
-    double revolution = 0.0;  ///< of the last sample
+    double revolution = 0.0;  ///< place of the last sample
 };
 
 [[nodiscard]] estimation::ForceDropSettings<float> force_drop_settings(const BenchCut& cut, int revolutions);

@@ -33,7 +33,7 @@ struct TableCut {
 
     [[nodiscard]] int estimates() const;
     [[nodiscard]] double mean() const;                    ///< NaN without an estimate
-    [[nodiscard]] double largest_relative_error() const;  ///< of any single estimate; NaN without one
+    [[nodiscard]] double largest_relative_error() const;  ///< error of any single estimate; NaN without one
 };
 
 using TableResult = std::vector<TableCut>;  ///< one per immersion
@@ -59,7 +59,7 @@ struct ForceDropTally {
     double largest_error = 0.0;
 
     void add(const ForceDropRun& run);
-    [[nodiscard]] double share() const;       ///< of runs with an estimate
+    [[nodiscard]] double share() const;       ///< share of runs with an estimate
     [[nodiscard]] double coverage() const;    ///< NaN without an estimate, as the next two
     [[nodiscard]] double mean_error() const;  ///< relative
     [[nodiscard]] double largest() const;

@@ -78,63 +78,85 @@ void add_drive_constants(const KimCampaign& campaign, Reproduction& result) {
          "as K_x4. In the plant it has no counterpart: ours is what the quadratic friction leaves at low feed.");
 }
 
-void add_coefficients(const KimPublishedTool& tool, const std::vector<KimUnknownTool>& found, Reproduction& result) {
+/// Deviations of the coefficients by currents from those by forces, over all machines.
+struct KimTallies {
     KimTally k_s;
     KimTally p_s;
     KimTally k_1;
     KimTally p_1;
-    for (const KimUnknownTool& t : found) {
-        const auto& fit = t.fit;
-        k_s.add(fit.law.k_s_N_per_mm2 - tool.law.k_s, fit.k_s_standard_error(), tool.law.k_s);
-        p_s.add(fit.law.p_s - tool.law.p_s, fit.standard_error(estimation::cutting_p_s), tool.law.p_s);
-        k_1.add(fit.law.k_1 - tool.law.k_1, fit.k_1_standard_error(), tool.law.k_1);
-        p_1.add(fit.law.p_1 - tool.law.p_1, fit.standard_error(estimation::cutting_p_1), tool.law.p_1);
+
+    KimTallies(const KimPublishedTool& tool, const std::vector<KimUnknownTool>& found) {
+        for (const KimUnknownTool& t : found) {
+            const auto& fit = t.fit;
+            k_s.add(fit.law.k_s_N_per_mm2 - tool.law.k_s, fit.k_s_standard_error(), tool.law.k_s);
+            p_s.add(fit.law.p_s - tool.law.p_s, fit.standard_error(estimation::cutting_p_s), tool.law.p_s);
+            k_1.add(fit.law.k_1 - tool.law.k_1, fit.k_1_standard_error(), tool.law.k_1);
+            p_1.add(fit.law.p_1 - tool.law.p_1, fit.standard_error(estimation::cutting_p_1), tool.law.p_1);
+        }
     }
-    const auto& first = found.front().fit;
-    auto& figures = result.figures;
-    const auto against_forces = [&](const char* what, double published, double ours, double se, double bound) {
-        figures.push_back({fmt::format("{}, {}: {} by forces; ours from currents alone (standard error {:.2g})",
-                                       tool.table, tool.name, what, se),
-                           "", published, ours, Judged::relative_difference, bound});
+};
+
+void add_law_against_forces(const KimPublishedTool& tool, const KimUnknownTool& found, Reproduction& result) {
+    const auto& fit = found.fit;
+    const auto add = [&](const char* what, double published, double ours, double se, double bound) {
+        result.figures.push_back({fmt::format("{}, {}: {} by forces; ours from currents alone (standard error {:.2g})",
+                                              tool.table, tool.name, what, se),
+                                  "", published, ours, Judged::relative_difference, bound});
     };
-    against_forces("k_s", tool.law.k_s, first.law.k_s_N_per_mm2, first.k_s_standard_error(), 0.045);
-    against_forces("p_s", tool.law.p_s, first.law.p_s, first.standard_error(estimation::cutting_p_s), 0.06);
-    against_forces("k_1", tool.law.k_1, first.law.k_1, first.k_1_standard_error(), 0.045);
-    against_forces("p_1", tool.law.p_1, first.law.p_1, first.standard_error(estimation::cutting_p_1), 0.06);
+    add("k_s", tool.law.k_s, fit.law.k_s_N_per_mm2, fit.k_s_standard_error(), 0.045);
+    add("p_s", tool.law.p_s, fit.law.p_s, fit.standard_error(estimation::cutting_p_s), 0.06);
+    add("k_1", tool.law.k_1, fit.law.k_1, fit.k_1_standard_error(), 0.045);
+    add("p_1", tool.law.p_1, fit.law.p_1, fit.standard_error(estimation::cutting_p_1), 0.06);
+}
+
+void add_law_by_currents(const KimPublishedTool& tool, const KimUnknownTool& found, const KimTallies& tallies,
+                         Reproduction& result) {
     const auto deviation_percent = [](double by_currents, double by_forces) {
         return 100.0 * std::abs(by_currents / by_forces - 1.0);
     };
     const double k_s_percent = deviation_percent(tool.k_s_by_currents, tool.law.k_s);
     const double p_s_percent = deviation_percent(tool.p_s_by_currents, tool.law.p_s);
     const auto by_currents = [&](const char* what, double published, double ours, double percent) {
-        figures.push_back({fmt::format("Table 5, {}: {} by motor currents", tool.name, what), "", published, ours,
-                           Judged::shown, 0.0, 0.0,
-                           fmt::format("the paper's lies {:.1f} % from its own by forces ({}). Ours is judged against "
-                                       "the one by forces, above.",
-                                       percent, tool.table)});
+        result.figures.push_back(
+            {fmt::format("Table 5, {}: {} by motor currents", tool.name, what), "", published, ours, Judged::shown, 0.0,
+             0.0,
+             fmt::format("the paper's lies {:.1f} % from its own by forces ({}). Ours is judged against "
+                         "the one by forces, above.",
+                         percent, tool.table)});
     };
-    by_currents("k_s", tool.k_s_by_currents, first.law.k_s_N_per_mm2, k_s_percent);
-    by_currents("p_s", tool.p_s_by_currents, first.law.p_s, p_s_percent);
+    by_currents("k_s", tool.k_s_by_currents, found.fit.law.k_s_N_per_mm2, k_s_percent);
+    by_currents("p_s", tool.p_s_by_currents, found.fit.law.p_s, p_s_percent);
     const auto worst = [&](const char* what, const KimTally& tally, double percent, double bound) {
-        figures.push_back({fmt::format("Table 5 against {}, {}: deviation of {}; ours: the largest of {} machines",
-                                       tool.table, tool.name, what, machines),
-                           "%", percent, 100.0 * tally.largest, Judged::at_most, bound});
+        result.figures.push_back(
+            {fmt::format("Table 5 against {}, {}: deviation of {}; ours: the largest of {} machines", tool.table,
+                         tool.name, what, machines),
+             "%", percent, 100.0 * tally.largest, Judged::at_most, bound});
     };
-    worst("k_s", k_s, k_s_percent, 4.5);
-    worst("p_s", p_s, p_s_percent, 6.0);
+    worst("k_s", tallies.k_s, k_s_percent, 4.5);
+    worst("p_s", tallies.p_s, p_s_percent, 6.0);
+}
+
+void add_law_checks(const KimPublishedTool& tool, const KimTallies& tallies, Reproduction& result) {
     const auto not_printed = [&](const char* what, const KimTally& tally, double bound) {
         result.checks.push_back(own_check(
             fmt::format("Step 3, {}: largest deviation of {} by currents over {} machines", tool.name, what, machines),
             "%", 100.0 * tally.largest, Judged::at_most, bound));
     };
-    not_printed("k_1", k_1, 4.5);
-    not_printed("p_1", p_1, 6.0);
-    const double within = k_s.within + p_s.within + k_1.within + p_1.within;
+    not_printed("k_1", tallies.k_1, 4.5);
+    not_printed("p_1", tallies.p_1, 6.0);
+    const double within = tallies.k_s.within + tallies.p_s.within + tallies.k_1.within + tallies.p_1.within;
     result.checks.push_back(
         own_check(fmt::format("Step 3, {}: coefficients within two standard errors, {} machines (Student's t, 8 "
                               "degrees of freedom: 92 %)",
                               tool.name, machines),
                   "%", 100.0 * within / (4.0 * static_cast<double>(machines)), Judged::within, 100.0, 85.0));
+}
+
+void add_coefficients(const KimPublishedTool& tool, const std::vector<KimUnknownTool>& found, Reproduction& result) {
+    const KimTallies tallies(tool, found);
+    add_law_against_forces(tool, found.front(), result);
+    add_law_by_currents(tool, found.front(), tallies, result);
+    add_law_checks(tool, tallies, result);
 }
 
 std::vector<std::string> deviations() {

@@ -62,10 +62,10 @@ struct KimCampaign {
     KimMachine machine;
     std::vector<KimAirCut> air_cuts;
     host::MachineParameters calibrated;  ///< after steps 1 and 2
-    host::StandardCutGains gains;        ///< of step 2
+    host::StandardCutGains gains;        ///< gains of step 2
     std::vector<host::RecordedStretch> standard_cuts;
     estimation::DriveGainDoubt gain_doubt;
-    double idle_torque_Nm = 0.0;  ///< of the plant's warm bearing at the spindle's speed
+    double idle_torque_Nm = 0.0;  ///< torque of the plant's warm bearing at the spindle's speed
 };
 
 /// Steps 1 and 2; the forces of the standard cuts by `database`, which is the plant's law as well.

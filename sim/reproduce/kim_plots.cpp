@@ -78,7 +78,9 @@ void add_coefficient_plot(const KimDrawn& drawn, const KimUnknownTool& tool, Rep
           points_of("from currents", tool, &CutCoefficients::r_1)}});
 }
 
-void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
+namespace {
+
+void add_friction_plots(const KimCampaign& campaign, Reproduction& result) {
     const auto friction = [&](double w) {
         return host::signed_friction_current_A(campaign.calibrated, 0, w) +
                static_cast<double>(campaign.calibrated.axes[0].gravity_A);
@@ -110,6 +112,9 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
                            KimPublishedDrives::friction_current(reference_m_min);
                 }),
           curve("simulated machine", 0.1, 0.7, [&](double w) { return friction(w) / friction(reference_m_min); })}});
+}
+
+void add_gain_plots(const KimCampaign& campaign, Reproduction& result) {
     const auto law = closed_law(kim_tools[0].law);
     PlotSeries feed{"standard cuts and air", PlotSeries::Style::points, {}, {}};
     PlotSeries spindle{"standard cuts and air", PlotSeries::Style::points, {}, {}};
@@ -153,6 +158,13 @@ void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
                 [](double idle_currents) { return -KimPublishedDrives::K_t2_N * (idle_currents - 1.0); }),
           curve("simulated machine", 1.0, 4.0,
                 [&](double idle_currents) { return -s.offset * per_Nm * (idle_currents - 1.0); })}});
+}
+
+}  // namespace
+
+void add_drive_plots(const KimCampaign& campaign, Reproduction& result) {
+    add_friction_plots(campaign, result);
+    add_gain_plots(campaign, result);
 }
 
 void add_comparison_plot(const KimDrawn& drawn, const KimPressureLaw& by_published_currents, const KimUnknownTool& tool,

@@ -14,7 +14,7 @@ namespace millforce::sim {
 
 /// One published figure and ours, or a check of our own.
 struct Figure {
-    std::string name;  ///< of a published one: first where the paper prints it, "Table 5, carbide: k_s"
+    std::string name;  ///< name of a published value: first where the paper prints it, "Table 5, carbide: k_s"
     std::string unit;  ///< "" for a ratio
     double published;  ///< NaN in a check of our own
     double ours;
@@ -66,7 +66,7 @@ struct Reproduction {
     std::string title;             ///< what the system is, with the paper's authors
     std::string summary{};         ///< one paragraph: what the system does, readable without the paper
     std::vector<Figure> figures;   ///< each with a published value; one that is only shown has a reason
-    std::vector<Figure> checks{};  ///< of our own, without a published value
+    std::vector<Figure> checks{};  ///< figures of our own, without a published value
     std::vector<Plot> plots;
     std::vector<std::string> deviations;  ///< where this project differs from print, and why
     std::vector<NotReproduced> not_reproduced{};

@@ -40,7 +40,7 @@ struct Series {
     std::size_t mill = 0;
     std::size_t type = 0;
     std::array<Test, 5> tests{};
-    estimation::ForceIndices<float> nominal_indices{};  ///< of the resultant
+    estimation::ForceIndices<float> nominal_indices{};  ///< indices of the resultant
     double nominal_formula_rad = 0.0;                   ///< Table 1
 };
 

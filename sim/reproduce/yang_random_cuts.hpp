@@ -18,7 +18,7 @@ struct RandomCutOptions {
 };
 
 struct RandomCutOutcome {
-    double axial_error_percent;  ///< of the nominal depth; NaN: no estimate
+    double axial_error_percent;  ///< share of the nominal depth; NaN: no estimate
     double radial_error_percent;
     double axial_error_in_sd;
     double radial_error_in_sd;
@@ -38,7 +38,7 @@ struct RandomCutSummary {
     double answered_share;
     double largest_answered_percent;  ///< the largest error that came as an estimate
     double within_two_sd_share;
-    std::size_t categories;  ///< of the twelve that occur
+    std::size_t categories;  ///< number of the twelve that occur
 };
 
 [[nodiscard]] RandomCutSummary summary_of(const std::vector<RandomCutOutcome>& outcomes);

@@ -12,7 +12,7 @@ namespace millforce::sim {
 
 /// Figures that belong together.
 struct FigureTable {
-    std::string title;  ///< of a long table, what its rows have in common: "Table 1"; else empty
+    std::string title;  ///< title of a long table: what its rows have in common: "Table 1"; else empty
     std::span<const Figure> figures;
     [[nodiscard]] bool is_long() const { return !title.empty(); }
 };

@@ -52,7 +52,7 @@ class LookAhead {
 /// the greatest height is left out: the floor's skin, which the end scrapes off, is no width of cut.
 struct TrueEngagement {
     bool cutting = false;
-    double entry_rad = 0.0;  ///< of the hull of all that is engaged
+    double entry_rad = 0.0;  ///< entry of the hull of all that is engaged
     double exit_rad = 0.0;
     double radial_immersion = 0.0;  ///< Σ (cos φ_st − cos φ_ex): width of the material in front of the tool over R
     double axial_depth_mm = 0.0;    ///< mean height, weighted with sin φ as the chip is

@@ -53,7 +53,7 @@ class HeightMap {
         float top_mm = nothing_mm;
     };
     [[nodiscard]] Material material_above(double z_mm, double x_mm, double y_mm) const {
-        // From the centre of the first cell, plus one: nothing inside the grid is negative, and a cast cuts fractions.
+        // From the centre of the first cell, plus one: nothing inside the grid is negative, so that a cast rounds down.
         const double u = (x_mm - min_x_mm_) * cells_per_mm_ + 0.5;
         const double v = (y_mm - min_y_mm_) * cells_per_mm_ + 0.5;
         const auto above_mm = static_cast<float>(z_mm + height_resolution_mm);

@@ -220,7 +220,8 @@ TEST(FeedAhead, a_harder_material_is_measured_and_slows_all_that_lies_ahead) {
 }
 
 TEST(FeedAhead, before_the_first_cut_the_material_is_taken_for_harder_than_it_may_be) {
-    const FeedAheadSettings<float> usual;
+    FeedAheadSettings<float> usual;
+    usual.acceleration_mm_s2 = 500.0F;
     FeedAheadSettings<float> as_in_the_file = usual;
     as_in_the_file.assumed_hardness = 1.0F;
     DOUBLES_EQUAL(static_cast<double>(with(wall, as_in_the_file).step(at(50.0F)).feed_mm_s),

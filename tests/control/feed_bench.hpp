@@ -2,6 +2,7 @@
 #pragma once
 
 #include "control/feed_controller.hpp"
+#include "estimation/number/circle.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -17,7 +18,6 @@ using Output = ControlOutput<float>;
 
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float beyond_all = std::numeric_limits<float>::infinity();
-inline constexpr float two_pi = 6.28318530718F;
 
 /// The defaults, and a tool and a CNC: what the firmware's controller_parameters() adds.
 struct Parameters : FeedControllerParameters<float> {
@@ -65,7 +65,8 @@ inline Input without_force(Input input) {
 }
 
 inline float ratio_of(float feed_per_tooth_mm, const Input& input, float teeth = 4.0F) {
-    return feed_per_tooth_mm * teeth * input.cut.spindle_speed_rad_s / two_pi / input.programmed_feed_mm_s;
+    return feed_per_tooth_mm * teeth * input.cut.spindle_speed_rad_s / estimation::turn_rad<float> /
+           input.programmed_feed_mm_s;
 }
 
 /// In cut after two steps, and the law's demand is taken at once.

@@ -173,7 +173,7 @@ TEST(FeedLaw, never_exceeds_what_edge_and_chip_space_allow) {
 
 namespace {
 
-/// A machine that goes as told, along x or y.
+/// A machine that goes as commanded, along x or y.
 Output follow(Controller& controller, Input& input, const Output& last, bool along_y) {
     input.path_speed_mm_s = last.ratio * input.programmed_feed_mm_s;
     input.velocity_x_mm_s = along_y ? 0.0F : input.path_speed_mm_s;

@@ -5,7 +5,7 @@
 #include "estimation/cutting/peak_factors.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
 
-/// What the estimators are told of the tool in these tests: 4 flutes, Ø10 mm, 0.05 mm per tooth.
+/// What the estimators know of the tool in these tests: 4 flutes, Ø10 mm, 0.05 mm per tooth.
 
 namespace millforce::tests {
 

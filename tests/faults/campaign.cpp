@@ -18,7 +18,7 @@ sim::RunFigures mill(const Part& part, std::uint64_t seed, const FaultyMachine::
     sim::Scenario scenario = part.scenario;
     scenario.seed = seed;
     scenario.deviation = sim::drawn_deviation(scenario, seed);
-    sim::MillforceController controller(part.told);
+    sim::MillforceController controller(part.stated);
     FaultyMachine machine(controller, settings);
     sim::SimulationSettings stopped_early;  // where the feed is held for good
     stopped_early.longest_run_s = part.duration_s > 0.0 ? 1.5 * part.duration_s : stopped_early.longest_run_s;
@@ -31,7 +31,7 @@ sim::RunFigures mill(const Part& part, std::uint64_t seed, const FaultyMachine::
 
 Part part_named(const std::string& name, bool spindle_alone) {
     Part part{.scenario = sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml")};
-    part.told = spindle_alone ? test::without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
+    part.stated = spindle_alone ? test::without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
     FaultyMachine::Reaction none;
     part.duration_s = mill(part, part.scenario.seed, {}, none).time_s;
     return part;
@@ -41,7 +41,7 @@ Outcome mill_with(const Part& part, SignalFault fault, std::uint64_t seed) {
     constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
     std::mt19937_64 random(seed);
     const double begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random);
-    const auto rated_A = static_cast<double>(part.told.machine.spindle_rated_current_A);
+    const auto rated_A = static_cast<double>(part.stated.machine.spindle_rated_current_A);
     Outcome outcome;
     const sim::RunFigures figures = mill(
         part, seed, {.fault = fault, .begins_s = begins_s, .spindle_rated_A = rated_A, .seed = seed}, outcome.reaction);

@@ -15,7 +15,7 @@ namespace millforce::faults {
 /// One part. `duration_s`: of the run without a fault, in which the fault's begin is drawn.
 struct Part {
     sim::Scenario scenario;
-    firmware::Parameters<float> told{};  ///< to the controller
+    firmware::Parameters<float> stated{};  ///< to the controller
     double duration_s = 0.0;
 };
 

@@ -13,6 +13,7 @@
 #include "control/path_turn_impl.hpp"
 #include "estimation/cut_estimator_impl.hpp"
 #include "estimation/cutting/peak_table_impl.hpp"
+#include "estimation/number/circle.hpp"
 #include "estimation/number/fixed_point.hpp"
 #include "estimation/surface/roughness_impl.hpp"
 #include "firmware/parameters_in_impl.hpp"
@@ -93,7 +94,7 @@ Shop drawn_shop(Draw& draw) {
     p.tool.tooth_force_limit_N = full_load_N < largest_force_N ? full_load_N : largest_force_N;
     p.tool.control.contact_force_N = 0.02F * p.tool.tooth_force_limit_N;
     shop.spindle_speed_rad_s = draw.log_between(31.0F, 2513.0F);
-    shop.programmed_feed_mm_s = chip_mm * p.tool.teeth * shop.spindle_speed_rad_s / 6.2831853F;
+    shop.programmed_feed_mm_s = chip_mm * p.tool.teeth * shop.spindle_speed_rad_s / estimation::turn_rad<float>;
     // The drives fit the tool: full load is a few tens of amperes on each.
     const float force_N = 2.0F * p.tool.tooth_force_limit_N;
     p.machine.spindle.K_t1_Nm_per_A = force_N * p.tool.diameter_mm * 0.0005F / 30.0F;
@@ -109,7 +110,7 @@ Shop drawn_shop(Draw& draw) {
 
 /// A sample rate that sees each tooth a few times at any speed.
 float sample_interval_s(const Shop& shop) {
-    const float tooth_s = 6.2831853F / (shop.spindle_speed_rad_s * shop.parameters.tool.teeth);
+    const float tooth_s = estimation::turn_rad<float> / (shop.spindle_speed_rad_s * shop.parameters.tool.teeth);
     return tooth_s < 0.004F ? 0.001F : (tooth_s > 0.04F ? 0.01F : 0.25F * tooth_s);
 }
 
@@ -148,12 +149,12 @@ hal::DriveSample sample_of(const Shop& shop, const Cut& cut, float feed_mm_s, Cl
     const auto& p = shop.parameters;
     const float dt_s = sample_interval_s(shop);
     clock.time_us += static_cast<std::uint32_t>(dt_s * 1e6F);
-    clock.turned_counts +=
-        dt_s * shop.spindle_speed_rad_s / 6.2831853F * static_cast<float>(p.machine.encoder_counts_per_rev);
+    clock.turned_counts += dt_s * shop.spindle_speed_rad_s / estimation::turn_rad<float> *
+                           static_cast<float>(p.machine.encoder_counts_per_rev);
     const auto whole = static_cast<std::uint32_t>(clock.turned_counts);
     clock.count += whole;
     clock.turned_counts -= static_cast<float>(whole);
-    const float feed_per_tooth_mm = feed_mm_s * 6.2831853F / (shop.spindle_speed_rad_s * p.tool.teeth);
+    const float feed_per_tooth_mm = feed_mm_s * estimation::turn_rad<float> / (shop.spindle_speed_rad_s * p.tool.teeth);
     const auto forces = estimation::average_forces(
         p.tool.law, estimation::CutConditions<float>{feed_per_tooth_mm, cut.depth_mm,
                                                      estimation::engagement_angles(p.tool.side, cut.immersion, 0.0F),

@@ -18,7 +18,7 @@ using estimation::Fixed;
 
 namespace {
 
-/// All the digits that tell one value from its neighbours.
+/// All the digits that distinguish one value from its neighbours.
 std::string digits_of(float value) {
     char text[32];
     std::snprintf(text, sizeof(text), "%.9g", static_cast<double>(value));

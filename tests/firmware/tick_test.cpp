@@ -30,7 +30,7 @@ Parameters well_known_machine() {
     return p;
 }
 
-/// With an encoder so fine that one window tells the torque.
+/// With an encoder so fine that one window gives the torque.
 Parameters with_fine_encoder() {
     Parameters p = machine_and_tool();
     p.machine.encoder_counts_per_rev = 65536;

@@ -12,10 +12,10 @@
 
 namespace millforce::judging {
 
-/// What the tick is told, or what a signal says, against the truth.
+/// What the tick is given, or what a signal says, against the truth.
 enum class Wrong : std::uint8_t {
     nothing,            ///< the side is declared
-    nothing_told,       ///< the side is not declared
+    nothing_stated,     ///< the side is not declared
     side,               ///< the other side is declared
     x_friction,         ///< 360 N more friction on x, from contact on
     x_reversed,         ///< x's current with the other sign
@@ -28,7 +28,7 @@ enum class Wrong : std::uint8_t {
     edge_forces,        ///< the tool's file has none
     material,           ///< twice as hard at a chip of 0.05 mm, harder at thinner ones, and r_1 × 1.5
 };
-inline constexpr std::array all_wrongs{Wrong::nothing,        Wrong::nothing_told,      Wrong::side,
+inline constexpr std::array all_wrongs{Wrong::nothing,        Wrong::nothing_stated,    Wrong::side,
                                        Wrong::x_friction,     Wrong::x_reversed,        Wrong::x_dead,
                                        Wrong::x_tenfold,      Wrong::axes_swapped,      Wrong::spindle_weak,
                                        Wrong::spindle_frozen, Wrong::spindle_saturated, Wrong::edge_forces,
@@ -61,11 +61,11 @@ struct DrawnCut {
     double noise_A = 0.1;   ///< of a sample
     double override = 0.6;  ///< at which the cut was recorded
     Wrong wrong = Wrong::nothing;
-    firmware::Parameters<float> told;
+    firmware::Parameters<float> stated;
     std::uint64_t seed = 0;
 };
 
-/// `files`: what machine and tool are told to be, of a tool with the linear edge law. The cut's peak is 0.2 to 0.9 of
+/// `files`: what machine and tool are stated to be, of a tool with the linear edge law. The cut's peak is 0.2 to 0.9 of
 /// the tooth's limit.
 DrawnCut draw_cut(const firmware::Parameters<float>& files, Wrong wrong, std::uint64_t seed);
 

@@ -34,7 +34,7 @@ void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, 
     if (e.depth_valid) {
         ++verdict.depths;
         verdict.depths_beyond += within(depth_mm, estimate_mm, 3.0 * sd_mm) ? 0 : 1;
-        verdict.depths_beyond_flute += e.axial_depth_mm > drawn.told.tool.flute_length_mm ? 1 : 0;
+        verdict.depths_beyond_flute += e.axial_depth_mm > drawn.stated.tool.flute_length_mm ? 1 : 0;
         verdict.last_depth_covers = within(depth_mm, estimate_mm, 1.96 * sd_mm);
     }
 }
@@ -44,7 +44,7 @@ void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, 
 double allowed_override(const DrawnCut& drawn) {
     constexpr double most_mm = 1.0;
     constexpr double tolerated_share = 1.05;
-    const double tolerated_N = tolerated_share * static_cast<double>(drawn.told.tool.tooth_force_limit_N);
+    const double tolerated_N = tolerated_share * static_cast<double>(drawn.stated.tool.tooth_force_limit_N);
     const double allowed_mm = feed_per_tooth_at_limit_mm(drawn.cut, tolerated_N, most_mm);
     return drawn.override * allowed_mm / drawn.cut.feed_per_tooth_mm;
 }
@@ -57,7 +57,7 @@ Verdict judge(const DrawnCut& drawn) {
     const double samples_per_turn = 1000.0 / drawn.turns_per_s;
     const auto first = recording.whole_from + static_cast<std::size_t>(4.0 * samples_per_turn);
     const auto every = static_cast<std::size_t>(4.0 * samples_per_turn);
-    firmware::ForceControlTick<float> tick(drawn.told);
+    firmware::ForceControlTick<float> tick(drawn.stated);
     Verdict verdict;
     double above = 0.0;
     for (std::size_t i = 0; i < recording.samples.size(); ++i) {

@@ -86,7 +86,7 @@ class Recorder {
         s.axis_velocity_mm_s = {static_cast<float>(speed_mm_s_ * cosine), static_cast<float>(speed_mm_s_ * sine), 0.0F};
         s.axis_current_A = {axis_current_A(0, cosine, acceleration, lagged_.x_N),
                             axis_current_A(1, sine, acceleration, lagged_.y_N), 0.0F};
-        tell_wrong_axes(s);
+        show_wrong_axes(s);
         return s;
     }
 
@@ -102,7 +102,7 @@ class Recorder {
     }
 
     void put_encoder(hal::DriveSample& s) const {
-        const double counts = drawn_.told.machine.encoder_counts_per_rev;
+        const double counts = drawn_.stated.machine.encoder_counts_per_rev;
         const double turns = drawn_.turns_per_s * time_s_;
         s.spindle_count = static_cast<std::uint32_t>(turns * counts);
         s.spindle_index_count = static_cast<std::uint32_t>(std::floor(turns) * counts);
@@ -149,7 +149,7 @@ class Recorder {
         return static_cast<float>(axis.gravity_A + friction_A + (force_N + inertial_N) / axis.K_x4_N_per_A + noise_A());
     }
 
-    void tell_wrong_axes(hal::DriveSample& s) const {
+    void show_wrong_axes(hal::DriveSample& s) const {
         float& x = s.axis_current_A[0];
         switch (drawn_.wrong) {
             case Wrong::x_reversed:

@@ -16,13 +16,13 @@ class EmulatedController {
         const std::string source = MILLFORCE_SOURCE_DIR;
         pipes_.start({source + "/toolchains/run-on-mps2", processor,
                       source + "/build/" + processor + "/tests/target/lock_step_controller.elf"});
-        pipes_.tell(firmware::values_of(parameters));
+        pipes_.send(firmware::values_of(parameters));
     }
 
     [[nodiscard]] bool works() const { return pipes_.works(); }
 
     lock_step::Answer step(const lock_step::Request& request) {
-        pipes_.tell(request);
+        pipes_.send(request);
         return pipes_.hear<lock_step::Answer>();
     }
 

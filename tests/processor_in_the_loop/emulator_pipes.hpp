@@ -61,7 +61,7 @@ class EmulatorPipes {
     [[nodiscard]] bool works() const { return works_; }
 
     template <typename Message>
-    void tell(const Message& message) {
+    void send(const Message& message) {
         const auto bytes = std::as_bytes(std::span(&message, 1));
         works_ = works_ && write(to_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
     }

@@ -3,6 +3,8 @@
 
 #include "parameters/parameter_table.hpp"
 
+#include <algorithm>
+
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce::test;
@@ -33,6 +35,14 @@ std::vector<std::string> plus(std::vector<std::string> words, const std::string&
     return words;
 }
 
+/// Letters before the text in its line.
+long column_of(const std::string& text, const std::string& part) {
+    const std::size_t end = std::min(text.find(part), text.size());
+    const std::string before = text.substr(0, end).substr(text.rfind('\n', end) + 1);
+    return std::count_if(before.begin(), before.end(),
+                         [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
+}
+
 void refuses(const std::vector<std::string>& words, const std::vector<std::string>& parts) {
     STRCMP_EQUAL("", not_refused(run_millforce(words), parts).c_str());
 }
@@ -54,7 +64,16 @@ TEST(CommandLine, every_command_explains_itself) {
     }
 }
 
-TEST(CommandLine, every_command_tells_the_version) {
+TEST(CommandLine, descriptions_stand_in_one_column_whatever_letters_the_options_have) {
+    const std::string help = run_millforce({"simulate", "--help"}).out;
+    CHECK(contains(help, "--seed UINT:0…4294967295 "));
+    CHECK(contains(help, "--interpreter {auto,own,rs274} "));
+    LONGS_EQUAL(column_of(help, "Print this help"), column_of(help, "Seed of all noise"));
+    CHECK(contains(run_millforce({"calibrate", "friction", "--help"}).out, "DATA.csv ... REQUIRED"));
+    CHECK(contains(run_millforce({"calibrate", "friction", "--help"}).out, "--axis {x,y,z}="));
+}
+
+TEST(CommandLine, every_command_shows_the_version) {
     for (const auto& command : commands) {
         const Ended version = run_millforce(plus(command, "--version"));
         LONGS_EQUAL(0, version.exit_code);
@@ -73,7 +92,7 @@ TEST(CommandLine, the_programs_help_lists_every_command) {
 
 TEST(CommandLine, no_command_is_refused_in_one_line_that_names_them) {
     refuses({}, {"no command", "simulate", "replay", "calibrate", "'millforce --help'"});
-    refuses({"calibrate"}, {"no command", "friction, spindle, cutting", "'millforce calibrate --help'"});
+    refuses({"calibrate"}, {"no command", "friction, spindle, standard-cut", "'millforce calibrate --help'"});
 }
 
 TEST(CommandLine, an_unknown_command_or_option_is_refused_with_the_nearest_one) {

@@ -4,6 +4,8 @@
 #include "program.hpp"
 #include "temporary_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace millforce::test {
@@ -43,29 +45,30 @@ K_te_N_per_mm = 22.0
 K_re_N_per_mm = 28.0
 )";
 
-/// A straight cut of 18 mm, with air before it.
-inline const std::string scenario_text = R"(machine = "machine.toml"
+/// A straight cut of 5 × 3 mm from `begin_mm` to `end_mm`, with air before it and a run-out of 3 mm.
+inline std::string straight_cut(int spindle_speed_rpm, int feed_mm_min, int begin_mm, int end_mm) {
+    return fmt::format(R"(machine = "machine.toml"
 tool = "tool.toml"
 seed = 5
 [profile]
-spindle_speed_rpm = 4000
-feed_mm_min = 1200
-length_mm = 30
+spindle_speed_rpm = {0}
+feed_mm_min = {1}
+length_mm = {4}
 interpolation = "linear"
 [[profile.point]]
-path_mm = 8
+path_mm = {2}
 axial_depth_mm = 0
 radial_width_mm = 3
 [[profile.point]]
-path_mm = 8.01
+path_mm = {2}.01
 axial_depth_mm = 5
 radial_width_mm = 3
 [[profile.point]]
-path_mm = 26
+path_mm = {3}
 axial_depth_mm = 5
 radial_width_mm = 3
 [[profile.point]]
-path_mm = 29
+path_mm = {5}
 axial_depth_mm = 0
 radial_width_mm = 3
 [material]
@@ -73,7 +76,11 @@ K_tc_N_mm2 = 1650
 K_rc_N_mm2 = 620
 K_te_N_mm = 22
 K_re_N_mm = 28
-)";
+)",
+                       spindle_speed_rpm, feed_mm_min, begin_mm, end_mm, end_mm + 4, end_mm + 3);
+}
+
+inline const std::string scenario_text = straight_cut(4000, 1200, 8, 26);
 
 /// A folder with machine.toml, tool.toml and scenario.toml.
 class Inputs : public TemporaryFolder {

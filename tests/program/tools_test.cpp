@@ -143,11 +143,11 @@ TEST(Tools, serve_changes_the_tool_at_rest_and_says_which_one_it_is) {
     serve.interrupt(SIGTERM);
     serve.wait();
     LONGS_EQUAL(0, serve.exit_code());
-    const std::string& told = serve.error();
-    const std::size_t first = told.find("millforce: tool 7\n");
-    const std::size_t second = told.find("millforce: tool 12\n", first);
-    const std::size_t none = told.find("tool not known: the override is the operator's\n", second);
-    CHECK(told.find("millforce: tool 7\n", none) != std::string::npos);
+    const std::string& reported = serve.error();
+    const std::size_t first = reported.find("millforce: tool 7\n");
+    const std::size_t second = reported.find("millforce: tool 12\n", first);
+    const std::size_t none = reported.find("tool not known: the override is the operator's\n", second);
+    CHECK(reported.find("millforce: tool 7\n", none) != std::string::npos);
 }
 
 TEST(Tools, serve_refuses_the_bridge_of_an_older_layout_by_its_version) {

@@ -30,7 +30,7 @@ Tally tally_of(Wrong wrong, int cuts) {
 TEST_GROUP(JudgedCuts){};
 
 TEST(JudgedCuts, hold_their_stated_intervals_whether_the_side_is_told_or_not) {
-    for (const Wrong wrong : {Wrong::nothing, Wrong::nothing_told}) {
+    for (const Wrong wrong : {Wrong::nothing, Wrong::nothing_stated}) {
         const Tally t = tally_of(wrong, 80);
         CHECK(t.cuts_with_immersion > 60);
         CHECK(100 * t.immersions_cover >= 93 * t.cuts_with_immersion);

@@ -46,6 +46,6 @@ TEST(Roughness, both_published_models_are_tools_with_their_fitted_range_and_with
         CHECK(predictor.predict({10000.0F, 0.03F, 6.0F, 0.3F, 1.0F}).in_range());
         CHECK(!predictor.predict({10000.0F, 0.03F, 6.0F, 1.0F, 1.0F}).in_range());
         LONGS_EQUAL(1U << estimation::roughness_force_ratio,
-                    predictor.predict({10000.0F, 0.03F, 6.0F, 0.3F, 1.0F}).range_untold);
+                    predictor.predict({10000.0F, 0.03F, 6.0F, 0.3F, 1.0F}).range_not_given);
     }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "program/inputs.hpp"
 #include "program/program.hpp"
 #include "vcan/bus_peers.hpp"
 
@@ -23,37 +24,8 @@ inline std::string slow_machine() {
     return test::with(text, "[cnc]", "[cnc]\nsample_rate_hz = 250\nstale_s = 0.4");
 }
 
-/// A cut of 5 × 3 mm at 2000 rpm: two samples in a tooth's time.
-inline const std::string slow_scenario = R"(machine = "machine.toml"
-tool = "tool.toml"
-seed = 5
-[profile]
-spindle_speed_rpm = 2000
-feed_mm_min = 800
-length_mm = 26
-interpolation = "linear"
-[[profile.point]]
-path_mm = 2
-axial_depth_mm = 0
-radial_width_mm = 3
-[[profile.point]]
-path_mm = 2.01
-axial_depth_mm = 5
-radial_width_mm = 3
-[[profile.point]]
-path_mm = 22
-axial_depth_mm = 5
-radial_width_mm = 3
-[[profile.point]]
-path_mm = 25
-axial_depth_mm = 0
-radial_width_mm = 3
-[material]
-K_tc_N_mm2 = 1650
-K_rc_N_mm2 = 620
-K_te_N_mm = 22
-K_re_N_mm = 28
-)";
+/// At 2000 rpm: two samples in a tooth's time.
+inline const std::string slow_scenario = test::straight_cut(2000, 800, 2, 22);
 
 class LiveFolder {
   public:

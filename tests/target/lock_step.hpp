@@ -31,7 +31,7 @@ struct Answer {
 };
 static_assert(sizeof(hal::FeedOverride) == 12 && sizeof(Answer) == 56);
 
-/// What is to be told of a tick that has just given this override.
+/// What is to be reported of a tick that has just given this override.
 template <typename Scalar>
 Answer answer_of(const firmware::SmallTick<Scalar>& tick, const hal::FeedOverride& feed) {
     Answer answer{};

@@ -41,6 +41,7 @@ void print(const char* figure, std::uint32_t value) {
     write_text("\n");
 }
 
+/// Kept as a function of its own, so that only its instructions are counted; so is counted_slice().
 [[gnu::noipa]] hal::FeedOverride counted_step(Tick& tick, const hal::DriveSample& sample,
                                               const hal::ProgramStatus& program) {
     return tick.step(sample, program);

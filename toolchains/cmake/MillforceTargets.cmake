@@ -22,7 +22,7 @@ elseif(MILLFORCE_SANITIZE)
     set(sanitizers address,undefined)
 endif()
 if(MILLFORCE_SANITIZE)
-    # Without RTTI an object of the core does not tell its type: vptr is out.
+    # Without RTTI an object of the core does not know its type: vptr is out.
     add_compile_options(-fsanitize=${sanitizers} -fno-sanitize=vptr,null,object-size -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${sanitizers})
 endif()

@@ -30,8 +30,8 @@
 ///
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the
-/// forces contradict the law (limit law_misfit), since a drive that lies may show any force. In a cut that fades it is
-/// one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
+/// forces contradict the law (limit law_misfit), since a signal may be wrong. In a cut that fades it
+/// is one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
 ///
 /// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. State kept until the next estimate
 /// has its own named member, override_before_growth_ for instance: the override at that moment.
@@ -65,7 +65,7 @@ class Ceilings {
     struct Situation {
         CutState state = CutState::air;
         bool has_cut = false;      ///< CutStates::has_cut
-        Scalar override_ratio{0};  ///< of the last step
+        Scalar override_ratio{0};  ///< override of the last step
         Scalar force_demand{0};    ///< FeedLaw::demand
     };
 

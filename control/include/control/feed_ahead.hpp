@@ -61,16 +61,16 @@ struct Stretch {
 
 template <typename Scalar>
 struct FeedAheadSettings {
-    Scalar acceleration_mm_s2{1000};            ///< of the machine along the path, > 0
-    Scalar reaction_s{literal<Scalar>(0.05L)};  ///< from an override to the first change of feed
-    Scalar position_tolerance_mm{1};            ///< of stock and path, each way: a map that is off by less agrees
-    Scalar farthest_off_mm{2};                  ///< no map that is off by more goes on unrefuted
+    Scalar acceleration_mm_s2{0};     ///< acceleration of the machine along the path; to be set, > 0
+    Scalar reaction_s{0};             ///< time from an override to the first change of feed
+    Scalar position_tolerance_mm{1};  ///< tolerance of stock and path, each way: a map that is off by less agrees
+    Scalar farthest_off_mm{2};        ///< no map that is off by more goes on unrefuted
     Scalar assumed_hardness = literal<Scalar>(1.3L);
     /// Softer than that it is taken for a shallower cut, whose teeth carry more for the same mean force.
     Scalar lowest_hardness = literal<Scalar>(0.6L);
     Scalar highest_hardness{2};
     Scalar hardness_band{Scalar(1.25F)};  ///< ratio by which a force may differ from the map's with the measured κ
-    Scalar direction_band = literal<Scalar>(0.2L);  ///< of F_ax/F_at: what the law's r_1 leaves open
+    Scalar direction_band = literal<Scalar>(0.2L);  ///< share of F_ax/F_at that the law's r_1 leaves open
     Scalar agreement_mm{2};
     Scalar disagreement_mm{Scalar(0.5F)};
 };
@@ -83,13 +83,13 @@ class FeedAhead {
         bool position_known = false;
         Scalar position_mm{0};      ///< along the path
         Scalar travel_mm{0};        ///< since the last step
-        Scalar blind_feed_mm_s{0};  ///< that is safe where nothing is known
+        Scalar blind_feed_mm_s{0};  ///< feed that is safe where nothing is known
         bool fresh = false;         ///< the rest is a new estimate
         Scalar tangential_N{0};     ///< F_at
         Scalar tangential_sd_N{0};
         Scalar mean_feed_mm_s{0};   ///< over the estimate's window
         Scalar window_mm{0};        ///< way gone in it, and since it where the force comes late
-        Scalar contact_level_N{0};  ///< from which on the tool counts as in contact
+        Scalar contact_level_N{0};  ///< force from which on the tool counts as in contact
         bool feed_force_valid = false;
         Scalar feed_force_N{0};  ///< F_ax
         Scalar feed_force_sd_N{0};

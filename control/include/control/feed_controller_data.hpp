@@ -3,6 +3,7 @@
 
 #include "control/cut_state.hpp"
 #include "control/way_ahead.hpp"
+#include "estimation/cut_estimate.hpp"
 #include "estimation/cutting/cut_geometry.hpp"
 #include "estimation/number/finite.hpp"
 #include "estimation/number/literal.hpp"
@@ -21,13 +22,13 @@ template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{0};  ///< F_tooth,max
     Scalar setpoint_share{
-        literal<Scalar>(0.97L)};       ///< of the limit that steady cutting is held at; the rest is for noise
+        literal<Scalar>(0.97L)};       ///< share of the limit at which steady cutting is held; the rest is for noise
     Scalar caution_sd{Scalar(0.75F)};  ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{0};
     Scalar override_max{0};
     Scalar recovery_per_rev{Scalar(0.25F)};                  ///< fraction of the remaining rise taken per revolution
     Scalar slew_up_per_s{2};                                 ///< largest rise of the override per second
-    Scalar slew_down_per_s{40};                              ///< largest fall
+    Scalar slew_down_per_s{40};                              ///< largest fall of the override per second
     Scalar entry_feed_per_tooth_mm{literal<Scalar>(0.05L)};  ///< ceiling from contact until there is an estimate
     Scalar air_feed_per_tooth_mm{
         literal<Scalar>(0.05L)};             ///< ceiling in air: the feed at which the tool may meet the workpiece
@@ -35,18 +36,19 @@ struct FeedControllerParameters {
     Scalar max_feed_per_tooth_mm{literal<Scalar>(0.2L)};  ///< what the tool's edge and chip space allow
     Scalar entry_revolutions{2};
     Scalar entry_travel_mm{5};       ///< `entry` also lasts for this travel: the engagement still grows (cutter radius)
-    Scalar exit_travel_mm{2};        ///< without contact before `exit` becomes `air`
+    Scalar exit_travel_mm{2};        ///< travel without contact before `exit` becomes `air`
     Scalar contact_force_N{10};      ///< smallest F_at that counts as contact
     Scalar contact_significance{4};  ///< contact: F_at must also be this many of its standard deviations
-    Scalar surge_radial_immersion{0};               ///< largest immersion that may come without warning; 0: none does
-    Scalar surge_share{literal<Scalar>(1.03L)};     ///< of the limit that such a surge may reach
-    Scalar turn_radial_immersion{2};                ///< immersion assumed after a sharp turn of the path; 0: none
-    Scalar turn_travel_mm{2};                       ///< for so long after a turn
-    Scalar overload_share{literal<Scalar>(1.35L)};  ///< of the limit above which the feed is held and the fault latched
-    Scalar overload_revolutions{3};                 ///< for so long, though the override already falls
-    Scalar Ra_limit_um{0};                          ///< that the predicted R_a's upper bound may reach; 0: none
-    Scalar no_estimate_hold_s{Scalar(0.5F)};        ///< in cut without estimate for longer: state hold
-    Scalar stale_s{0};                              ///< without a sample for longer: fault
+    Scalar surge_radial_immersion{0};            ///< largest immersion that may come without warning; 0: none does
+    Scalar surge_share{literal<Scalar>(1.03L)};  ///< share of the limit that the force may reach in a surge
+    Scalar turn_radial_immersion{2};             ///< immersion assumed after a sharp turn of the path; 0: none
+    Scalar turn_travel_mm{2};                    ///< travel after a turn for which that immersion is assumed
+    Scalar overload_share{
+        literal<Scalar>(1.35L)};     ///< share of the limit above which the feed is held and the fault latched
+    Scalar overload_revolutions{3};  ///< length of an overload that is a fault, though the override already falls
+    Scalar Ra_limit_um{0};           ///< largest upper bound of the predicted R_a; 0: none
+    Scalar no_estimate_hold_s{Scalar(0.5F)};  ///< longest time in cut without an estimate; then state hold
+    Scalar stale_s{0};                        ///< longest time without a sample; then a fault
     Scalar teeth{0};
     bool monitor_only{false};  ///< estimate and watch, leave the override to the operator
 };
@@ -55,27 +57,27 @@ struct FeedControllerParameters {
 template <typename Scalar>
 struct CutEstimateForControl {
     bool fresh = false;
-    Scalar tooth_periods{1};   ///< that have ended since the estimate before
+    Scalar tooth_periods{1};   ///< tooth periods since the previous estimate
     bool force_valid = false;  ///< there is an F_at from the spindle
     Scalar tangential_N{0};    ///< F_at over the last tooth period or window, the larger counts
     Scalar tangential_sd_N{0};
-    bool tooth_force_valid = false;     ///< the immersion behind it is an estimate, not a guess
-    bool tooth_force_is_bound = false;  ///< it is the most that the force can be: no sign of an overload
+    bool tooth_force_valid = false;     ///< the immersion behind tooth_force_N is an estimate, not a guess
+    bool tooth_force_is_bound = false;  ///< tooth_force_N is an upper bound: no sign of an overload
     Scalar tooth_force_N{0};            ///< peak force of one tooth; without an immersion, the worst it can be
-    Scalar least_tooth_force_N{0};      ///< the least that it can be, whatever the immersion
-    bool law_is_refuted = false;        ///< no cut by the law has these forces: one of them may lie
+    Scalar least_tooth_force_N{0};      ///< smallest peak force of one tooth, whatever the immersion
+    bool law_is_refuted = false;        ///< no cut by the law has these forces: a signal may be wrong
     Scalar surge_ratio{1};              ///< tooth force after a surge to surge_radial_immersion, per tooth force now
     Scalar cutting_share{1};            ///< c: share of the force that is not edge force
-    Scalar surge_cutting_share{1};      ///< the same after a surge
+    Scalar surge_cutting_share{1};      ///< cutting_share after a surge
     Scalar turn_ratio{1};               ///< as surge_ratio, to turn_radial_immersion
     Scalar turn_cutting_share{1};
-    Scalar feed_exponent{Scalar(0.75F)};  ///< 1 + p_s
-    Scalar section_mm2{0};        ///< of the cut, width × depth: its trend is watched, not its size; 0: not known
-    Scalar section_noise_mm2{0};  ///< the part of its deviation that differs from one window to the next
-    Scalar feed_mm_s{0};          ///< path speed over the same window
+    Scalar feed_exponent{estimation::usual_feed_exponent<Scalar>};  ///< 1 + p_s
+    Scalar section_mm2{0};        ///< width × depth of the cut: its trend is watched, not its size; 0: not known
+    Scalar section_noise_mm2{0};  ///< part of the section's deviation that differs from one window to the next
+    Scalar feed_mm_s{0};          ///< path speed over the window of tangential_N
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
-    bool spindle_loaded_at_rest = false;  ///< its encoder stands, and its current says that it cuts
+    bool spindle_loaded_at_rest = false;  ///< the spindle's encoder stands, and its current says that it cuts
 };
 
 /// What the roughness model says, for Ra_limit_um. It may hold the feed down; without it the feed is not raised.
@@ -83,7 +85,7 @@ template <typename Scalar>
 struct SurfaceForControl {
     bool valid = false;           ///< feed_ceiling_mm_s is a ceiling
     bool in_range = false;        ///< the cut is like those that the model was fitted to: the ceiling may rise
-    Scalar feed_ceiling_mm_s{0};  ///< at which the upper bound of R_a meets its limit, within the fitted feeds
+    Scalar feed_ceiling_mm_s{0};  ///< feed at which the upper bound of R_a meets its limit, within the fitted feeds
 };
 
 template <typename Scalar>

@@ -21,15 +21,15 @@ void Emergencies::set(Reason reason, bool is_there, std::uint32_t detail) {
         return;
     }
     there_ ^= bit(reason);
-    tell(reason, is_there ? error_code(reason) : std::uint16_t{0}, detail);
+    report(reason, is_there ? error_code(reason) : std::uint16_t{0}, detail);
 }
 
-void Emergencies::tell(Reason reason, std::uint16_t code, std::uint32_t detail) {
+void Emergencies::report(Reason reason, std::uint16_t code, std::uint32_t detail) {
     entries_[static_cast<std::size_t>(reason)] = {code, detail};
-    untold_ |= bit(reason);
+    unreported_ |= bit(reason);
 }
 
-void Emergencies::tell_start(hal::ResetCause cause) {
+void Emergencies::report_start(hal::ResetCause cause) {
     constexpr std::uint16_t watchdog_reset = 0x6010;
     constexpr std::uint16_t generic_error = 0x1000;
     std::uint16_t code = 0;
@@ -40,14 +40,14 @@ void Emergencies::tell_start(hal::ResetCause cause) {
     } else if (cause == hal::ResetCause::unknown) {
         code = generic_error;
     }
-    tell(Reason::started, code, static_cast<std::uint32_t>(cause));
+    report(Reason::started, code, static_cast<std::uint32_t>(cause));
 }
 
 bool Emergencies::take_frame(hal::CanFrame& frame) {
     for (std::size_t k = 0; k < reason_count; ++k) {
         const auto reason = static_cast<Reason>(k);
-        if ((untold_ & bit(reason)) != 0) {
-            untold_ &= ~bit(reason);
+        if ((unreported_ & bit(reason)) != 0) {
+            unreported_ &= ~bit(reason);
             frame = frame_of(reason, entries_[k].code, entries_[k].detail);
             return true;
         }

@@ -81,6 +81,7 @@ class Reader {
     std::size_t place_ = 0;
 };
 
+/// hal::is_finite() does the same; this file also stands under the GPL and needs nothing of hal.
 bool is_finite(float value) {
     return value - value == 0.0F;
 }

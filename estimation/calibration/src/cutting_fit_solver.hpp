@@ -22,7 +22,7 @@ struct MeasuredForce {
     double force_N = 0.0;
     double feed_per_tooth_mm = 0.0;
     double depth_per_pitch_mm = 0.0;  ///< a_p N/2π
-    double ln_thickness = 0.0;        ///< of t_a in mm
+    double ln_thickness = 0.0;        ///< logarithm of t_a in mm
     double per_K = 0.0;
     double per_r = 0.0;
     double per_K_te = 0.0;

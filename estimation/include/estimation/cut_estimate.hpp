@@ -43,13 +43,13 @@ struct CutEstimatorSettings {
 /// One drive sample, as plain numbers.
 template <typename Scalar>
 struct DriveSignals {
-    static constexpr int spindle_current = 0;  ///< in A
-    static constexpr int first_current = 1;    ///< of the axes, in A
-    static constexpr int first_velocity = 4;   ///< of the axes, in mm/s
+    static constexpr int spindle_current = 0;  ///< row of the spindle's current in A
+    static constexpr int first_current = 1;    ///< rows of the axes' currents in A
+    static constexpr int first_velocity = 4;   ///< rows of the axes' velocities in mm/s
     static constexpr int velocities = 3;
     static constexpr int channels = first_velocity + velocities;
     static constexpr std::uint32_t spindle_present = 1U;
-    static constexpr std::uint32_t first_axis_present = 2U;  ///< of x; y and z follow
+    static constexpr std::uint32_t first_axis_present = 2U;  ///< bit of x; y and z follow
 
     Eigen::Matrix<Scalar, channels, 1> values = Eigen::Matrix<Scalar, channels, 1>::Zero();
     std::uint32_t present = 0;
@@ -66,7 +66,7 @@ struct DriveSignals {
 
 template <typename Scalar>
 struct CutEstimate {
-    int tooth_periods = 0;                     ///< that have ended since the estimate before
+    int tooth_periods = 0;                     ///< tooth periods since the previous estimate
     Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
     Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
     Measurement<Scalar> x_N{};  ///< mean force on the workpiece along the machine's axes, over the window
@@ -77,32 +77,32 @@ struct CutEstimate {
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
     bool tooth_force_is_bound = false;    ///< tooth_force_N is the most that it can be, and may be far above it
-    Scalar least_tooth_force_N{0};        ///< the least that it can be: F_at shared by the widest cut
+    Scalar least_tooth_force_N{0};        ///< smallest peak force of one tooth: F_at shared by the widest cut
     Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one
     Scalar worst_tooth_force_N{0};        ///< tooth force at the known immersion, or at the last or assumed one
-    Scalar tangential_growth_N_per_s{0};  ///< of F_at over the last revolution, where it is significant; ≥ 0
+    Scalar tangential_growth_N_per_s{0};  ///< growth of F_at over the last revolution, where it is significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
-    Scalar cutting_share{1};              ///< of F_at: what is not edge force
+    Scalar cutting_share{1};              ///< share of F_at that is not edge force
     Scalar feed_exponent{usual_feed_exponent<Scalar>};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     /// The force of a tooth at another immersion, at the same depth and feed.
     struct Change {
-        Scalar ratio{1};          ///< over its force now
-        Scalar cutting_share{1};  ///< of it: what is not edge force
+        Scalar ratio{1};          ///< its force over its force now
+        Scalar cutting_share{1};  ///< share of that force that is not edge force
     };
     Scalar section_mm2{0};        ///< width × depth that corresponds to F_at at the known K_s; 0: no F_at
-    Scalar section_noise_mm2{0};  ///< of it, what differs from one window to the next
-    Change surge{};               ///< to settings.surge_immersion, where that is larger than now
-    Change turn{};                ///< to settings.turn_immersion
+    Scalar section_noise_mm2{0};  ///< part of the section that differs from one window to the next
+    Change surge{};               ///< change to settings.surge_immersion, where that is larger than now
+    Change turn{};                ///< change to settings.turn_immersion
     /// The last tooth period against the same tooth one revolution before.
     struct ToothChange {
-        Measurement<Scalar> tangential_N{};  ///< of the spindle's current, as a force; its variance is noise alone
-        std::array<Measurement<Scalar>, 2> axis_N{};  ///< of x and y
-        Scalar speed_ratio{1};                        ///< of the spindle, now over before
+        Measurement<Scalar> tangential_N{};           ///< force from the spindle's current; its variance is noise alone
+        std::array<Measurement<Scalar>, 2> axis_N{};  ///< forces along x and y
+        Scalar speed_ratio{1};                        ///< speed of the spindle now over that before
         bool feed_is_steady = false;                  ///< the velocities differ by less than a tenth
     };
     ToothChange tooth_change{};
     Scalar feed_mm_s{0};         ///< path speed in the plane over the window
-    Scalar axial_speed_mm_s{0};  ///< along z
+    Scalar axial_speed_mm_s{0};  ///< speed along z
     Scalar feed_per_tooth_mm{0};
     Scalar spindle_speed_rad_s{0};
     Scalar window_s{0};

@@ -16,7 +16,7 @@ struct FaultRecord {
     /// Cortex-M: 2 NMI, 3 hard fault, 4 memory, 5 bus, 6 usage, 16… an interrupt without handler. Cortex-R, the place
     /// in the vectors: 1 undefined instruction, 2 supervisor call, 3 prefetch abort, 4 data abort, 6 IRQ, 7 FIQ.
     std::uint32_t exception;
-    std::uint32_t program_counter;  ///< of the faulting instruction; 0 where the stack could not be read
+    std::uint32_t program_counter;  ///< address of the faulting instruction; 0 where the stack could not be read
     std::uint32_t link_register;
     std::uint32_t stack_pointer;  ///< before the exception
     std::uint32_t status;         ///< CFSR, Armv7-M Architecture Reference Manual B3.2.15; IFSR or DFSR, Armv7-R B6.1

@@ -145,14 +145,14 @@ void CanController::watch_silence(std::uint64_t now_us) {
     }
     is_silent_ = now_us > heard_us_ + stale_us_;
     if (is_silent_ && has_begun_) {
-        sender_.update(told(), now_us);
+        sender_.update(sent_override(), now_us);
     }
 }
 
-hal::FeedOverride CanController::told() const {
-    hal::FeedOverride told = output_;
-    told.hold = told.hold || is_silent_ || is_held_outside_;
-    return told;
+hal::FeedOverride CanController::sent_override() const {
+    hal::FeedOverride sent = output_;
+    sent.hold = sent.hold || is_silent_ || is_held_outside_;
+    return sent;
 }
 
 /// Until it comes back: the first may have gone to an interface that was not there.
@@ -214,7 +214,7 @@ void CanController::tick_without_sample() {
 void CanController::finish(const hal::FeedOverride& output, std::uint64_t time_us) {
     output_ = output;
     tick_time_us_ = time_us;
-    sender_.update(told(), bus_time_us_);
+    sender_.update(sent_override(), bus_time_us_);
     if (listener_ != nullptr) {
         listener_->on_tick(*this);
     }

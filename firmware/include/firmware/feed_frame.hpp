@@ -26,7 +26,7 @@ class FeedFrame {
         bool is_new = false;  ///< not the frame of the last sample
         Scalar cosine{1};
         Scalar sine{0};
-        Scalar direction_rev{0};  ///< of the feed, from +x to +y
+        Scalar direction_rev{0};  ///< direction of the feed, from +x to +y
         Scalar speed_mm_s{0};
 
         [[nodiscard]] Scalar along(Scalar x, Scalar y) const { return cosine * x + sine * y; }

@@ -24,10 +24,10 @@ class FeedFrameForces {
     struct Forces {
         bool valid = false;
         bool is_new_frame = false;
-        Scalar angle_rev{0};   ///< of the spindle in the feed's frame, 0…1
+        Scalar angle_rev{0};   ///< angle of the spindle in the feed's frame, 0…1
         Scalar turned_rev{0};  ///< since the last sample
         Scalar speed_mm_s{0};
-        Scalar along_N{0};  ///< on the workpiece
+        Scalar along_N{0};  ///< force on the workpiece
         Scalar across_N{0};
     };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 
 /// The parameters as a block of bytes, for a target's flash, in the order of for_each_parameter:
@@ -44,7 +45,8 @@ enum class BlockError : std::uint8_t {
 constexpr const char* name(BlockError error) {
     constexpr const char* names[] = {
         "none", "no block", "header CRC", "another version's parameter table", "value CRC", "value out of range"};
-    return names[static_cast<unsigned>(error) % 6U];
+    static_assert(std::size(names) == static_cast<std::size_t>(BlockError::out_of_range) + 1);
+    return names[static_cast<std::size_t>(error) % std::size(names)];
 }
 
 inline constexpr std::size_t block_bytes = block_header_bytes + 4 * parameter_count;

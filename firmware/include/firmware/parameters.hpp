@@ -99,7 +99,8 @@ struct ForceSensorParameters {
     Scalar zero_drift_sd_N{0};
 };
 
-/// Radial immersion from force drops. The law's `valid` is left to who uses it: no largest immersion, no law.
+/// Radial immersion from force drops. The law's `valid` is set by the user of this struct: no largest immersion, no
+/// law.
 template <typename Scalar>
 struct ForceDropParameters {
     estimation::ForceDropLaw<Scalar> law{};
@@ -145,8 +146,8 @@ struct Parameters {
     ToolParameters<Scalar> tool{};
 };
 
-/// What the spindle estimator is told. A current that comes seldom is the same one for many samples: their mean is no
-/// better known than one of them.
+/// What the spindle estimator knows of its drive. A current that comes seldom is the same one for many samples: their
+/// mean is no better known than one of them.
 template <typename Scalar>
 estimation::SpindleDriveParameters<Scalar> spindle_parameters(const MachineParameters<Scalar>& machine) {
     using std::sqrt;
@@ -198,7 +199,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.teeth = Scalar(p.tool.teeth);
     s.cutter_radius_mm = radius_mm;
     s.helix_rad = p.tool.helix_deg * estimation::pi<Scalar> / Scalar(180);
-    s.runout_mm = p.tool.runout_um * Scalar(0.001F);
+    s.runout_mm = p.tool.runout_um * estimation::literal<Scalar>(0.001L);
     s.side = p.tool.side;
     s.centre_offset_in_radii = p.tool.centre_offset_mm / radius_mm;
     s.largest_depth_mm = p.tool.flute_length_mm;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "estimation/number/literal.hpp"
+
 namespace millforce::firmware {
 
 /// Whether a force that is known late belongs to the present feed: the feed has stayed within 5 % for as long as the
@@ -13,7 +15,7 @@ class SettledFeed {
     explicit SettledFeed(Scalar late_s) : late_s_(late_s), settled_s_(late_s) {}
 
     void follow(Scalar feed_mm_s, Scalar dt_s) {
-        constexpr Scalar tolerated_share = Scalar(0.05F);
+        constexpr Scalar tolerated_share = estimation::literal<Scalar>(0.05L);
         const Scalar change = feed_mm_s - feed_mm_s_;
         const Scalar tolerated = tolerated_share * feed_mm_s_;
         if (!(change <= tolerated && -change <= tolerated)) {

@@ -11,7 +11,7 @@
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
 
-/// Holds the machine's signals against each other and against physics. It knows nothing of the engagement and does not
+/// Compares the machine's signals with each other and with physics. It knows nothing of the engagement and does not
 /// trust the estimate of it. What it finds is a fault:
 ///
 ///   stale_input        the samples' time stands or runs backwards: 32 samples

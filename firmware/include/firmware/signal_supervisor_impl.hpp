@@ -140,17 +140,20 @@ void SignalSupervisor<Scalar>::judge_idle(bool is_implausible, int tooth_periods
 
 template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState state) {
+    using estimation::literal;
     using estimation::square;
-    constexpr Scalar fastest_change = Scalar(1.4F);
+    constexpr Scalar level_share = literal<Scalar>(0.05L);  // of the feed: a slower change of height is no ramp
+    constexpr Scalar more_periods = Scalar(3);  // than a revolution: the filters have forgotten the last change
+    constexpr Scalar fastest_change = literal<Scalar>(1.4L);
     const typename Estimate::ToothChange& change = e.tooth_change;
-    const bool is_level = square(e.axial_speed_mm_s) < square(estimation::literal<Scalar>(0.05L) * e.feed_mm_s);
+    const bool is_level = square(e.axial_speed_mm_s) < square(level_share * e.feed_mm_s);
     steady_periods_ = change.feed_is_steady && is_level ? steady_periods_ + e.tooth_periods : 0;
     const control::Fault sudden = sudden_change(e);
     const bool cuts = control::is_cutting(state);
     if (cuts && (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1))) {
         find(control::Fault::encoder_mismatch);
     }
-    const bool is_steady = Scalar(steady_periods_) > teeth_ + Scalar(3);
+    const bool is_steady = Scalar(steady_periods_) > teeth_ + more_periods;
     if (suspected_ == control::Fault::none) {
         suspected_ = cuts && is_steady ? sudden : control::Fault::none;
         steady_since_ = steady_periods_;
@@ -161,7 +164,7 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     }
 }
 
-/// A change that no cut makes from one tooth to the next but one; none where that cannot be told.
+/// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.
 template <typename Scalar>
 control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     using std::sqrt;

@@ -22,8 +22,8 @@
 ///     send(tick.answer(program));   // the law, the override
 ///     finish_work(tick);            // the wide band's evaluation, up to some milliseconds
 ///
-/// So on a computer, and step_and_work() is the four of them. A chip on which an estimate takes longer than a tick
-/// sends `tick.step(sample, program)`, averages and law, and calls `if (tick.work_due()) tick.work();` in its main
+/// A computer does it in this order; step_and_work() does all four. A chip on which an estimate takes longer than a
+/// tick sends `tick.step(sample, program)`, averages and law, and calls `if (tick.work_due()) tick.work();` in its main
 /// loop: one bounded slice each time. Its law uses the newest estimate that is complete. The estimate does not depend
 /// on how its work was sliced; tooth periods that end meanwhile are merged into the next (cut_estimator.hpp).
 ///

@@ -182,8 +182,8 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
         return;
     }
     const estimation::Measurement<Scalar>& tooth = estimator_.estimate().tooth_force_N;
-    const bool is_told_by_forces = tooth.valid && !cut.tooth_force_is_bound;
-    const Scalar least_N = is_told_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
+    const bool is_determined_by_forces = tooth.valid && !cut.tooth_force_is_bound;
+    const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
     const Scalar sd_N = cut.tangential_sd_N;
     const Scalar caution_N = control_parameters_.caution_sd * sd_N;
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "estimation/number/finite.hpp"
 #include "estimation/tooth_force/total_force.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/feed_override.hpp"
@@ -18,7 +19,7 @@ struct TickRecord {
     static constexpr float no_estimate = std::numeric_limits<float>::quiet_NaN();
 
     std::uint64_t time_us = 0;
-    hal::FeedOverride feed_override{};  ///< as the tick gave it
+    hal::FeedOverride feed_override{};  ///< output of the tick
     std::uint8_t limit = 0;             ///< control::Limit
 
     float tangential_force_N = no_estimate;
@@ -30,7 +31,7 @@ struct TickRecord {
     float tooth_force_N = no_estimate;  ///< peak of one tooth, or its upper bound
     estimation::TotalForceInput<float> total_force{};
 
-    [[nodiscard]] bool has_tooth_force() const { return tooth_force_N == tooth_force_N; }
+    [[nodiscard]] bool has_tooth_force() const { return estimation::is_finite(tooth_force_N); }
 };
 
 /// Of the newest step of a ForceControlTick. Cost: some 20 copies, no arithmetic.

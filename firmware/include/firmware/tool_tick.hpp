@@ -6,7 +6,7 @@
 #include "firmware/tick.hpp"
 #include "firmware/tool_source.hpp"
 
-/// The tick (tick.hpp) of the tool in the spindle. The CNC tells the tool's number; a ToolSource has its tick.
+/// The tick (tick.hpp) of the tool in the spindle. The CNC sends the tool's number; a ToolSource has its tick.
 ///
 ///     tick.follow_tool(number, axes_rest);     // before each sample
 ///     tick.take(sample);                       // and on as with ForceControlTick
@@ -32,7 +32,7 @@ class ToolTick {
     /// of `parameters`.
     explicit ToolTick(const Parameters<float>& parameters, const ToolSource* tools = nullptr);
 
-    /// `number`: 0 where the CNC has told none. Finish the work of the last sample first.
+    /// `number`: 0 where the CNC has sent none. Finish the work of the last sample first.
     void follow_tool(std::uint32_t number, bool axes_rest);
 
     void take(const hal::DriveSample& sample);
@@ -43,7 +43,7 @@ class ToolTick {
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
     void work() { tick_.work(); }
 
-    [[nodiscard]] bool is_tool_known() const { return tools_ == nullptr || (number_ != 0 && number_ == told_); }
+    [[nodiscard]] bool is_tool_known() const { return tools_ == nullptr || (number_ != 0 && number_ == reported_); }
     /// Number of the tool that the override is for; 0: without a source, or not known.
     [[nodiscard]] std::uint32_t tool() const { return is_tool_known() ? number_ : 0; }
 
@@ -62,7 +62,7 @@ class ToolTick {
     ForceControlTick<float> tick_;
     MachineKnowledge<float> machine_;  // where no tick goes on learning it
     bool has_begun_ = false;
-    std::uint32_t told_ = 0;
+    std::uint32_t reported_ = 0;
     std::uint32_t number_ = 0;  // of the tick's tool; 0: none
     bool has_time_ = false;
     std::uint32_t time_us_ = 0;  // of the newest sample

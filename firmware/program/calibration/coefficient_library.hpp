@@ -12,7 +12,7 @@ namespace millforce::host {
 /// Published or measured coefficients of one tool and workpiece, Kim & Chung's law: K_s = k_s t_a^p_s, r_1 = k_1
 /// t_a^p_1.
 struct LibraryEntry {
-    std::string name;       ///< by which it is asked for
+    std::string name;       ///< name by which it is asked for
     std::string tool;       ///< free text
     std::string workpiece;  ///< free text
     std::string source;     ///< who measured it

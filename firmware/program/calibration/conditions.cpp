@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
 double CutRow::feed_per_tooth_mm() const {
-    return feed_mm_s * 2.0 * std::numbers::pi / (flutes * spindle_rad_s);
+    return feed_mm_s * estimation::turn_rad<double> / (flutes * spindle_rad_s);
 }
 
 estimation::EngagementAngles<double> CutRow::engagement(estimation::CutSide side, double width_mm) const {

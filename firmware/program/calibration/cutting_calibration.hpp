@@ -60,7 +60,7 @@ struct HeldOutErrors {
     std::size_t cuts = 0;
 };
 
-/// Fits the cuts without those for which `held_out` is true, and foretells these. NaN where the rest cannot be fitted,
+/// Fits the cuts without those for which `held_out` is true, and predicts these. NaN where the rest cannot be fitted,
 /// or nothing was measured.
 HeldOutErrors held_out_errors(const std::vector<CutRow>& cuts, estimation::CuttingLawForm form,
                               estimation::CutSide side, const std::function<bool(const CutRow&)>& held_out,

@@ -151,9 +151,9 @@ CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts
         chosen = down.is_possible() ? &down : &up;
     }
     const bool fits_any = down.is_possible() || up.is_possible();
-    const Reading& told = asked == CutSide::up ? up : down;
+    const Reading& stated = asked == CutSide::up ? up : down;
     const auto turned = best_turned(cuts, asked, fit);
-    if (asked != CutSide::unknown && !told.is_possible()) {
+    if (asked != CutSide::unknown && !stated.is_possible()) {
         refuse_turned_sign(file, std::nullopt, turned);
     } else if (!fits_any || chosen != nullptr) {
         refuse_turned_sign(file, chosen != nullptr ? std::optional(*chosen) : std::nullopt, turned);
@@ -168,11 +168,11 @@ CutSide side_that_fits(const CutsInWords& words, const std::vector<CutRow>& cuts
                         file, down.text(), up.text(), 100.0 * largest_scatter));
     }
     if (asked != CutSide::unknown) {
-        if (!told.is_possible() || (chosen != nullptr && chosen != &told)) {
+        if (!stated.is_possible() || (chosen != nullptr && chosen != &stated)) {
             throw InputError(fmt::format("{}: --side {}: {}, {}; expected the side of the cuts", file, name_of(asked),
                                          down.text(), up.text()));
         }
-        warn_of_other_sign(out, told, turned);
+        warn_of_other_sign(out, stated, turned);
         return asked;
     }
     if (chosen == nullptr) {

@@ -180,7 +180,7 @@ void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const st
     }
 }
 
-/// Each cut by the law of the others: its immersion by the equations, relative to the true one.
+/// Each cut by the law fitted to the other cuts: its immersion by the equations, relative to the true one.
 struct LeftOut {
     double mean = 0.0;
     double worst = 0.0;
@@ -289,7 +289,8 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
         "  jumps and averages scatter by {:.1f} % about the edge law; immersions from {:.3g} to {:.3g}\n",
         100.0 * scatter_about_law(result), result.law.smallest_immersion, result.law.largest_immersion);
     out << fmt::format(
-        "  each cut by the law of the others: immersion off by {:.1f} % on average, {:.1f} % at most; no "
+        "  each cut, estimated by the law fitted to the other cuts: immersion off by {:.1f} % on average, {:.1f} % at "
+        "most; no "
         "estimate for {} of {}\n",
         100.0 * left_out.mean, 100.0 * left_out.worst, left_out.without, left_out.cuts);
     return left_out.worst > largest_error ? exit_bound_broken : exit_done;

@@ -12,7 +12,7 @@ struct ForceShapeCalibrationOptions {
     std::vector<std::filesystem::path> data;  ///< recordings with fx_N, fy_N; or of drives whose axes both travel
     std::filesystem::path cuts;               ///< table of cuts; see recorded_cuts.hpp
     std::filesystem::path machine;
-    std::filesystem::path tool;  ///< its side, teeth, [force_sensor]
+    std::filesystem::path tool;  ///< file with side, teeth, [force_sensor]
     std::filesystem::path output;
 };
 

@@ -184,12 +184,12 @@ bool check_drift(std::ostream& out, const FrictionDrift& drift) {
     }
     const double half_band = estimation::student_t_975(drift.degrees_of_freedom) * drift.standard_error;
     const bool changed = std::abs(drift.share) > std::max(largest_change, 2.0 * half_band);
-    const bool can_tell = changed || half_band < largest_change;
+    const bool is_certain = changed || half_band < largest_change;
     out << fmt::format("  friction from the first stretch to the last: {:+.1f} ± {:.1f} %, bound {:.0f} %: {}\n",
                        100.0 * drift.share, 100.0 * half_band, 100.0 * largest_change,
-                       changed    ? "BROKEN: the friction changed"
-                       : can_tell ? "holds"
-                                  : "cannot tell, since feed and time rise together or the feeds are few");
+                       changed      ? "BROKEN: the friction changed"
+                       : is_certain ? "holds"
+                                    : "cannot tell, since feed and time rise together or the feeds are few");
     return !changed;
 }
 

@@ -13,7 +13,7 @@ struct FrictionCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;
     std::string axis = "x";           ///< table for data of a single axis (position_m, motor_force_N).
-    double low_pass_hz = 20.0;        ///< of position and force alike.
+    double low_pass_hz = 20.0;        ///< corner for position and force alike
     double minimum_speed_mm_s = 2.0;  ///< slower samples are pre-sliding: left out.
 };
 
@@ -33,9 +33,9 @@ struct FrictionCalibrationOptions {
 /// A parameter whose standard error is larger than its value (K_x1: whose 95 % band is) is left out: the fit is made
 /// without it, and it is not written.
 ///
-/// Prints the fit on `out` and writes `output`. Returns 0, or 1 where the bound is broken; where the data cannot tell,
-/// the report says so. Throws InputError for bad data, for a reversed sign or a wrong unit, and where the data cannot
-/// determine a parameter that the friction needs: it names the parameter and what to measure.
+/// Prints the fit on `out` and writes `output`. Returns 0, or 1 where the bound is broken; where the data cannot show
+/// it, the report says so. Throws InputError for bad data, for a reversed sign or a wrong unit, and where the data
+/// cannot determine a parameter that the friction needs: it names the parameter and what to measure.
 int calibrate_friction(const FrictionCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

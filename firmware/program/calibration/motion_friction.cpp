@@ -177,7 +177,7 @@ struct SecondHalf {
                (phantom_N > bound_N || std::abs(excess) > std::max(largest_change, significance * excess_sd));
     }
     /// A change by the bound would be seen.
-    [[nodiscard]] bool can_tell() const { return is_there && (has_changed() || 2.0 * excess_sd < largest_change); }
+    [[nodiscard]] bool is_certain() const { return is_there && (has_changed() || 2.0 * excess_sd < largest_change); }
 
     static constexpr double largest_change = 0.1;
 };
@@ -240,9 +240,9 @@ bool check_second_half(std::ostream& out, const SecondHalf& half) {
         "fitted on the first half, phantom force in the second: {:.2f} N rms, bound {:.2f} N; friction {:+.1f} ± "
         "{:.1f} %, bound {:.0f} %: {}\n",
         half.phantom_N, half.bound_N, 100.0 * half.excess, 200.0 * half.excess_sd, 100.0 * SecondHalf::largest_change,
-        half.has_changed() ? "BROKEN: the friction changed"
-        : half.can_tell()  ? "holds"
-                           : "cannot tell, the first half does not determine the friction well enough");
+        half.has_changed()  ? "BROKEN: the friction changed"
+        : half.is_certain() ? "holds"
+                            : "cannot tell, the first half does not determine the friction well enough");
     return !half.has_changed();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/plausible_units.hpp"
 
+#include "estimation/number/circle.hpp"
 #include "files/input_error.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +45,8 @@ void refuse_implausible_pressure(const std::string& file, const std::vector<CutR
     for (const CutRow& row : cuts) {
         const auto measured = row.measurement(side);
         const double area_mm2 = measured.cut.feed_per_tooth_mm * measured.cut.axial_depth_mm * measured.cut.teeth *
-                                estimation::engagement_integrals(measured.cut.engagement).c / (2.0 * std::numbers::pi);
+                                estimation::engagement_integrals(measured.cut.engagement).c /
+                                estimation::turn_rad<double>;
         if (std::isfinite(measured.tangential_N) && area_mm2 > 0.0) {
             pressures.push_back(measured.tangential_N / area_mm2);
         }

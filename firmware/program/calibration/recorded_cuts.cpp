@@ -3,6 +3,7 @@
 
 #include "calibration/duplicate_rows.hpp"
 #include "calibration/plausible_units.hpp"
+#include "estimation/number/circle.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 namespace millforce::host {
@@ -20,7 +20,6 @@ namespace millforce::host {
 namespace {
 
 constexpr std::array<char, 3> axis_letters{'x', 'y', 'z'};
-constexpr double full_turn = 2.0 * std::numbers::pi;
 
 /// The recording that a row of the table names, or the only one.
 std::string named_recording(const CsvReader& csv, std::optional<CsvColumn> column,
@@ -108,7 +107,7 @@ void average_recording(const std::filesystem::path& path, const std::vector<Stre
 }  // namespace
 
 double RecordedStretch::feed_per_tooth_mm() const {
-    return std::abs(feed_mm_s) * full_turn / (conditions.flutes * spindle_rad_s);
+    return std::abs(feed_mm_s) * estimation::turn_rad<double> / (conditions.flutes * spindle_rad_s);
 }
 
 void StretchAverage::add(const DriveReading& reading) {
@@ -116,7 +115,7 @@ void StretchAverage::add(const DriveReading& reading) {
         first_ = reading;
     } else {
         const double step = reading.spindle_angle_rad - last_.spindle_angle_rad;
-        turned_rad_ += step < 0.0 ? step + full_turn : step;
+        turned_rad_ += step < 0.0 ? step + estimation::turn_rad<double> : step;
     }
     last_ = reading;
     ++samples_;

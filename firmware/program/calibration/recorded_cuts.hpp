@@ -35,7 +35,7 @@ struct RecordedStretch {
     double spindle_rad_s = 0.0;
     std::size_t axis = 0;  ///< the one that feeds: 0 x, 1 y, 2 z
     double axis_current_A = 0.0;
-    double feed_mm_s = 0.0;  ///< with its sign
+    double feed_mm_s = 0.0;  ///< signed feed
 
     [[nodiscard]] double feed_m_per_min() const { return 0.06 * feed_mm_s; }
     [[nodiscard]] double feed_per_tooth_mm() const;

@@ -189,6 +189,51 @@ void print_outliers(std::ostream& out, const KnownTorques& known, const SpindleR
                        places.size(), list_of_places(places));
 }
 
+bool is_weakened(const SpindleResult& result) {
+    return result.value(estimation::spindle_base_speed) > 0.0;
+}
+
+/// The fitted terms, into the file and for the user.
+void write_terms(TomlWriter& toml, std::ostream& out, const SpindleResult& result,
+                 const estimation::SpindleFitTerms& asked_terms) {
+    const bool weakened = is_weakened(result);
+    // Field weakening that was looked for and not seen is known to be none; a term that was not fitted is not known.
+    const std::array<bool, estimation::spindle_parameter_count> known_terms{
+        true, result.terms.idle_torque, result.terms.idle_slope, result.terms.inertia, asked_terms.field_weakening};
+    for (std::size_t j = 0; j < known_terms.size(); ++j) {
+        const int index = static_cast<int>(j);
+        if (!known_terms[j]) {
+            continue;
+        }
+        const bool has_error =
+            index != estimation::spindle_base_speed || (weakened && !result.fit.nothing_below_base_speed);
+        const FittedValue fitted{spindle_keys[j], result.value(index), has_error ? result.error(index) : no_estimate};
+        write_fitted(toml, fitted);
+        if (has_error || weakened) {
+            print_fitted(out, fitted);
+        }
+    }
+    for (const FittedValue& left_out : result.left_out) {
+        print_left_out(out, left_out);
+    }
+}
+
+void print_what_is_not_seen(std::ostream& out, const SpindleResult& result,
+                            const estimation::SpindleFitTerms& asked_terms) {
+    if (!asked_terms.idle_slope) {
+        out << "  one speed only: idle_torque_slope_Nm_s and field weakening cannot be seen, and are not written\n";
+    } else if (asked_terms.field_weakening && !is_weakened(result)) {
+        out << "  no field weakening seen between the slowest and the fastest cut\n";
+    }
+    if (!asked_terms.inertia) {
+        out << "  no acceleration of more than 1 rad/s²: inertia_kg_m2 is not written\n";
+    }
+    if (result.fit.nothing_below_base_speed) {
+        out << "  every speed is in field weakening: K_t1_Nm_per_A holds at base_speed_rad_s and falls above it; below "
+               "it nothing is known\n";
+    }
+}
+
 }  // namespace
 
 int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& out) {
@@ -209,41 +254,11 @@ int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& ou
     toml.table("spindle");
     out << fmt::format("T = K_t1 g(ω) I + K_t2 − k ω − J dω/dt, {} rows\n", result.kept.size());
     print_outliers(out, known, result);
-    const auto& fit = result.fit;
-    const bool weakened = result.value(estimation::spindle_base_speed) > 0.0;
-    // Field weakening that was looked for and not seen is known to be none; a term that was not fitted is not known.
-    const std::array<bool, estimation::spindle_parameter_count> known_terms{
-        true, result.terms.idle_torque, result.terms.idle_slope, result.terms.inertia, asked_terms.field_weakening};
-    for (std::size_t j = 0; j < known_terms.size(); ++j) {
-        const int index = static_cast<int>(j);
-        if (!known_terms[j]) {
-            continue;
-        }
-        const bool has_error = index != estimation::spindle_base_speed || (weakened && !fit.nothing_below_base_speed);
-        const FittedValue fitted{spindle_keys[j], result.value(index), has_error ? result.error(index) : no_estimate};
-        write_fitted(toml, fitted);
-        if (has_error || weakened) {
-            print_fitted(out, fitted);
-        }
-    }
-    for (const FittedValue& left_out : result.left_out) {
-        print_left_out(out, left_out);
-    }
-    toml.key(torque_residual_key.name, fit.solution.residual_rms);
+    write_terms(toml, out, result, asked_terms);
+    toml.key(torque_residual_key.name, result.fit.solution.residual_rms);
     file.commit();
-    out << fmt::format("  residual {:.4g} N·m rms\n", fit.solution.residual_rms);
-    if (!asked_terms.idle_slope) {
-        out << "  one speed only: idle_torque_slope_Nm_s and field weakening cannot be seen, and are not written\n";
-    } else if (asked_terms.field_weakening && !weakened) {
-        out << "  no field weakening seen between the slowest and the fastest cut\n";
-    }
-    if (!asked_terms.inertia) {
-        out << "  no acceleration of more than 1 rad/s²: inertia_kg_m2 is not written\n";
-    }
-    if (fit.nothing_below_base_speed) {
-        out << "  every speed is in field weakening: K_t1_Nm_per_A holds at base_speed_rad_s and falls above it; below "
-               "it nothing is known\n";
-    }
+    out << fmt::format("  residual {:.4g} N·m rms\n", result.fit.solution.residual_rms);
+    print_what_is_not_seen(out, result, asked_terms);
     return exit_done;
 }
 

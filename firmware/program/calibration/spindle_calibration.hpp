@@ -11,7 +11,7 @@ namespace millforce::host {
 struct SpindleCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;
-    double low_pass_hz = 5.0;  ///< of all columns of a recording that has a spindle angle.
+    double low_pass_hz = 5.0;  ///< corner for all columns of a recording that has a spindle angle
 };
 
 /// Torque constant of the spindle from known torques: estimation::fit_spindle.

@@ -4,6 +4,7 @@
 #include "calibration/duplicate_rows.hpp"
 #include "calibration/plausible_units.hpp"
 #include "calibration/signal.hpp"
+#include "estimation/number/circle.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
@@ -77,9 +78,9 @@ SpindleRows read_rows(const std::filesystem::path& path, DuplicateRows& duplicat
 
 /// An angle that starts again at 0 after a revolution, as one that does not.
 void unwrap(std::vector<double>& angle_rad) {
-    constexpr double turn = 2.0 * std::numbers::pi;
+    constexpr double turn_rad = estimation::turn_rad<double>;
     for (std::size_t k = 1; k < angle_rad.size(); ++k) {
-        angle_rad[k] -= turn * std::round((angle_rad[k] - angle_rad[k - 1]) / turn);
+        angle_rad[k] -= turn_rad * std::round((angle_rad[k] - angle_rad[k - 1]) / turn_rad);
     }
 }
 

@@ -18,9 +18,9 @@ namespace millforce::host {
 struct StandardCutOptions {
     std::vector<std::filesystem::path> data;  ///< recordings
     std::filesystem::path cuts;               ///< table of cuts; see recorded_cuts.hpp
-    std::filesystem::path machine;            ///< with the friction of the air cuts
+    std::filesystem::path machine;            ///< file with the friction of the air cuts
     std::filesystem::path database;           ///< coefficients of the standard tool and workpiece
-    std::string entry;                        ///< of the database; empty: its only one
+    std::string entry;                        ///< entry of the database; empty: its only one
     std::filesystem::path output;
     estimation::CutSide side = estimation::CutSide::down;
 };
@@ -28,7 +28,7 @@ struct StandardCutOptions {
 /// Gains of the drives from stretches of standard cuts and air.
 struct StandardCutGains {
     estimation::DriveGainFit spindle;
-    std::array<std::optional<estimation::DriveGainFit>, 3> axes;  ///< of those that fed
+    std::array<std::optional<estimation::DriveGainFit>, 3> axes;  ///< fits of those that fed
     /// K_x5 of the axes that were fitted without it, because its standard error was larger than its value.
     std::array<std::optional<FittedValue>, 3> left_out_K_x5;
 };

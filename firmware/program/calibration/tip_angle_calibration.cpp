@@ -8,6 +8,7 @@
 #include "calibration/force_drop_calibration.hpp"
 #include "calibration/recorded_forces.hpp"
 #include "estimation/depth_shape/depth_monitor.hpp"
+#include "estimation/number/circle.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "firmware/wide_band_settings.hpp"
@@ -20,7 +21,7 @@ namespace {
 using DepthMonitor = estimation::DepthMonitor<float>;
 using TipAngle = estimation::Measurement<float>;
 
-constexpr double rad_in_deg = 180.0 / 3.14159265358979323846;
+constexpr double rad_in_deg = 360.0 / estimation::turn_rad<double>;
 
 /// The known depths are the nominal ones while the angle is sought.
 DepthMonitor monitor_of(const StretchConditions& cut, firmware::ToolParameters<float> tool) {

@@ -4,6 +4,7 @@
 #include "calibration/calibration_report.hpp"
 #include "calibration/drive_forces.hpp"
 #include "calibration/plausible_units.hpp"
+#include "estimation/number/circle.hpp"
 #include "estimation_calibration/warm_up_fit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace millforce::host {
 
@@ -36,10 +36,9 @@ struct IdleSecond {
 class IdleSeconds {
   public:
     void add(double time_s, double angle_rad, double current_A) {
-        constexpr double turn = 2.0 * std::numbers::pi;
         if (rows_ > 0) {
             const double step = angle_rad - last_angle_rad_;
-            turned_rad_ += step < 0.0 ? step + turn : step;
+            turned_rad_ += step < 0.0 ? step + estimation::turn_rad<double> : step;
         } else {
             start_s_ = time_s;
         }

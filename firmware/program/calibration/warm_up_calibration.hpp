@@ -10,7 +10,7 @@ namespace millforce::host {
 /// What `millforce calibrate warm-up` was called with.
 struct WarmUpCalibrationOptions {
     std::filesystem::path data;     ///< a recording of the spindle idling from cold
-    std::filesystem::path machine;  ///< its K_t1 turns the current into a torque
+    std::filesystem::path machine;  ///< file whose K_t1 turns the current into a torque
     std::filesystem::path output;
 };
 

@@ -66,7 +66,7 @@ bool mark_certain_air(std::span<MotionWindow> windows) {
     return turned;
 }
 
-bool tells_idle(const MotionWindow& window) {
+bool shows_idle(const MotionWindow& window) {
     return window.place == ToolPlace::in_air && window.has_spindle_current && window.turns_steadily();
 }
 
@@ -77,7 +77,7 @@ std::vector<KnownIdle> idle_before(std::span<const MotionWindow> windows) {
     KnownIdle last;
     for (std::size_t k = 0; k < windows.size(); ++k) {
         known[k] = last;
-        last = tells_idle(windows[k]) ? KnownIdle{&windows[k]} : last;
+        last = shows_idle(windows[k]) ? KnownIdle{&windows[k]} : last;
     }
     return known;
 }
@@ -86,7 +86,7 @@ std::vector<KnownIdle> idle_after(std::span<const MotionWindow> windows) {
     KnownIdle next;
     for (std::size_t k = windows.size(); k-- > 0;) {
         known[k] = next;
-        next = tells_idle(windows[k]) ? KnownIdle{&windows[k]} : next;
+        next = shows_idle(windows[k]) ? KnownIdle{&windows[k]} : next;
     }
     return known;
 }
@@ -141,10 +141,10 @@ bool presume_air(std::span<MotionWindow> windows, const estimation::SpindleDrive
 
 }  // namespace
 
-void find_air(std::span<MotionWindow> windows, const firmware::Parameters<float>& parameters, bool spindle_tells) {
+void find_air(std::span<MotionWindow> windows, const firmware::Parameters<float>& parameters, bool spindle_shows) {
     const bool is_any_certain = mark_certain_air(windows);
     const IdleTolerance tolerance(parameters);
-    if (spindle_tells && (is_any_certain || presume_air(windows, parameters.machine.spindle, tolerance))) {
+    if (spindle_shows && (is_any_certain || presume_air(windows, parameters.machine.spindle, tolerance))) {
         place_by_current(windows, tolerance);
     }
 }

@@ -15,7 +15,7 @@ namespace millforce::host {
 /// The spindle's current is used by its magnitude, compared with that of certain air at the
 /// same speed: so a wrong gain or sign of it does no harm. It counts as air up to four standard deviations of the
 /// current's noise and `contact_force_N`, as for the controller.
-/// `spindle_tells`: false where the spindle's current says nothing (it stands still): then only certain air counts.
-void find_air(std::span<MotionWindow> windows, const firmware::Parameters<float>& parameters, bool spindle_tells);
+/// `spindle_shows`: false where the spindle's current says nothing (it stands still): then only certain air counts.
+void find_air(std::span<MotionWindow> windows, const firmware::Parameters<float>& parameters, bool spindle_shows);
 
 }  // namespace millforce::host

@@ -13,7 +13,7 @@ Findings check_parameters(const firmware::Parameters<float>& parameters) {
     return findings;
 }
 
-void tell_parameter_findings(const firmware::Parameters<float>& parameters) {
+void show_parameter_findings(const firmware::Parameters<float>& parameters) {
     for (const Finding& finding : check_parameters(parameters)) {
         print_line(stderr, "millforce: " + line_of(finding));
     }

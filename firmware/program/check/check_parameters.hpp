@@ -11,6 +11,6 @@ namespace millforce::host {
 Findings check_parameters(const firmware::Parameters<float>& parameters);
 
 /// Prints check_parameters() on standard error, one line each: for the start of `run` and `serve`.
-void tell_parameter_findings(const firmware::Parameters<float>& parameters);
+void show_parameter_findings(const firmware::Parameters<float>& parameters);
 
 }  // namespace millforce::host

@@ -46,7 +46,8 @@ class RecordingCheck {
     MotionWindows windows_;
     EncoderCounts encoder_;
     std::array<Channel, 1 + hal::axis_count> channels_{};
-    OrderBlocks blocks_;  ///< of the force sensor's direction x where there is one, else of the spindle's current
+    OrderBlocks
+        blocks_;  ///< blocks of the force sensor's direction x where there is one, else of the spindle's current
     bool has_force_ = false;
     std::optional<std::uint32_t> last_count_;
 };

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
@@ -12,7 +13,6 @@ namespace {
 constexpr double window_s = 0.2;
 constexpr double largest_gap_s = 0.1;
 constexpr std::size_t fewest_samples = 5;
-constexpr double rad_per_rev = 2.0 * std::numbers::pi;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ bool AxisWindow::is_steady() const {
 }
 
 double MotionWindow::spindle_rad_s() const {
-    return turned_rev * rad_per_rev / duration_s;
+    return turned_rev * estimation::turn_rad<double> / duration_s;
 }
 
 bool MotionWindow::turns_steadily() const {
@@ -121,7 +121,7 @@ void MotionWindows::close(double end_s) {
         }
         const double faster_rev_s =
             (window_.turned_rev - first_half_rev_) / second_half_s - first_half_rev_ / first_half_s_;
-        window_.spindle_acceleration_rad_s2 = faster_rev_s * rad_per_rev / (0.5 * window_.duration_s);
+        window_.spindle_acceleration_rad_s2 = faster_rev_s * estimation::turn_rad<double> / (0.5 * window_.duration_s);
         windows_.push_back(window_);
     }
     begin(end_s);

@@ -34,7 +34,7 @@ struct MotionWindow {
     std::size_t samples = 0;
     double turned_rev = 0.0;  ///< by the stated counts per revolution
     double spindle_acceleration_rad_s2 = 0.0;
-    bool has_spindle_current = false;  ///< in every sample
+    bool has_spindle_current = false;  ///< every sample has it
     double spindle_current_A = 0.0;
     std::array<AxisWindow, hal::axis_count> axes{};
     bool is_rapid = false;

@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-constexpr double rad_per_turn = 2.0 * std::numbers::pi;
+constexpr double turn_rad = estimation::turn_rad<double>;
 constexpr double revolutions = OrderBlock::per_order;
 constexpr double fewest_samples_per_period = 2.5;
 constexpr double highest_useful_order = 26.0;
@@ -69,8 +70,8 @@ void OrderBlocks::close() {
     std::vector<std::complex<double>> sums(block.power.size());
     for (std::size_t k = 0; k < samples_.size(); ++k) {
         const double share = samples_[k].angle_rev / revolutions;
-        const double weighted = values[k] * (0.5 - 0.5 * std::cos(rad_per_turn * share)) / count;
-        const std::complex<double> step = std::polar(1.0, -rad_per_turn * share);
+        const double weighted = values[k] * (0.5 - 0.5 * std::cos(turn_rad * share)) / count;
+        const std::complex<double> step = std::polar(1.0, -turn_rad * share);
         std::complex<double> turning = weighted;
         for (std::complex<double>& sum : sums) {
             sum += turning;

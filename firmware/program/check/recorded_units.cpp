@@ -90,7 +90,7 @@ Findings check_program(std::span<const MotionWindow> windows, const std::string&
     return {};
 }
 
-/// The rate that the controller is told, for the estimates' windows.
+/// The rate that the controller is given, for the estimates' windows.
 Findings check_rate(std::span<const MotionWindow> windows, const firmware::CncParameters<float>& cnc) {
     constexpr double same_rate = 0.05;
     double samples = 0.0;

@@ -100,7 +100,7 @@ int number_of_teeth(const CutLines& lines) {
     return number;
 }
 
-Finding cannot_tell(const std::string& why) {
+Finding cannot_judge(const std::string& why) {
     return {Severity::note, "the number of teeth is not compared: " + why, teeth_key};
 }
 
@@ -120,10 +120,10 @@ Findings compare_lines(const CutLines& lines, int stated, bool counts_are_proven
         return wrong_counts(between);
     }
     if (!(all + lines.runout() > 0.0)) {
-        return {cannot_tell("no line of a tooth stands out of the noise")};
+        return {cannot_judge("no line of a tooth stands out of the noise")};
     }
     if (stated > 1 && lines.runout() > all) {
-        return {cannot_tell("the cut repeats once per revolution, by its runout or because a single tooth cuts")};
+        return {cannot_judge("the cut repeats once per revolution, by its runout or because a single tooth cuts")};
     }
     bool is_wrong = false;
     for (int number = 2; number <= most_teeth; ++number) {
@@ -144,7 +144,7 @@ Findings compare_lines(const CutLines& lines, int stated, bool counts_are_proven
 Findings check_teeth(const ToothEvidence& evidence, std::span<const MotionWindow> windows,
                      const firmware::ToolParameters<float>& tool) {
     if (evidence.comes_seldom) {
-        return {cannot_tell("the spindle's current comes too seldom (spindle.load_period_s)")};
+        return {cannot_judge("the spindle's current comes too seldom (spindle.load_period_s)")};
     }
     OrderSpectrum cut;
     OrderSpectrum air;
@@ -160,12 +160,12 @@ Findings check_teeth(const ToothEvidence& evidence, std::span<const MotionWindow
     }
     const int teeth = tool.teeth;
     if (cut.blocks() < OrderSpectrum::fewest_blocks) {
-        return {cannot_tell(fmt::format("it takes {} revolutions in the cut, beside some in air",
-                                        OrderSpectrum::fewest_blocks * per_order))};
+        return {cannot_judge(fmt::format("it takes {} revolutions in the cut, beside some in air",
+                                         OrderSpectrum::fewest_blocks * per_order))};
     }
     if (cut.highest_order() < teeth) {
-        return {cannot_tell(fmt::format("{:.2g} samples per tooth; it takes 2.5",
-                                        samples_per_rev / static_cast<double>(cut.blocks()) / teeth))};
+        return {cannot_judge(fmt::format("{:.2g} samples per tooth; it takes 2.5",
+                                         samples_per_rev / static_cast<double>(cut.blocks()) / teeth))};
     }
     return compare_lines(CutLines(cut, air), teeth, evidence.counts_are_proven);
 }

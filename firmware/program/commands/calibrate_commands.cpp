@@ -35,7 +35,7 @@ void add_side(Command& command, Side& side, const std::string& help) {
 
 template <typename Options>
 void add_data_and_output(Command& command, Options& options) {
-    command.option("data", options.data, "Measured data (CSV)").required().value_name("DATA.csv...");
+    command.option("data", options.data, "Measured data (CSV)").required().value_name("DATA.csv");
     command.option("-o,--output", options.output, "The fitted parameters").required().value_name("FILE.toml");
 }
 
@@ -66,12 +66,12 @@ void add_friction(Command& calibrate) {
         "each\n"
         "direction), or one axis in motion (time_s, position_m, motor_force_N). Currents and forces are positive "
         "where\n"
-        "the motor drives the axis in +. The tables go into machine.toml as they are; a parameter that is smaller "
+        "the motor drives the axis in +. Copy the tables into machine.toml unchanged; a parameter that is smaller "
         "than\n"
         "its standard error is left out of the fit and of the file.\n"
         "Exit code 1: the friction changed within the data. Of a motion: the second half lies beyond what the first\n"
         "half predicts, or its friction differs by more than 10 % and four standard deviations. Of air cuts: the same\n"
-        "from the first stretch to the last. Where the data cannot tell, the report says so, with exit code 0.");
+        "from the first stretch to the last. Where the data cannot show it, the report says so, with exit code 0.");
     add_data_and_output(command, *options);
     command.option("--axis", options->axis, "Axis, for data with a single axis")
         .one_of({"x", "y", "z"})
@@ -79,7 +79,7 @@ void add_friction(Command& calibrate) {
     command.option("--low-pass", options->low_pass_hz, "Zero-phase filter of position and force, Hz")
         .within(0.1, 1e4)
         .shows_default();
-    command.option("--minimum-speed", options->minimum_speed_mm_s, "Slower samples are pre-sliding, mm/s")
+    command.option("--minimum-speed", options->minimum_speed_mm_s, "Samples below this speed in mm/s are ignored")
         .within(0.001, 1e4)
         .shows_default();
     command.on_run([options] { return report_when_done(calibrate_friction, *options); });
@@ -146,7 +146,7 @@ void add_cutting(Command& calibrate) {
         "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s, spindle_torque_Nm "
         "and\n"
         "normal_force_N or feed_force_N; cuts at two feeds and several widths. Or recordings of\n"
-        "drive currents, with --cuts and --machine. The table goes into tool.toml as it is.\n"
+        "drive currents, with --cuts and --machine. Copy the table into tool.toml unchanged.\n"
         "Signs: normal_force_N is positive where it pushes tool and wall apart, which it always does in down milling;\n"
         "feed_force_N is the force on the workpiece, positive along the feed; spindle_torque_Nm is positive.\n"
         "Rows that repeat another one exactly count once.\n"
@@ -170,7 +170,7 @@ void add_roughness(Command& calibrate) {
     command.footer(
         "Data, one cutting test a row: spindle_speed_rpm, feed_mm_rev (per revolution), tool_diameter_mm,\n"
         "axial_depth_mm, force_ratio (F_x/F_z) or feed_force_N and axial_force_N, and the measured Ra_um or Rz_um.\n"
-        "At least 7 tests; each variable must change on its own, or be held. The table goes into tool.toml as it is.\n"
+        "At least 7 tests; each variable must change on its own, or be held. Copy the table into tool.toml unchanged.\n"
         "Exit code 1: fewer than 85 of 100 tests lie in the 95 % interval of the model fitted without them.");
     add_data_and_output(command, *options);
     command.option("--measure", options->measure, "Ra or Rz; default: Ra if the data have it").one_of({"Ra", "Rz"});
@@ -200,8 +200,9 @@ void add_force_drop(Command& calibrate) {
         "axes travel and tooth passing is slow. CUTS.csv says which stretch is which cut: start_s, end_s,\n"
         "tool_diameter_mm, flutes, axial_depth_mm and radial_width_mm. Feeds must differ by a factor of 1.5, widths\n"
         "should span those of the work: at least four different cuts, and no estimate below the narrowest of them.\n"
-        "The table goes into tool.toml as it is.\n"
-        "Exit code 1: the immersion of a cut, by the law of the others, is off by more than 10 %.");
+        "Copy the table into tool.toml unchanged.\n"
+        "Exit code 1: the immersion of a cut, estimated by the law fitted to the other cuts, is off by more than 10 "
+        "%.");
     add_force_shape(command, calibrate_force_drop);
 }
 
@@ -211,7 +212,7 @@ void add_tip_angle(Command& calibrate) {
                                            "from the force's shape");
     command.footer(
         "Data: recordings of steady cuts of known depth and width with a force sensor (fx_N, fy_N); one is enough.\n"
-        "CUTS.csv as for force-drop. The key goes into tool.toml's [depth_shape] as it is.\n"
+        "CUTS.csv as for force-drop. Copy the key into tool.toml's [depth_shape] unchanged.\n"
         "Exit code 1: the cuts disagree by more than four standard deviations.");
     add_force_shape(command, calibrate_tip_angle);
 }
@@ -223,12 +224,12 @@ void add_calibrate(Command& program) {
     calibrate.requires_subcommand();
     add_friction(calibrate);
     add_spindle(calibrate);
-    add_cutting(calibrate);
     add_standard_cut(calibrate);
     add_warm_up(calibrate);
-    add_roughness(calibrate);
+    add_cutting(calibrate);
     add_force_drop(calibrate);
     add_tip_angle(calibrate);
+    add_roughness(calibrate);
 }
 
 void add_estimate(Command& program) {

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "commands/usage.hpp"
 #include "parameters/tool_set.hpp"
@@ -16,6 +18,27 @@ namespace millforce::host {
 
 namespace {
 
+/// CLI11 pads by bytes: an option whose name or limits are not all ASCII would stand to the left.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    std::string make_option(const CLI::Option* option, bool is_positional) const override {
+        const std::string name = "  " + make_option_name(option, is_positional) + make_option_opts(option);
+        std::string line = CLI::Formatter::make_option(option, is_positional);
+        if (name.size() < get_column_width()) {
+            const auto is_continued = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; };
+            line.insert(name.size(), static_cast<std::size_t>(std::count_if(name.begin(), name.end(), is_continued)),
+                        ' ');
+        }
+        return line;
+    }
+};
+
+/// Whole numbers with all their digits.
+std::string limit_text(double limit) {
+    return limit == std::floor(limit) && std::abs(limit) < 1e10 ? fmt::format("{:.0f}", limit)
+                                                                : fmt::format("{:g}", limit);
+}
+
 /// CLI::Range lets NaN pass.
 CLI::Validator number_from(double low, double high) {
     const auto check = [low, high](const std::string& text) {
@@ -23,9 +46,13 @@ CLI::Validator number_from(double low, double high) {
         const bool is_number = CLI::detail::lexical_cast(text, value);
         return is_number && value >= low && value <= high
                    ? std::string()
-                   : fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
+                   : fmt::format("{}: expected a number from {} to {}", text, limit_text(low), limit_text(high));
     };
-    return CLI::Validator(check, fmt::format("{:g}…{:g}", low, high));
+    return CLI::Validator(check, fmt::format("{}…{}", limit_text(low), limit_text(high)));
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+    return fmt::format("{{{}}}", fmt::join(words, ","));
 }
 
 std::size_t place_of(const std::vector<std::string>& words, const std::string& text) {
@@ -35,6 +62,7 @@ std::size_t place_of(const std::vector<std::string>& words, const std::string& t
 
 void set_common_rules(CLI::App& app, const std::string& version) {
     app.set_version_flag("--version", version, "Print the version and exit");
+    app.formatter(std::make_shared<HelpFormatter>());
     app.get_formatter()->column_width(36);
     for (CLI::App* command : app.get_subcommands(nullptr)) {
         set_common_rules(*command, version);
@@ -59,7 +87,7 @@ Option& Option::within(double low, double high) {
 }
 
 Option& Option::one_of(const std::vector<std::string>& names) {
-    option_->check(CLI::IsMember(names));
+    option_->type_name(list_of(names))->check(CLI::IsMember(names).description(""));
     return *this;
 }
 
@@ -114,7 +142,7 @@ Option Command::flag(const std::string& names, bool& value, const std::string& h
 
 Option Command::named_choice(const std::string& names, const std::string& help, std::vector<std::string> words,
                              const std::function<void(std::size_t)>& chosen) {
-    const std::string list = fmt::format("{{{}}}", fmt::join(words, ","));
+    const std::string list = list_of(words);
     const auto check = [words, list](const std::string& text) {
         return place_of(words, text) < words.size() ? std::string() : fmt::format("{}: expected one of {}", text, list);
     };
@@ -130,7 +158,7 @@ void add_tools(Command& command, ToolChoice& tools) {
     command.option("--tool", tools.file, "Tool parameters").value_name("T.toml");
     command
         .option("--tools", tools.folder,
-                "Folder of tool parameters T<number>.toml, in place of --tool: the CNC tells the tool's number")
+                "Folder of tool parameters T<number>.toml, in place of --tool: the CNC sends the tool's number")
         .value_name("FOLDER");
 }
 

@@ -64,12 +64,12 @@ void add_import(Command& program) {
         "--dry-run shows what was understood: rate, gaps, and each column's range and course, and names what cannot "
         "be\n"
         "right, with the likely mistake in a unit.\n"
-        "Several files are parts of one recording: the time goes on from one to the next.");
-    command.option("files", settings.files, "Measurements").required().value_name("FILE…");
+        "Several files are parts of one recording: time continues from one file to the next.");
+    command.option("files", settings.files, "Measurements").required().value_name("FILE");
     command.option("-o,--output", settings.output, "The recording").value_name("RECORDING.csv");
     command.option("--map", settings.map, "What the columns are").value_name("MAP.toml");
     command.choice<SourceFormat>("--format", settings.format,
-                                 "Default: by the map, else by the file's first characters",
+                                 "Default: as the map says, else by the file's first characters",
                                  {{"csv", SourceFormat::csv},
                                   {"odrive", SourceFormat::odrive},
                                   {"sinumerik", SourceFormat::sinumerik},

@@ -73,8 +73,8 @@ int run_on_bus(const RunOptions& options) {
     options.tools.require_one();
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     const MachineBus bus = bus_of(options.machine);
-    tell_parameter_notes(tools.parameters());
-    tell_parameter_findings(tools.parameters());
+    show_parameter_notes(tools.parameters());
+    show_parameter_findings(tools.parameters());
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(
@@ -129,11 +129,10 @@ void add_run(Command& program) {
     auto options = std::make_shared<RunOptions>();
     Command command = program.subcommand("run", "Run the live controller on a CAN interface");
     command.footer(
-        "Runs until SIGINT, SIGTERM or SIGHUP; then the override says hold and the heartbeat 'stopped'. An interface "
-        "that is not\n"
-        "there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
+        "Runs until SIGINT, SIGTERM or SIGHUP; then the feed is held, and the heartbeat says 'stopped'. An interface\n"
+        "that is not there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
-        "With --tools the CNC's tool frame tells the number; without a known tool the override is the operator's.\n"
+        "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");

@@ -35,8 +35,8 @@ struct ServeOptions {
     std::string program;
 };
 
-/// Tells of a fault as it comes and goes.
-class FaultTeller {
+/// Reports a fault as it comes and goes.
+class FaultReporter {
   public:
     void follow(const hal::FeedOverride& output, LinePrinter& printer) {
         if (output.fault != fault_) {
@@ -49,12 +49,12 @@ class FaultTeller {
     std::uint8_t fault_ = 0;
 };
 
-/// Tells when a part map is dropped.
-class MapTeller {
+/// Reports when a part map is dropped.
+class MapReporter {
   public:
     void follow(const MapFollower& follower, LinePrinter& printer) {
         if (follower.ahead().is_refuted() && !was_refuted_) {
-            printer.print("millforce: the part map does not fit this cut: on without it");
+            printer.print("millforce: the part map does not fit this cut: continuing without it");
         }
         was_refuted_ = follower.ahead().is_refuted();
     }
@@ -63,8 +63,8 @@ class MapTeller {
     bool was_refuted_ = false;
 };
 
-/// Tells which tool the override is for.
-class ToolTeller {
+/// Reports which tool the override is for.
+class ToolReporter {
   public:
     void follow(const firmware::LinkController& controller, LinePrinter& printer) {
         if (controller.is_tool_known() == is_known_ && controller.tool() == tool_) {
@@ -83,9 +83,9 @@ class ToolTeller {
 
 void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower,
                 LinePrinter& printer) {
-    FaultTeller faults;
-    MapTeller maps;
-    ToolTeller tools;
+    FaultReporter faults;
+    MapReporter maps;
+    ToolReporter tools;
     while (server.has_peer()) {
         const auto bytes = server.receive();
         if (bytes.empty()) {
@@ -129,8 +129,8 @@ int serve(const ServeOptions& options) {
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
-    tell_parameter_notes(parameters);
-    tell_parameter_findings(parameters);
+    show_parameter_notes(parameters);
+    show_parameter_findings(parameters);
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);
@@ -160,7 +160,7 @@ void add_serve(Command& program) {
         program.subcommand("serve", "Run the live controller behind a Unix socket, for a CNC on the same computer");
     command.footer(
         "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
-        "With --tools the samples tell the tool's number; without a known tool the override is the operator's.\n"
+        "With --tools the samples hold the tool's number; without a known tool the override is the operator's.\n"
         "One connection at a time; each is a new run. Runs until SIGINT or SIGTERM.");
     command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");

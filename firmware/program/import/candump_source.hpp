@@ -42,7 +42,7 @@ class CandumpSource final : public SourceReader {
     std::string interface_;
     bool interface_is_given_;
     Dbc dbc_;
-    std::vector<DbcSignal> signals_;  ///< of each source
+    std::vector<DbcSignal> signals_;  ///< one for each source
     std::map<MessageId, std::vector<std::size_t>> by_message_;
     SourceContext& context_;
     double time_s_ = 0.0;

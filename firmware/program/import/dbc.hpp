@@ -15,10 +15,10 @@ struct DbcSignal {
 
     std::string message;
     std::string name;
-    std::uint32_t id = 0;   ///< of the message
+    std::uint32_t id = 0;   ///< identifier of the message
     bool extended = false;  ///< 29 bits
     unsigned message_bytes = 0;
-    unsigned start_bit = 0;    ///< as in the file: the lowest bit (Intel), or the highest (Motorola)
+    unsigned start_bit = 0;    ///< place as in the file: the lowest bit (Intel), or the highest (Motorola)
     unsigned bits = 0;         ///< 1…64
     bool is_motorola = false;  ///< byte order @0, the highest byte first; else Intel, @1
     bool is_signed = false;

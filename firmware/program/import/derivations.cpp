@@ -2,7 +2,8 @@
 #include "import/derivations.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
@@ -86,12 +87,12 @@ void IndexAngle::add(const Sample& sample, std::deque<Sample>& out) {
 }
 
 void IndexAngle::end_turn(double edge_s, std::deque<Sample>& out) {
-    constexpr double turn_rad = 2.0 * std::numbers::pi;
     const bool is_turn = edge_s - edge_s_ <= longest_turn_s;
     for (const double time_s : waiting_s_) {
         const double share = (time_s - edge_s_) / (edge_s - edge_s_);
         const bool is_known = is_turn && share >= 0.0;
-        out.push_back({time_s, is_known ? turn_rad * (static_cast<double>(turns_) + share) : no_value});
+        out.push_back(
+            {time_s, is_known ? estimation::turn_rad<double> * (static_cast<double>(turns_) + share) : no_value});
     }
     waiting_s_.clear();
     turns_ += std::isnan(edge_s_) ? 0U : 1U;

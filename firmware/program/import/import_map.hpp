@@ -52,9 +52,9 @@ struct ColumnMap {
 struct ImportMap {
     std::string file;  ///< empty: made by map_by_names()
     SourceFormat format = SourceFormat::detected;
-    std::vector<std::string> names;  ///< of a halsampler's pins, in their order
+    std::vector<std::string> names;  ///< names of a halsampler's pins, in their order
     std::string dbc;                 ///< path of the DBC file
-    std::string interface;           ///< of a candump log; empty: its only one
+    std::string interface;           ///< interface in a candump log; empty: its only one
     std::optional<ColumnMap> time;   ///< nothing: the source has its own time, or `sample_rate_hz`
     double sample_rate_hz = 0.0;     ///< time is the number of the sample by this
     std::vector<ColumnMap> columns;  ///< but the time

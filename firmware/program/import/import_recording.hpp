@@ -28,11 +28,11 @@ struct ImportedFile {
 /// What became of it.
 struct ImportedRecording {
     std::vector<ImportedFile> files;
-    std::vector<ColumnMap> columns;            ///< of the recording, but the time
-    std::vector<ColumnStatistics> statistics;  ///< of each
+    std::vector<ColumnMap> columns;            ///< columns of the recording, without the time
+    std::vector<ColumnStatistics> statistics;  ///< one for each column
     StepStatistics steps;
     Resampling resampling{};
-    std::vector<std::string> unused_names;  ///< of the source
+    std::vector<std::string> unused_names;  ///< columns of the source that are not used
 };
 
 /// Turns files of other programs into a recording (recording/recording.hpp). time_s begins at 0 with the first record

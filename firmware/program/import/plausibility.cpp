@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
@@ -45,7 +46,7 @@ std::string current_doubt(const ColumnMap& column, double largest) {
 std::vector<std::string> angle_doubts(const ColumnMap& column, const ColumnStatistics& angle, double duration_s) {
     std::vector<std::string> doubts;
     const double range_rad = angle.maximum() - angle.minimum();
-    const double speed_rpm = std::abs(angle.change()) / duration_s * 60.0 / (2.0 * std::numbers::pi);
+    const double speed_rpm = std::abs(angle.change()) / duration_s * 60.0 / estimation::turn_rad<double>;
     if (range_rad == 0.0) {
         doubts.push_back(fmt::format("{} does not change: is it another column?", column.column.name));
     } else if (angle.falls() > 0 && angle.largest_fall() > 0.5 * range_rad && column.wrap == 0.0) {

@@ -2,14 +2,15 @@
 #include "import/quantity.hpp"
 
 #include <array>
-#include <numbers>
 #include <stdexcept>
+
+#include "estimation/number/circle.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-constexpr double turn_rad = 2.0 * std::numbers::pi;
+constexpr double turn_rad = estimation::turn_rad<double>;
 constexpr double inch_mm = 25.4;
 constexpr double pound_force_N = 4.4482216152605;  // exact by definition
 

@@ -13,11 +13,11 @@ namespace millforce::host {
 enum class Quantity : std::uint8_t {
     time,      ///< s
     angle,     ///< rad
-    speed,     ///< of the spindle, rad/s: becomes an angle
+    speed,     ///< speed of the spindle, rad/s: becomes an angle
     pulse,     ///< level of an index pulse: becomes an angle
     current,   ///< A
-    velocity,  ///< of an axis, mm/s
-    position,  ///< of an axis, mm: becomes a velocity
+    velocity,  ///< velocity of an axis, mm/s
+    position,  ///< position of an axis, mm: becomes a velocity
     force,     ///< N
     ratio,     ///< 1
 };
@@ -25,7 +25,7 @@ enum class Quantity : std::uint8_t {
 /// What the unit alone leaves open. The map's keys of the same names; 0: not given.
 struct UnitSettings {
     double rated_A = 0.0;         ///< current that 100 % stand for
-    double counts_per_rev = 0.0;  ///< of the encoder, all edges counted
+    double counts_per_rev = 0.0;  ///< counts of the encoder, all edges counted
     double screw_pitch_mm = 0.0;  ///< travel per turn of the motor
     double rate_hz = 0.0;         ///< samples per second
 };

@@ -40,7 +40,7 @@ class StepStatistics {
     double median_s_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t rows_ = 0;
     std::uint64_t regular_steps_ = 0;
-    double sum_s_ = 0.0;  ///< of the steps' differences from the median
+    double sum_s_ = 0.0;  ///< sum of the steps' differences from the median
     double sum_s2_ = 0.0;
     double first_s_ = 0.0;
     double last_s_ = 0.0;

@@ -33,7 +33,7 @@ class SamplerSource final : public SourceReader {
 
     TextLines lines_;
     std::vector<std::string> pins_;
-    std::vector<std::size_t> columns_;  ///< of each source, among the pins
+    std::vector<std::size_t> columns_;  ///< one for each source, among the pins
     std::vector<std::string> cells_;
     NumberReader numbers_;
     double sample_number_ = 0.0;

@@ -52,7 +52,7 @@ class SinumerikSource final : public SourceReader {
     XmlTags tags_;
     NumberReader numbers_;
     std::vector<Signal> signals_;
-    std::vector<std::string> ids_;  ///< of each source
+    std::vector<std::string> ids_;  ///< one for each source
     double interval_s_ = 0.0;
     double time_s_ = 0.0;
     double record_s_ = 0.0;  ///< time of the record that is the tag now

@@ -56,7 +56,7 @@ class TableSource final : public SourceReader {
     NumberReader numbers_;
     char separator_ = ',';
     std::vector<std::string> column_names_;
-    std::vector<std::size_t> columns_;  ///< of each source
+    std::vector<std::size_t> columns_;  ///< one for each source
     std::vector<std::string> cells_;
     std::size_t width_ = 0;
     std::size_t first_line_ = 0;

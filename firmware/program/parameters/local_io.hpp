@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include "firmware/parameters.hpp"
+
 /// Inputs and outputs of this computer, apart from the bus: machine.toml's tables [iio], [iio.spindle], [iio.x] …,
 /// [override_voltage] and [feed_hold_line]. They name files of Linux, so they are no part of a chip's parameters; their
 /// keys are described here, once, for the reader and for `millforce parameters`. Defaults stand in these structures
@@ -26,7 +28,7 @@ struct LocalDriveKeys {
     double largest_A = 100.0;
     double mm_per_count = 0.0;
     std::uint32_t count_modulus = 0;
-    std::uint32_t largest_count_step = 1'048'576;
+    std::uint32_t largest_count_step = firmware::BusDriveParameters<float>{}.largest_count_step;
     bool count_reversed = false;
 
     [[nodiscard]] bool is_used() const { return !current_channel.empty(); }

@@ -17,7 +17,7 @@ std::vector<std::string> parameter_notes(const firmware::Parameters<float>& para
     return notes;
 }
 
-void tell_parameter_notes(const firmware::Parameters<float>& parameters) {
+void show_parameter_notes(const firmware::Parameters<float>& parameters) {
     for (const std::string& note : parameter_notes(parameters)) {
         print_line(stderr, "millforce: note: " + note);
     }

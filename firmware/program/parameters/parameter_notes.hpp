@@ -13,6 +13,6 @@ namespace millforce::host {
 std::vector<std::string> parameter_notes(const firmware::Parameters<float>& parameters);
 
 /// Prints the notes of parameter_notes() on standard error.
-void tell_parameter_notes(const firmware::Parameters<float>& parameters);
+void show_parameter_notes(const firmware::Parameters<float>& parameters);
 
 }  // namespace millforce::host

@@ -42,7 +42,7 @@ struct ParameterRow {
     const char* sentence;
     ParameterType type;
     bool is_required;     ///< the file must give the value
-    float default_value;  ///< of an optional key; an enumeration's as an index
+    float default_value;  ///< default of an optional key; an enumeration's as an index
     float minimum;
     float maximum;
     const char* choices;  ///< the names of an enumeration in the order of its values, separated by '|'; else null

@@ -22,11 +22,11 @@ struct EngagedArc {
 struct MapPlace {
     double path_mm = 0.0;       ///< gone since the program's begin, rapids included
     double block_end_mm = 0.0;  ///< path at the end of the block that the place is in
-    std::size_t line = 0;       ///< of the program, 1 the first
+    std::size_t line = 0;       ///< line of the program, 1 the first
     bool rapid = false;
     double programmed_feed_mm_s = 0.0;
     double spindle_speed_rad_s = 0.0;
-    std::vector<EngagedArc> cut;  ///< in the order of φ; empty: air
+    std::vector<EngagedArc> cut;  ///< engaged arcs in the order of φ; empty: air
 };
 
 /// Each place holds to the next one. The last is the program's end.

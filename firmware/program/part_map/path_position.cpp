@@ -26,18 +26,18 @@ PathPosition::PathPosition(const PartMap& map) {
 }
 
 std::optional<double> PathPosition::find(std::uint32_t line, double distance_to_go_mm) {
-    const std::optional<double> told = told_by(line, distance_to_go_mm);
-    const bool goes_on = told && std::abs(*told - last_mm_) <= slack_mm;
+    const std::optional<double> reported = reported_by(line, distance_to_go_mm);
+    const bool goes_on = reported && std::abs(*reported - last_mm_) <= slack_mm;
     jumps_ = goes_on ? 0 : std::min(jumps_ + 1, samples_of_change);
     if (jumps_ > 0 && jumps_ < samples_of_change && has_position_) {
         return last_mm_;
     }
-    has_position_ = told.has_value();
-    last_mm_ = told.value_or(last_mm_);
-    return told;
+    has_position_ = reported.has_value();
+    last_mm_ = reported.value_or(last_mm_);
+    return reported;
 }
 
-std::optional<double> PathPosition::told_by(std::uint32_t line, double distance_to_go_mm) const {
+std::optional<double> PathPosition::reported_by(std::uint32_t line, double distance_to_go_mm) const {
     if (line == 0 || !std::isfinite(distance_to_go_mm) || distance_to_go_mm < 0.0) {
         return std::nullopt;
     }

@@ -30,7 +30,7 @@ class PathPosition {
         double end_mm;
     };
 
-    [[nodiscard]] std::optional<double> told_by(std::uint32_t line, double distance_to_go_mm) const;
+    [[nodiscard]] std::optional<double> reported_by(std::uint32_t line, double distance_to_go_mm) const;
     [[nodiscard]] std::optional<double> first_from(double lowest_mm, std::uint32_t line,
                                                    double distance_to_go_mm) const;
 

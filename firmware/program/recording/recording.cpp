@@ -7,15 +7,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "estimation/number/circle.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-constexpr double revolution = 2.0 * std::numbers::pi;
+constexpr double turn_rad = estimation::turn_rad<double>;
 constexpr std::array<std::string_view, hal::axis_count> axis_names{"x", "y", "z"};
 
 constexpr std::string_view header =
@@ -35,7 +35,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_
 }
 
 double RecordingWriter::angle_rad(std::int64_t count) const {
-    return static_cast<double>(count) / counts_per_rev_ * revolution;
+    return static_cast<double>(count) / counts_per_rev_ * turn_rad;
 }
 
 /// Time and count of the sample wrap at 2³²; those of the file go on.
@@ -148,13 +148,13 @@ std::optional<std::uint32_t> RecordingReader::count_at(std::optional<CsvColumn> 
         csv_.fail(*column, fmt::format("{}, expected an angle within ±1e7 rad", angle));
     }
     return static_cast<std::uint32_t>(
-        static_cast<std::int64_t>(std::floor(angle / revolution * static_cast<double>(counts_per_rev_) + 1e-6)));
+        static_cast<std::int64_t>(std::floor(angle / turn_rad * static_cast<double>(counts_per_rev_) + 1e-6)));
 }
 
 /// An angle that begins again after each turn goes on.
 void RecordingReader::follow_turns(double angle_rad) {
-    const bool within_a_turn = std::max(std::abs(angle_rad), std::abs(last_angle_rad_)) < 1.05 * revolution;
-    if (within_a_turn && angle_rad < last_angle_rad_ - 0.5 * revolution) {
+    const bool within_a_turn = std::max(std::abs(angle_rad), std::abs(last_angle_rad_)) < 1.05 * turn_rad;
+    if (within_a_turn && angle_rad < last_angle_rad_ - 0.5 * turn_rad) {
         ++whole_turns_;
     }
     last_angle_rad_ = angle_rad;
@@ -165,7 +165,7 @@ std::optional<std::uint32_t> RecordingReader::index_of_zero() const {
     if ((sample_.present & hal::mask(hal::Present::spindle_count)) == 0) {
         return std::nullopt;
     }
-    const double turns = std::floor(csv_.number(angle_) / revolution + 1e-9) + whole_turns_;
+    const double turns = std::floor(csv_.number(angle_) / turn_rad + 1e-9) + whole_turns_;
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(turns) * static_cast<std::int64_t>(counts_per_rev_));
 }
 

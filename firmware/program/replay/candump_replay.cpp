@@ -162,16 +162,16 @@ void CandumpReplay::take_rated_values() {
         cia402::DriveSettings& drive = settings_.bus.drives.drives[role];
         const bool by_torque = drive.current_source == cia402::CurrentSource::torque;
         float& rated = by_torque ? drive.rated_torque_Nm : drive.rated_current_A;
-        const std::uint32_t told = by_torque ? rated_torque_mNm_[role] : rated_current_mA_[role];
+        const std::uint32_t answered = by_torque ? rated_torque_mNm_[role] : rated_current_mA_[role];
         if (drive.node_id == 0 || !drive.gives_current || rated > 0.0F) {
             continue;
         }
-        if (told == 0) {
+        if (answered == 0) {
             throw InputError(
                 fmt::format("{}: no drive's answer gives the rated value of {}; expected it in the machine's file ({})",
                             settings_.log, drive_names[role], by_torque ? "rated_torque_Nm" : "rated_current_A"));
         }
-        rated = static_cast<float>(told) * 0.001F;
+        rated = static_cast<float>(answered) * 0.001F;
     }
 }
 

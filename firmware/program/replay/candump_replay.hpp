@@ -26,7 +26,7 @@ class CandumpReplay {
         MachineBus bus{};
         firmware::Parameters<float> parameters{};
         const firmware::ToolSource* tools = nullptr;  ///< outlive the replay; null: one tool
-        BusTime time{};                               ///< of the run
+        BusTime time{};                               ///< time of the run
     };
 
     /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that does not

@@ -3,19 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <fstream>
-#include <iostream>
 #include <optional>
 #include <sstream>
 
-#include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
-#include "files/progress.hpp"
 #include "parameters/machine_bus.hpp"
 #include "parameters/parameter_files.hpp"
 #include "replay/candump_replay.hpp"
-#include "replay/estimate_rows.hpp"
+#include "replay/estimate_table.hpp"
 #include "replay/run_check.hpp"
 
 namespace millforce::host {
@@ -44,7 +40,7 @@ double seconds_of(std::uint64_t microseconds) {
 
 std::string summary_of(const CandumpReplay& replay) {
     return fmt::format(
-        "{} frames, {} ticks{}{}\n", replay.frames(), replay.ticks(),
+        "{} frames, {} ticks{}{}", replay.frames(), replay.ticks(),
         replay.is_listener() ? ", as a listener: the log does not hold the start of a controller" : "",
         replay.not_used() > 0 ? fmt::format(", {} frames of CAN FD or errors left out", replay.not_used()) : "");
 }
@@ -73,67 +69,36 @@ bool is_candump_log(const std::string& file) {
 int replay_candump(const ReplayCandumpOptions& options) {
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     CandumpReplay replay(settings_of(options, tools));
-    std::optional<AtomicFile> file;
-    if (!options.output.empty()) {
-        file.emplace(options.output);
-    }
-    // Without a file, rows go out when all are good.
-    std::ostringstream held_back;
-    std::ostream& out = file ? file->stream() : held_back;
-    const ToolForces forces(tools);
-    ToolCells numbers(forces.has_numbers());
-    // The model is a tool's own: another may have another one, or none.
-    RoughnessCells roughness(forces.has_numbers() ? estimation::RoughnessModel<float>()
-                                                  : tools.parameters().tool.roughness);
-    out << estimate_header;
-    numbers.write_header(out);
-    roughness.write_header(out);
-    out << '\n';
-    Progress progress("replaying");
+    EstimateTable table({options.log, options.output, options.interval_s}, tools, WideBandSource::none);
     std::optional<RunCheck> check;
     if (!options.run_log.empty()) {
-        check.emplace(options.run_log, forces);
+        check.emplace(options.run_log, ToolForces(tools));
     }
     TickEntries entries(run_log_interval_us);
-    const auto interval_us = static_cast<std::uint64_t>(std::llround(options.interval_s * 1e6));
-    std::uint64_t next_row_us = 0;
-    std::size_t rows = 0;
     replay.run(
         [&](const firmware::CanController& controller) {
-            if (EstimateEntry entry; check && entries.add(controller.record(), controller.tool(), entry)) {
+            const firmware::TickRecord record = controller.record();
+            if (EstimateEntry entry; check && entries.add(record, controller.tool(), entry)) {
                 check->add(entry);
             }
-            if (controller.tick_time_us() < next_row_us) {
-                return;
+            if (table.is_due(seconds_of(controller.tick_time_us()))) {
+                table.write({seconds_of(record.time_us), record, controller.tool(), controller.controller().roughness(),
+                             controller.controller().wide_band()});
             }
-            next_row_us = controller.tick_time_us() + interval_us;
-            const firmware::TickRecord record = controller.record();
-            write_estimate_row(out, seconds_of(record.time_us), record, forces.of(record, controller.tool()));
-            numbers.write(out, controller.tool());
-            roughness.write(out, controller.controller().roughness());
-            out << '\n';
-            ++rows;
         },
-        [&](double share) { progress.update(share); });
-    if (rows == 0) {
+        [&](double share) { table.show_progress(share); });
+    if (table.is_empty()) {
         throw InputError(
             fmt::format("{}: {} frames and no complete sample; expected SYNC and the PDOs of the machine's "
                         "[bus] tables",
                         options.log, replay.frames()));
     }
-    if (const std::string note = numbers.note(); !note.empty()) {
-        fmt::print(stderr, "millforce: note: {}: {}\n", options.log, note);
-    }
+    table.show_notes();
     const int exit_code = check && !check->is_same() ? 1 : 0;
     if (check) {
-        fmt::print(exit_code == 0 && file ? stdout : stderr, "{}", check->summary());
+        fmt::print(exit_code == 0 && table.goes_to_a_file() ? stdout : stderr, "{}", check->summary());
     }
-    if (!file) {
-        std::cout << held_back.str();
-        return exit_code;
-    }
-    file->commit();
-    fmt::print("{}: {} rows; {}{}", options.output, rows, summary_of(replay), roughness.summary());
+    table.commit("; " + summary_of(replay), {});
     return exit_code;
 }
 

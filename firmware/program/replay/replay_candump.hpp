@@ -16,7 +16,7 @@ struct ReplayCandumpOptions {
     std::string output;
     std::string interface;  ///< empty: the only one of the log
     double interval_s = 0.02;
-    std::string run_log;  ///< of `millforce run --log`, to compare with; empty: none
+    std::string run_log;  ///< file of `millforce run --log`, to compare with; empty: none
     BusPace pace{};
 };
 

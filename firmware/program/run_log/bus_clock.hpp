@@ -31,7 +31,7 @@ inline constexpr std::uint32_t largest_slowness = 1000;
 /// or in lock-step the frames before it, then give the same time to all of them.
 class BusClock {
   public:
-    /// `unix_offset_us`: what a monotonic time lacks to the time since 1970, now. It is kept where the clock is set.
+    /// `unix_offset_us`: Unix time minus monotonic time, in us, now. It stays the same when the clock is set.
     explicit BusClock(const BusTime& time = {}, std::int64_t unix_offset_us = 0)
         : time_(time), offset_us_(unix_offset_us) {}
 

@@ -9,9 +9,9 @@ namespace millforce::host {
 
 /// A tick at the controller's border, as a run's log and a replay have it.
 struct EstimateEntry {
-    std::uint64_t digest = 0;  ///< of all ticks since the start, this one too
+    std::uint64_t digest = 0;  ///< digest of all ticks since the start, this one too
     firmware::TickRecord tick{};
-    std::uint32_t tool = 0;  ///< that the tick's override is for; 0: one tool, or not known
+    std::uint32_t tool = 0;  ///< tool that the tick's override is for; 0: one tool, or not known
 };
 
 inline constexpr std::uint64_t run_log_interval_us = 20'000;

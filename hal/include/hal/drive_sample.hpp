@@ -42,8 +42,8 @@ struct DriveSample {
 
     float spindle_current_A = 0.0F;
     std::array<float, axis_count> axis_current_A{};
-    std::array<float, axis_count> axis_velocity_mm_s{};  ///< of the tool relative to the workpiece
-    std::array<float, 2> force_N{};                      ///< of a force sensor: on the workpiece, along machine x and y
+    std::array<float, axis_count> axis_velocity_mm_s{};  ///< velocity of the tool relative to the workpiece
+    std::array<float, 2> force_N{};  ///< readings of a force sensor: on the workpiece, along machine x and y
 };
 
 constexpr void set_present(DriveSample& sample, Present quantity) {
@@ -111,8 +111,8 @@ struct ProgramStatus {
     float operator_override = 1.0F;     ///< the operator's override; it always wins downwards
     bool rapid = false;                 ///< a G0 block is active
     bool feed_hold = false;             ///< the operator or the CNC holds the feed
-    std::uint32_t line = 0;             ///< of the program, of the block in work; 0: not known
-    float distance_to_go_mm = 0.0F;     ///< to that block's end, along its path
+    std::uint32_t line = 0;             ///< number of the program line of the block in work; 0: not known
+    float distance_to_go_mm = 0.0F;     ///< way to that block's end, along its path
 };
 
 }  // namespace millforce::hal

@@ -5,7 +5,7 @@
 
 #include "hal/cia301.hpp"
 
-/// How a drive tells its current and velocity over a bus, and the CAN ids that a machine uses where its file gives no
+/// How a drive reports its current and velocity over a bus, and the CAN ids that a machine uses where its file gives no
 /// others. Parameters and bus drivers share them.
 
 namespace millforce::hal {

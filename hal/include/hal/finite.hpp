@@ -7,6 +7,7 @@
 namespace millforce::hal {
 
 /// Neither infinite nor NaN. By the bits: without a floating-point unit every operation on a float is a library call.
+/// For a scalar that may be fixed point: estimation::is_finite().
 [[nodiscard]] constexpr bool is_finite(float value) {
     constexpr std::uint32_t exponent = 0x7F80'0000U;
     return (std::bit_cast<std::uint32_t>(value) & exponent) != exponent;

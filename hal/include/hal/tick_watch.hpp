@@ -4,19 +4,23 @@
 #include <cstdint>
 
 #include "hal/feed_override.hpp"
+#include "hal/finite.hpp"
 
 namespace millforce::hal {
 
 /// Whether an output must stop the feed: hold, any fault, or a ratio that is not a finite number above 0.
 [[nodiscard]] constexpr bool demands_stop(const FeedOverride& feed_override) {
     return feed_override.hold || feed_override.fault != 0 || !(feed_override.ratio > 0.0F) ||
-           !(feed_override.ratio - feed_override.ratio == 0.0F);
+           !is_finite(feed_override.ratio);
 }
 
 /// Whether a tick may feed a watchdog, once its heartbeat has advanced.
 [[nodiscard]] constexpr bool is_within_limits(const FeedOverride& feed_override, float largest_ratio) {
     return feed_override.ratio >= 0.0F && feed_override.ratio <= largest_ratio;
 }
+
+/// Without a tick for so long the controller is dead: outputs stop the feed, receivers expect no more of it.
+inline constexpr std::uint32_t default_tick_timeout_us = 20'000;
 
 /// Distinguishes a controller that ticks from one that has stopped: by its heartbeat, not by being called.
 class TickWatch {

@@ -85,6 +85,20 @@ std::string text_of_function_blocks() {
 
 TEST_GROUP(CncSide){};
 
+TEST(CncSide, in_c_starts_with_the_settings_of_our_receiver) {
+    const override_frame::OverrideReceiverSettings ours;
+    const millforce_settings in_c = millforce_default_settings();
+    UNSIGNED_LONGS_EQUAL(hal::default_tick_timeout_us, in_c.timeout_us);
+    UNSIGNED_LONGS_EQUAL(ours.timeout_us, in_c.timeout_us);
+    UNSIGNED_LONGS_EQUAL(ours.node_id, in_c.node);
+    UNSIGNED_LONGS_EQUAL(ours.id, in_c.id);
+    UNSIGNED_LONGS_EQUAL(ours.largest_counter_step, in_c.largest_counter_step);
+    UNSIGNED_LONGS_EQUAL(ours.frames_to_trust, in_c.frames_to_trust);
+    DOUBLES_EQUAL(ours.largest_ratio, static_cast<float>(in_c.largest_ratio) * override_frame::ratio_per_bit, 1e-6);
+    DOUBLES_EQUAL(ours.fallback_ratio, static_cast<float>(in_c.fallback_ratio) * override_frame::ratio_per_bit, 0.0);
+    CHECK_EQUAL(ours.fallback_hold, in_c.fallback_hold);
+}
+
 TEST(CncSide, in_c_and_our_receiver_agree_at_every_frame_and_every_poll_of_a_troubled_bus) {
     TroubledBus bus;
     override_frame::OverrideReceiver ours{override_frame::OverrideReceiverSettings{}};

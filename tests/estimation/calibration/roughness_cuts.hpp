@@ -41,7 +41,7 @@ inline double roughness_by_power_law_um(const estimation::RoughnessModel<double>
     return R;
 }
 
-/// All combinations of the paper's Table 1: 36 cuts. ρ, which the paper does not tell, from 0.5 to 1.5.
+/// All combinations of the paper's Table 1: 36 cuts. ρ, which the paper does not give, from 0.5 to 1.5.
 inline std::vector<Cut> published_cuts(Noise& noise) {
     std::vector<Cut> cuts;
     for (const double V : {8000.0, 10000.0, 12000.0}) {

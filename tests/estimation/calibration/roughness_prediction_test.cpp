@@ -116,7 +116,7 @@ TEST(RoughnessPrediction, of_a_published_model_has_no_interval_and_is_nothing_to
     const auto prediction = predictor.predict(middle);
     CHECK(prediction.valid && prediction.in_range());
     CHECK(!prediction.has_interval);
-    LONGS_EQUAL(1U << roughness_force_ratio, prediction.range_untold);
+    LONGS_EQUAL(1U << roughness_force_ratio, prediction.range_not_given);
     CHECK(!prediction.is_sure());
     CHECK(!predictor.feed_ceiling(middle, force(100), force(-100), 1.0).valid);
     CHECK(!predictor.predict({10000, 0.02, 12, 0.4, 1}).in_range());

@@ -30,8 +30,8 @@ enum class LineError : std::uint8_t { none, too_long, time, interface, id, data,
 struct LogLine {
     LineKind kind = LineKind::malformed;
     LineError error = LineError::none;
-    std::uint32_t column = 0;       ///< of the error, from 1 on
-    std::uint64_t time_us = 0;      ///< of whatever clock wrote it, usually since 1970
+    std::uint32_t column = 0;       ///< place of the error, from 1 on
+    std::uint64_t time_us = 0;      ///< time by whatever clock wrote it, usually since 1970
     std::string_view interface {};  ///< part of the line that was read
     hal::CanFrame frame{};
 };

@@ -88,7 +88,7 @@ class DriveBus final : public hal::DriveSource {
     BusHealth health_{};
     SyncClock sync_clock_;
     hal::DriveSample sample_{};
-    hal::DriveSample beside_bus_{};  ///< of the SYNC period in work
+    hal::DriveSample beside_bus_{};  ///< sample of the SYNC period in work
     bool has_beside_bus_ = false;
     bool sample_ready_ = false;
     bool had_sample_ = false;

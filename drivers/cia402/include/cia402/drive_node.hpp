@@ -35,7 +35,7 @@ struct NodeHealth {
     bool emergency_active = false;     ///< an error code other than 00xx was the last
     Emergency emergency{};             ///< the last one, whatever it says
     bool units_disagree = false;       ///< velocity is withheld meanwhile
-    std::uint32_t sdo_abort_code = 0;  ///< of the last refusal
+    std::uint32_t sdo_abort_code = 0;  ///< code of the last refusal
     std::uint32_t silent_cycles = 0;   ///< SYNC periods since the last PDO; saturates
     std::uint32_t times_lost = 0;
 };

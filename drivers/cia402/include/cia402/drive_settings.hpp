@@ -40,15 +40,16 @@ struct DriveSettings {
     CurrentSource current_source = CurrentSource::current;
     CurrentBasis current_basis = CurrentBasis::rms;
     bool current_reversed = false;
-    float rated_current_A = 0.0F;           ///< of `current_basis`; 0: read from 0x6075 (mA)
+    float rated_current_A = 0.0F;           ///< in the terms of `current_basis`; 0: read from 0x6075 (mA)
     float rated_torque_Nm = 0.0F;           ///< 0: read from 0x6076 (mN·m); only with torque_actual
     float torque_constant_Nm_per_A = 0.0F;  ///< N·m per A of `current_basis`; only with torque_actual
-    float largest_share_of_rated = 0.0F;    ///< of current or torque; beyond it the value is rejected
+    float largest_share_of_rated = 0.0F;    ///< limit of current or torque; beyond it the value is rejected
 
     /// Axes. The units of a drive are what its gear and factor objects make of them: calibrate, or read its manual.
     VelocitySource velocity_source = VelocitySource::velocity;
-    float velocity_mm_s_per_unit = 0.0F;  ///< of 0x606C; negative: the drive counts against the machine axis
-    float position_mm_per_unit = 0.0F;    ///< of 0x6064; with 0x606C too, the two are compared (Reject::units_disagree)
+    float velocity_mm_s_per_unit = 0.0F;  ///< unit of 0x606C; negative: the drive counts against the machine axis
+    float position_mm_per_unit =
+        0.0F;  ///< unit of 0x6064; with 0x606C too, the two are compared (Reject::units_disagree)
     float largest_velocity_mm_s = 0.0F;
 
     /// Spindle: the object that carries the encoder count, and what latches it at the index pulse, if anything does.

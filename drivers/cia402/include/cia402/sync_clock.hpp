@@ -49,12 +49,12 @@ class SyncClock {
     void weigh(float by_counts_us);
 
     std::uint64_t period_ns_;
-    std::uint64_t grid_ns_ = 0;  ///< of the newest SYNC
-    float drift_ns_ = 0.0F;      ///< of the grid, per period
-    float by_stamp_us_ = 0.0F;   ///< of the newest stamp: stamp - grid
+    std::uint64_t grid_ns_ = 0;  ///< time of the newest SYNC
+    float drift_ns_ = 0.0F;      ///< drift of the grid, per period
+    float by_stamp_us_ = 0.0F;   ///< newest stamp minus the grid
     float ahead_us_ = 0.0F;      ///< followed stamps - grid
     float ahead_us_per_period_ = 0.0F;
-    float expected_us_ = 0.0F;     ///< of the newest stamp, before it came
+    float expected_us_ = 0.0F;     ///< by_stamp_us_ of the newest stamp, before it came
     float latched_off_us_ = 0.0F;  ///< latch - grid
     bool has_count_ = false;
     std::uint32_t since_count_ = 0;  ///< periods from the last count's SYNC to the newest
@@ -66,7 +66,7 @@ class SyncClock {
     float mean_ss_us2_ = 0.0F;
     float mean_cc_us2_ = 0.0F;
     float mean_sc_us2_ = 0.0F;
-    float mean_wander_us2_ = 0.0F;  ///< of expected_us_
+    float mean_wander_us2_ = 0.0F;  ///< mean square wander of expected_us_
 };
 
 }  // namespace millforce::cia402

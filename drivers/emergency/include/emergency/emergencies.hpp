@@ -35,11 +35,11 @@ class Emergencies {
   public:
     explicit Emergencies(std::uint8_t node_id) : node_id_(node_id) {}
 
-    /// Tells a change of `is_there`, and nothing where it is as before.
+    /// Reports a change of `is_there`, and nothing where it is as before.
     void set(Reason reason, bool is_there, std::uint32_t detail);
-    /// Tells an event that has no end.
-    void tell(Reason reason, std::uint16_t code, std::uint32_t detail);
-    void tell_start(hal::ResetCause cause);
+    /// Reports an event that has no end.
+    void report(Reason reason, std::uint16_t code, std::uint32_t detail);
+    void report_start(hal::ResetCause cause);
     [[nodiscard]] bool has(Reason reason) const { return (there_ & bit(reason)) != 0; }
     /// True once for each frame that is to be sent.
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
@@ -55,7 +55,7 @@ class Emergencies {
     std::uint8_t node_id_;
     std::array<Entry, reason_count> entries_{};
     std::uint32_t there_ = 0;
-    std::uint32_t untold_ = 0;
+    std::uint32_t unreported_ = 0;
 };
 
 /// CiA 301, table 26.

@@ -21,8 +21,8 @@ namespace millforce::gpio {
 /// 15 ms) whatever died, program, kernel or processor, at either level. Put its contact in series with the release;
 /// wire the release so that a broken wire is a hold.
 struct FeedHoldSettings {
-    std::uint32_t tick_timeout_us = 20'000;
-    std::uint32_t pulse_half_period_us = 5'000;  ///< in steps of the tick's period
+    std::uint32_t tick_timeout_us = hal::default_tick_timeout_us;
+    std::uint32_t pulse_half_period_us = 5'000;  ///< rounded to steps of the tick's period
     std::uint32_t retry_us = 100'000;            ///< between tries to take the lines
 };
 

@@ -14,7 +14,7 @@ inline constexpr std::size_t line_capacity = 4;
 
 struct GpioChipSettings {
     std::array<char, 64> chip{};                         ///< /dev/gpiochip0
-    std::array<std::uint32_t, line_capacity> offsets{};  ///< of the lines on the chip
+    std::array<std::uint32_t, line_capacity> offsets{};  ///< places of the lines on the chip
     std::size_t line_count = 0;
     std::uint32_t active_low = 0;  ///< bits of lines whose level is the opposite
 

@@ -41,9 +41,9 @@ enum class AdcMode : std::uint8_t { buffered, polled };
 
 struct AdcChannel {
     ChannelName name{};      ///< `voltage0`; empty: this drive is not wired
-    float A_per_V = 0.0F;    ///< rms; negative: the sensor counts against the motor
-    float zero_V = 0.0F;     ///< of the sensor at 0 A
-    float largest_A = 0.0F;  ///< beyond it the value is not used
+    float A_per_V = 0.0F;    ///< rms current per volt; negative: the sensor counts against the motor
+    float zero_V = 0.0F;     ///< output of the sensor at 0 A
+    float largest_A = 0.0F;  ///< limit; a value beyond it is not used
 };
 
 /// Defaults of what machine.toml gives are the program's (parameters/local_io.hpp).
@@ -56,9 +56,9 @@ struct AdcSettings {
     bool configures = false;
     std::uint32_t buffer_scans = 0;
     std::array<AdcChannel, drive_capacity> channels{};  ///< spindle, x, y, z
-    std::uint32_t sample_period_us = 0;                 ///< of the device, to detect gaps; 0: gaps are not detected
-    std::uint32_t stale_us = 0;                         ///< without a value for so long the state is `silent`
-    std::uint32_t look_period_us = 100'000;             ///< between tries to open
+    std::uint32_t sample_period_us = 0;      ///< sample period of the device, to detect gaps; 0: gaps are not detected
+    std::uint32_t stale_us = 0;              ///< time without a value until the state is `silent`
+    std::uint32_t look_period_us = 100'000;  ///< time between tries to open
 };
 
 enum class AdcState : std::uint8_t {
@@ -70,14 +70,14 @@ enum class AdcState : std::uint8_t {
 
 enum class AdcReject : std::uint8_t {
     at_rail,        ///< lowest or highest value of the converter (buffered)
-    current_range,  ///< beyond largest_A
+    current_range,  ///< current beyond largest_A
     unreadable,     ///< in_voltage0_raw did not hold a number (polled)
 };
 inline constexpr std::size_t adc_rejects = 3;
 
 struct AdcHealth {
     AdcState state = AdcState::absent;
-    Fault fault{};  ///< of the last failure
+    Fault fault{};  ///< cause of the last failure
     std::uint32_t opened = 0;
     std::uint32_t scans = 0;     ///< wraps
     std::uint32_t overruns = 0;  ///< scans that are missing between two timestamps

@@ -26,10 +26,10 @@ struct AnalogueOverrideSettings {
     float zero_V = 0.0F;
     float lowest_V = 0.0F;
     float highest_V = 0.0F;
-    float safe_V = 0.0F;  ///< at which the CNC stops the feed; not clamped to the range
+    float safe_V = 0.0F;  ///< voltage at which the CNC stops the feed; not clamped to the range
     std::int32_t lowest_raw = 0;
     std::int32_t highest_raw = 0;
-    std::uint32_t tick_timeout_us = 20'000;
+    std::uint32_t tick_timeout_us = hal::default_tick_timeout_us;
     std::uint32_t refresh_us =
         100'000;  ///< an unchanged value is written again after so long, a missing device looked for
 };

@@ -16,12 +16,12 @@ struct CounterSettings {
     std::uint32_t modulus = 0;       ///< counts after which it begins again at 0: the file `ceiling` plus 1; 0: 2³²
     std::uint32_t largest_step = 0;  ///< between two reads; beyond it the value is not used, and followed from
     bool reversed = false;
-    float mm_per_count = 0.0F;  ///< of a feed axis; 0: of the spindle
+    float mm_per_count = 0.0F;  ///< travel of a feed axis; 0: the spindle
 };
 
 struct CounterHealth {
     bool is_ready = false;  ///< the last read gave a count
-    Fault fault{};          ///< of the last failure
+    Fault fault{};          ///< cause of the last failure
     std::uint32_t opened = 0;
     std::uint32_t steps_too_large = 0;
 };

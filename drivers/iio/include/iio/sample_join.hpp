@@ -13,7 +13,7 @@ inline constexpr std::size_t drive_capacity = 1 + hal::axis_count;  ///< spindle
 
 /// What the converter reported since the last call.
 struct CurrentReading {
-    std::uint64_t time_us = 0;  ///< of the newest value
+    std::uint64_t time_us = 0;  ///< time of the newest value
     std::array<bool, drive_capacity> has{};
     std::array<float, drive_capacity> current_A{};
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "hal/can_frame.hpp"
+#include "hal/tick_watch.hpp"
 #include "override_frame/override_frame.hpp"
 
 namespace millforce::override_frame {
@@ -13,7 +14,8 @@ namespace millforce::override_frame {
 struct OverrideReceiverSettings {
     std::uint8_t node_id = default_node_id;
     std::uint32_t id = default_id;
-    std::uint32_t timeout_us = 20'000;        ///< without a fresh counter for so long the controller is dead
+    /// Without a fresh counter for so long the controller is dead.
+    std::uint32_t timeout_us = hal::default_tick_timeout_us;
     std::uint16_t largest_counter_step = 50;  ///< ticks between two frames, lost frames included
     std::uint8_t frames_to_trust = 3;         ///< fresh frames in sequence before the override is used (again)
     float largest_ratio = 2.0F;               ///< beyond it the frame is rejected

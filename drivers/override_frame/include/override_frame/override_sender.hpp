@@ -6,6 +6,7 @@
 #include "hal/can_frame.hpp"
 #include "hal/feed_override.hpp"
 #include "hal/override_output.hpp"
+#include "hal/tick_watch.hpp"
 #include "override_frame/override_frame.hpp"
 
 namespace millforce::override_frame {
@@ -16,8 +17,9 @@ struct OverrideSenderSettings {
     std::uint32_t id = 0;
     /// Between two frames; 0: one with every tick. A change of hold or fault goes out at once.
     std::uint32_t period_us = 0;
-    std::uint32_t heartbeat_period_us = 0;   ///< between two heartbeats
-    std::uint32_t tick_timeout_us = 20'000;  ///< without a tick for so long the heartbeat says `stopped`
+    std::uint32_t heartbeat_period_us = 0;  ///< between two heartbeats
+    /// Without a tick for so long the heartbeat says `stopped`.
+    std::uint32_t tick_timeout_us = hal::default_tick_timeout_us;
 };
 
 /// Whether a frame is the boot-up of this controller (CiA 301): its node's heartbeat with the state 0.

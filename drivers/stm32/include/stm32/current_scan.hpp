@@ -15,10 +15,10 @@ namespace millforce::stm32 {
 inline constexpr std::size_t scan_channels = 4;
 
 struct CurrentChannel {
-    std::uint8_t input = 0;    ///< ADC1_IN0…18
-    float A_per_V = 0.0F;      ///< rms; negative: the sensor counts against the motor; 0: not wired
-    float zero_V = 1.65F;      ///< of the sensor at 0 A
-    float largest_A = 100.0F;  ///< beyond it the value is not used
+    std::uint8_t input = 0;  ///< ADC1_IN0…18
+    float A_per_V = 0.0F;    ///< rms current per volt; negative: the sensor counts against the motor; 0: not wired
+    float zero_V = 1.65F;    ///< output of the sensor at 0 A
+    float largest_A = 0.0F;  ///< limit; a value beyond it is not used
 };
 
 struct CurrentScanSettings {
@@ -29,7 +29,7 @@ struct CurrentScanSettings {
 struct ScanReading {
     std::array<bool, scan_channels> has{};
     std::array<float, scan_channels> current_A{};
-    std::uint32_t scans = 0;  ///< in the means
+    std::uint32_t scans = 0;  ///< scans in the means
 };
 
 struct CurrentScanHealth {

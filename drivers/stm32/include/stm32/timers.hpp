@@ -18,12 +18,12 @@ struct EncoderSettings {
     bool is_32_bit = false;   ///< TIM2, TIM5
     bool reversed = false;    ///< counts against the direction that is wanted
     bool has_index = false;   ///< the index pulse is wired to channel 3, its rising edge counts
-    std::uint8_t filter = 3;  ///< of the inputs, ICxF: 3 is eight equal samples of the timer's clock
+    std::uint8_t filter = 3;  ///< filter of the inputs, ICxF: 3 is eight equal samples of the timer's clock
 };
 
 struct EncoderReading {
     std::uint32_t count = 0;        ///< four per line of the encoder; wraps at 32 bits for every timer
-    std::uint32_t index_count = 0;  ///< at the last index pulse
+    std::uint32_t index_count = 0;  ///< count at the last index pulse
     std::uint8_t index_number = 0;  ///< increases by one at each
 };
 

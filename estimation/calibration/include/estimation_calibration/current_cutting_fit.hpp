@@ -21,9 +21,9 @@ namespace millforce::estimation {
 
 /// How well the gains are known that the forces were calculated with.
 struct DriveGainDoubt {
-    double tangential_relative_sd = 0.0;  ///< of K_t1, without what it shares with K_x4
-    double feed_relative_sd = 0.0;        ///< of K_x4, likewise
-    double shared_relative_sd = 0.0;      ///< of both at once
+    double tangential_relative_sd = 0.0;  ///< deviation of K_t1, without what it shares with K_x4
+    double feed_relative_sd = 0.0;        ///< deviation of K_x4, likewise without the shared part
+    double shared_relative_sd = 0.0;      ///< deviation that both share
 };
 
 /// As fit_cutting_law, with the uncertainty of the gains in the covariance and in the law.

@@ -67,8 +67,8 @@ using CuttingCovariance = Eigen::Matrix<double, cutting_parameter_count, cutting
 
 /// How the forces of one kind (F_at, F_ax or F_ay) scatter about the law, relative to hypot(F, floor · mean|F|).
 struct CuttingScatter {
-    double robust_sd = 0.0;  ///< of the cuts without the odd ones (Huber's proposal 2)
-    double rms = 0.0;        ///< of all cuts
+    double robust_sd = 0.0;  ///< deviation of the cuts without the odd ones (Huber's proposal 2)
+    double rms = 0.0;        ///< residual of all cuts
     double floor_N = 0.0;    ///< floor · mean|F|
     int cuts = 0;
     int odd_cuts = 0;  ///< beyond the Huber limit by three more standard deviations

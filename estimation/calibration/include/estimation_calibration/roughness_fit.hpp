@@ -30,9 +30,10 @@ struct RoughnessTest {
 struct RoughnessFit {
     RoughnessModel<double> model{};
     RoughnessValues<double> exponent_standard_error{};
-    double constant_ln_standard_error = 0.0;  ///< of ln C, far outside the tests: R at their middle is known far better
-    double reference_um = 0.0;                ///< R at the geometric means of the tests
-    double reference_ln_standard_error = 0.0;  ///< of ln(reference_um): s/√n
+    double constant_ln_standard_error =
+        0.0;  ///< standard error of ln C, far outside the tests: R at their middle is known far better
+    double reference_um = 0.0;                 ///< R at the geometric means of the tests
+    double reference_ln_standard_error = 0.0;  ///< standard error of ln(reference_um): s/√n
     double determination = 0.0;                ///< share of the variance of ln R that the model explains, 0…1
     int tests = 0;
     int degrees_of_freedom = 0;

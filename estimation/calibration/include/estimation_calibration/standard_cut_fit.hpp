@@ -27,7 +27,7 @@ struct StandardCutStretch {
     double spindle_current_A = 0.0;
     double torque_Nm = 0.0;           ///< T + k ω: of the cut by the database, 0 in air, plus the idle slope's share
     double drift = 0.0;               ///< e^(−t/τ), or the share of the recording that is still to come
-    double feed_current_A = 0.0;      ///< of the axis that feeds, without I_g
+    double feed_current_A = 0.0;      ///< current of the axis that feeds, without I_g
     double friction_current_A = 0.0;  ///< I_f(w) by the air cuts, with the sign of w
     double feed_m_per_min = 0.0;      ///< w, with its sign
     double feed_force_N = 0.0;        ///< F_ax by the database along the axis' + direction, 0 in air

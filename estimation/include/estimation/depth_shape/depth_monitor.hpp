@@ -4,6 +4,7 @@
 #include "estimation/depth_shape/flute_profile.hpp"
 #include "estimation/depth_shape/flute_profile_estimate.hpp"
 #include "estimation/number/fixed_point.hpp"
+#include "estimation/number/literal.hpp"
 
 namespace millforce::estimation {
 
@@ -36,7 +37,7 @@ class DepthMonitor {
 
     /// Learns the angle of the teeth at the encoder's zero from a profile of known depths, for all later profiles with
     /// this tool in this holder. False: no complete profile, or it does not determine the angle.
-    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = Scalar(0.005F));
+    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = literal<Scalar>(0.005L));
 
     [[nodiscard]] const Measurement<Scalar>& tip_angle_rad() const { return settings_.tip_angle_rad; }
     void restart();

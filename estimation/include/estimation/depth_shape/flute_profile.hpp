@@ -33,8 +33,8 @@ template <typename Scalar, int Channels, int Bins>
 struct FluteAverage {
     std::array<Eigen::Matrix<Scalar, Channels, 1>, static_cast<std::size_t>(Bins)> mean{};
     Scalar spindle_speed_rev_s{0};
-    Scalar samples_per_pitch{0};  ///< of the raw signal, per tooth
-    Scalar samples{0};            ///< in all
+    Scalar samples_per_pitch{0};  ///< samples of the raw signal, per tooth
+    Scalar samples{0};            ///< samples in all
 };
 
 template <typename Scalar, int Channels = 2, int Bins = 180>
@@ -46,7 +46,7 @@ class FluteProfile {
 
     struct Settings {
         int teeth = 0;        ///< N of equal pitch, 1…12
-        int revolutions = 0;  ///< of one profile, 1…1000; 0: never complete
+        int revolutions = 0;  ///< length of one profile, 1…1000; 0: never complete
     };
 
     explicit FluteProfile(const Settings& settings = {}) : settings_(settings) {}
@@ -72,8 +72,8 @@ class FluteProfile {
     std::array<Signals, static_cast<std::size_t>(Bins)> sum_ = zeros();
     std::array<Scalar, static_cast<std::size_t>(Bins)> turned_in_bin_{};
     Signals previous_ = Signals::Zero();
-    Scalar place_{0};           ///< of the previous sample in its pitch, 0…1
-    Scalar turned_pitches_{0};  ///< beyond the whole ones
+    Scalar place_{0};           ///< place of the previous sample in its pitch, 0…1
+    Scalar turned_pitches_{0};  ///< part beyond the whole pitches
     Scalar duration_s_{0};
     Scalar samples_{0};
     int pitches_ = 0;

@@ -120,9 +120,9 @@ ProfileSpectrum<Scalar, Harmonics> profile_spectrum(const FluteAverage<Scalar, C
     ProfileSpectrum<Scalar, Harmonics> spectrum;
     spectrum.spindle_speed_rev_s = average.spindle_speed_rev_s;
     constexpr Scalar below_nyquist = literal<Scalar>(0.45L);
-    const Scalar told = below_nyquist * average.samples_per_pitch;
+    const Scalar resolved = below_nyquist * average.samples_per_pitch;
     spectrum.highest =
-        average.samples_per_pitch > Scalar(0) && told < Scalar(Harmonics) ? static_cast<int>(told) : Harmonics;
+        average.samples_per_pitch > Scalar(0) && resolved < Scalar(Harmonics) ? static_cast<int>(resolved) : Harmonics;
     constexpr auto middle = static_cast<std::size_t>(Harmonics);
     const auto sinc = [](Scalar x) { return x > Scalar(0) ? sin(x) / x : Scalar(1); };
     for (int k = 0; k <= Harmonics; ++k) {

@@ -83,7 +83,7 @@ class FrictionScale {
 template <typename Scalar>
 struct FeedDriveParameters {
     FrictionCurrent<Scalar> positive{};  ///< growth of the friction current with speed, travelling in + direction
-    FrictionCurrent<Scalar> negative{};  ///< of its magnitude, travelling in − direction
+    FrictionCurrent<Scalar> negative{};  ///< magnitude when travelling in − direction
     Scalar K_x3_A{0};                    ///< constant friction current, of both directions: see gravity_A
     Scalar gravity_A{0};                 ///< current that holds the axis against its weight; half the difference of
                                          ///< the directions' constant friction is in it: air data cannot separate them
@@ -91,8 +91,9 @@ struct FeedDriveParameters {
     Scalar K_x5_N_m_per_min{0};          ///< force term K_x5/w. The paper's Table 3 repeats K_t2 here: calibrate
     Scalar mass_kg{0};                   ///< moved mass, with the motor's inertia reflected
     Scalar velocity_floor_mm_s{1};       ///< below it there is no estimate: friction is undefined at rest
-    Scalar gain_relative_sd{literal<Scalar>(0.03L)};           ///< of K_x4, from its calibration
-    Scalar friction_relative_sd{literal<Scalar>(0.2L)};        ///< of I_f before the first re-zeroing in air
+    Scalar gain_relative_sd{literal<Scalar>(0.03L)};  ///< relative deviation of K_x4, from its calibration
+    Scalar friction_relative_sd{
+        literal<Scalar>(0.2L)};  ///< relative deviation of I_f before the first re-zeroing in air
     Scalar friction_walk_per_sqrt_s{literal<Scalar>(0.002L)};  ///< drift of I_f, relative
     Scalar friction_ripple_A{literal<Scalar>(0.05L)};  ///< position-dependent part of friction that no average removes
     Scalar current_sd_A{literal<Scalar>(0.1L)};        ///< noise of one current sample

@@ -14,8 +14,9 @@ struct SpindleDriveParameters {
     Scalar idle_torque_slope_Nm_s{0};  ///< growth of the idle torque with speed, N·m per rad/s
     Scalar inertia_kg_m2{0};           ///< J of spindle, rotor and tool
     Scalar base_speed_rad_s{0};        ///< above it K_t1 falls as base/ω (constant power); 0: never
-    Scalar gain_relative_sd{literal<Scalar>(0.02L)};         ///< of K_t1, from its calibration
-    Scalar idle_torque_sd_Nm{literal<Scalar>(0.2L)};         ///< of the idle torque before the first re-zeroing in air
+    Scalar gain_relative_sd{literal<Scalar>(0.02L)};  ///< relative deviation of K_t1, from its calibration
+    Scalar idle_torque_sd_Nm{
+        literal<Scalar>(0.2L)};  ///< deviation of the idle torque before the first re-zeroing in air
     Scalar idle_walk_Nm_per_sqrt_s{literal<Scalar>(0.01L)};  ///< drift of the idle torque
     Scalar warm_up_torque_Nm{0};  ///< idle torque of the cold spindle above that of the warm one
     Scalar warm_up_torque_sd_Nm{0};

@@ -23,7 +23,7 @@ template <typename Scalar>
 class WarmUpTracker {
   public:
     struct Settings {
-        Scalar offset_sd{0};            ///< of b at the start
+        Scalar offset_sd{0};            ///< deviation of b at the start
         Scalar walk_variance_per_s{0};  ///< q
         Scalar excess{0};               ///< w at the start: cold minus warm
         Scalar excess_sd{0};        ///< a machine may be half warm when the controller starts: not far below the excess

@@ -14,7 +14,7 @@ struct AverageForceMeasurement {
     Measurement<Scalar> tangential_N{};      ///< F_at, from the spindle
     Measurement<Scalar> x_N{};               ///< along machine x; not valid if the x drive is at rest
     Measurement<Scalar> y_N{};               ///< along machine y
-    Measurement<Scalar> radial_immersion{};  ///< from elsewhere (force drops), if there is one
+    Measurement<Scalar> radial_immersion{};  ///< immersion from elsewhere (force drops), if there is one
     Scalar feed_direction_x{1};              ///< unit vector of the tool's travel relative to the workpiece
     Scalar feed_direction_y{0};
 };

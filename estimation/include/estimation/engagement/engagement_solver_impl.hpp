@@ -115,7 +115,7 @@ void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
     }
     if (!is_first) {
         s.estimate_ = s.asked_ == CutSide::unknown ? better_of_sides(s.first_, s.estimate_)
-                                                   : told_or_other_side(s.first_, s.estimate_);
+                                                   : declared_or_other_side(s.first_, s.estimate_);
     }
     end_sides(s);
 }
@@ -140,9 +140,9 @@ void EngagementSolver<Scalar, Nodes>::end_sides(Search& s) const {
 template <typename Scalar, int Nodes>
 bool EngagementSolver<Scalar, Nodes>::Search::memory_knows_more() const {
     const Scalar remembered_sd_mm = remembered_.relative_sd * remembered_.depth_mm;
-    const bool forces_tell_it =
+    const bool forces_give_it =
         estimate_.immersion_valid && halved(estimate_.axial_depth_force_sd_mm) < remembered_sd_mm;
-    return remembered_.depth_mm > Scalar(0) && !forces_tell_it;
+    return remembered_.depth_mm > Scalar(0) && !forces_give_it;
 }
 
 template <typename Scalar, int Nodes>

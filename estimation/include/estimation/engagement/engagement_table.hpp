@@ -40,8 +40,8 @@ class EngagementTable {
         Scalar normal_N{0};
         Scalar feed_per_ln_r_1_N{0};
         Scalar normal_per_ln_r_1_N{0};
-        Scalar cutting_tangential_N{0};  ///< of tangential_N: what is not edge force
-        Scalar edge_feed_N{0};           ///< of feed_N: what is edge force
+        Scalar cutting_tangential_N{0};  ///< part of tangential_N that is not edge force
+        Scalar edge_feed_N{0};           ///< part of feed_N that is edge force
         Scalar edge_normal_N{0};
         Scalar ln_t_in_references{0};  ///< ln(t_a/t_ref); 0 if there is no t_ref
     };
@@ -72,7 +72,7 @@ class EngagementTable {
     [[nodiscard]] Scalar last_rad() const { return angle_rad(Scalar(Nodes - 1)); }
     [[nodiscard]] Scalar angle_rad(Scalar node) const { return first_rad + step_rad_ * node; }
 
-    /// Without a feed no chip: the edges' forces are left.
+    /// At zero feed only the edge forces remain.
     [[nodiscard]] Feed feed(Scalar feed_per_tooth_mm) const {
         using elementary::exp;
         using elementary::log;

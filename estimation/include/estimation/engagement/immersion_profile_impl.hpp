@@ -33,9 +33,9 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
     return value_of(table.at_node(node, feed_), table.angle_rad(Scalar(static_cast<int>(node))));
 }
 
-/// What the doubts of the law leave open of a force beside a given F_at. That of r_1 acts along the feed and across it
-/// at once. That of K_s acts where there are edge forces, which it does not change: they are another share of F_at
-/// then.
+/// Variance that the uncertainty of K_s and r_1 adds to a force at a given F_at. That of r_1 acts along the feed and
+/// across it at once. That of K_s acts only where there are edge forces: it does not change them, but their share of
+/// F_at.
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::along_axis(
     const Measurement<Scalar>& force_N, const typename Table::Forces& model, const LawDoubt& doubt, Scalar direction_x,

@@ -35,16 +35,16 @@ inline constexpr Scalar advantage_of_the_other_side{9};
 
 /// The declared side fits so badly that the other side is tried as well.
 template <typename Scalar>
-[[nodiscard]] bool may_be_the_other_side(const EngagementEstimate<Scalar>& told) {
-    return told.misfit > advantage_of_the_other_side<Scalar>;
+[[nodiscard]] bool may_be_the_other_side(const EngagementEstimate<Scalar>& declared) {
+    return declared.misfit > advantage_of_the_other_side<Scalar>;
 }
 
 /// The declared side is kept unless the forces clearly fit the other one.
 template <typename Scalar>
-[[nodiscard]] EngagementEstimate<Scalar> told_or_other_side(const EngagementEstimate<Scalar>& told,
-                                                            const EngagementEstimate<Scalar>& other) {
-    const bool is_clear = told.misfit - other.misfit > advantage_of_the_other_side<Scalar>;
-    return other.solved && !is_refuted(other) && is_clear ? other : told;
+[[nodiscard]] EngagementEstimate<Scalar> declared_or_other_side(const EngagementEstimate<Scalar>& declared,
+                                                                const EngagementEstimate<Scalar>& other) {
+    const bool is_clear = declared.misfit - other.misfit > advantage_of_the_other_side<Scalar>;
+    return other.solved && !is_refuted(other) && is_clear ? other : declared;
 }
 
 /// The side of a tool whose side is not known: the one that fits better by more than 95 %. Where neither does, the

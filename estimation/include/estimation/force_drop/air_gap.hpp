@@ -18,7 +18,7 @@ struct AirGap {
     bool valid = false;
     Scalar x_N{0};
     Scalar y_N{0};
-    Scalar x_variance{0};  ///< of the mean
+    Scalar x_variance{0};  ///< variance of the mean
     Scalar y_variance{0};
 };
 

@@ -44,9 +44,9 @@ struct ForceDropSettings {
     ForceDropImmersionSettings<Scalar> immersion{};
     int revolutions{0};               ///< per estimate: more takes noise off and follows a changing cut later
     CutSide side = CutSide::unknown;  ///< unknown: a drop along the mean force is up milling, a rise down milling
-    Scalar known_immersion{0};        ///< of a calibration cut; 0: unknown, to be estimated
-    Scalar zero_drift_sd_N{0};        ///< of the forces' zero since the last air cut; an air gap takes it off
-    Scalar mean_force_sd_N{0};        ///< of the mean forces, by what no air gap shows: a drive's friction in cut
+    Scalar known_immersion{0};        ///< immersion of a calibration cut; 0: unknown, to be estimated
+    Scalar zero_drift_sd_N{0};        ///< drift of the forces' zero since the last air cut; an air gap takes it off
+    Scalar mean_force_sd_N{0};  ///< deviation of the mean forces by what no air gap shows: a drive's friction in cut
 };
 
 template <typename Scalar>

@@ -42,7 +42,7 @@ namespace millforce::estimation {
 template <typename Scalar>
 struct ForceDropDetectorSettings {
     int teeth{0};                                            ///< N, 1…12, equally spaced
-    LowPassResponse<Scalar> response{};                      ///< from force to sample
+    LowPassResponse<Scalar> response{};                      ///< low-pass from force to sample
     Scalar window_rev{literal<Scalar>(12.0L / 360.0L)};      ///< signal used on either side, after settling
     Scalar least_significance{4};                            ///< jump over its standard deviation
     Scalar largest_settling_pitches{literal<Scalar>(0.3L)};  ///< beyond it jumps of neighbours run together
@@ -70,10 +70,10 @@ struct ForceJump {
     Scalar angle_rev{0};  ///< spindle angle of the jump, 0…1/N
     Measurement<Scalar> x_N{};
     Measurement<Scalar> y_N{};
-    Scalar slope_x_N_per_rev{0};  ///< by how much the slope changes there
+    Scalar slope_x_N_per_rev{0};  ///< change of slope at the jump
     Scalar slope_y_N_per_rev{0};
     Scalar residual_N2{0};           ///< Σ of both forces' squared residuals over all windows
-    Measurement<Scalar> mean_x_N{};  ///< of the whole revolution
+    Measurement<Scalar> mean_x_N{};  ///< mean of the whole revolution
     Measurement<Scalar> mean_y_N{};
 };
 

@@ -257,10 +257,11 @@ ForceJump<Scalar> ForceDropDetector<Scalar, Bins, MaxWindow>::judge(const Profil
     jump.angle_rev = place_bin / Scalar(Bins);
     jump.angle_rev += jump.angle_rev < Scalar(0) ? pitch_rev : Scalar(0);
     const Scalar inflation = Scalar(1) / window.independent_share;
+    constexpr Scalar least_variance_N2 = literal<Scalar>(1e-12L);  // a perfect fit's weight 1/variance stays finite
     const auto measured = [&](Scalar step, Scalar residual_N2) {
         const Scalar sample_variance = (residual_N2 > Scalar(0) ? residual_N2 : Scalar(0)) / Scalar(fit.free_points);
         const Scalar variance =
-            sample_variance * inflation * fit.step_gain / Scalar(settings_.teeth) + literal<Scalar>(1e-12L);
+            sample_variance * inflation * fit.step_gain / Scalar(settings_.teeth) + least_variance_N2;
         return Measurement<Scalar>{true, step, variance, variance};
     };
     jump.x_N = measured(fit.step_x_N, fit.residual_x_N2);

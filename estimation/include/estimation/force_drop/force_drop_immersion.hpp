@@ -36,7 +36,7 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 struct ForceDropImmersionSettings {
-    Scalar largest_disagreement{4};             ///< of the two roots, in standard deviations
+    Scalar largest_disagreement{4};             ///< largest difference of the two roots, in standard deviations
     Scalar largest_sd{literal<Scalar>(0.15L)};  ///< immersion known less well than this is no estimate
     Scalar largest_relative_sd{literal<Scalar>(0.2L)};
 };

@@ -180,11 +180,13 @@ ForceDropRoot<Scalar> ForceDropImmersion<Scalar, Nodes>::likeliest(const Roots& 
                                                                    const ForceDropMeasurement<Scalar>& m) const {
     const ForceDropInputs<Scalar> in = inputs_of(m);
     ForceDropRoot<Scalar> chosen;
-    Scalar least = Scalar(1e3F);
-    Scalar next = Scalar(1e3F);
+    constexpr Scalar beyond_all = Scalar(1000);
+    constexpr Scalar without_value = Scalar(10);  // more than any residual, and less than no root at all
+    Scalar least = beyond_all;
+    Scalar next = beyond_all;
     for (std::size_t i = 0; i < static_cast<std::size_t>(roots.count); ++i) {
         const Value at = residual(other, in, m, roots.theta_rad[i]);
-        const Scalar violated = !at.valid ? Scalar(10) : (at.value < Scalar(0) ? -at.value : at.value);
+        const Scalar violated = !at.valid ? without_value : (at.value < Scalar(0) ? -at.value : at.value);
         if (violated < least) {
             next = least;
             least = violated;

@@ -19,7 +19,7 @@ struct ForceDrop<Scalar, Bins>::Closure {
     bool valid = false;
     Scalar theta_rad{0};   ///< put in
     Scalar excess_rad{0};  ///< what comes out, less what was put in
-    Scalar variance{0};    ///< of what comes out, in rad²
+    Scalar variance{0};    ///< variance of what comes out, in rad²
     Scalar residual_N2{0};
 };
 
@@ -134,8 +134,9 @@ typename ForceDrop<Scalar, Bins>::Closure ForceDrop<Scalar, Bins>::close_at(Scal
 /// least residual.
 template <typename Scalar, int Bins>
 Scalar ForceDrop<Scalar, Bins>::misfit(const Closure& closure, Scalar least_residual_N2) {
+    constexpr Scalar per_relative_residual = Scalar(1.5F);  // 1 for two thirds above the least residual
     return square(closure.excess_rad) / (closure.variance + square(place_sd_rad)) +
-           Scalar(1.5F) * (closure.residual_N2 / least_residual_N2 - Scalar(1));
+           per_relative_residual * (closure.residual_N2 / least_residual_N2 - Scalar(1));
 }
 
 template <typename Scalar, int Bins>

@@ -68,11 +68,15 @@ struct ForceDropLaw {
     Scalar largest_immersion{0};                       ///< 0: not calibrated
 };
 
+/// The middle of usual feeds per tooth: from it a material's c_0 and c_2 hardly depend on each other.
+template <typename Scalar>
+inline constexpr Scalar pressure_reference_feed_mm = literal<Scalar>(0.15L);
+
 /// What c multiplies.
 template <typename Scalar>
 Eigen::Matrix<Scalar, 3, 1> pressure_regressors(Scalar one_minus_immersion, Scalar feed_per_tooth_mm) {
     using elementary::log;
-    return {Scalar(1), one_minus_immersion, log(feed_per_tooth_mm / literal<Scalar>(0.15L))};
+    return {Scalar(1), one_minus_immersion, log(feed_per_tooth_mm / pressure_reference_feed_mm<Scalar>)};
 }
 
 /// Jump and averages of one tooth period, as tooth force: positive where teeth push.
@@ -115,7 +119,7 @@ template <typename Scalar>
 struct ForceDropRatios {
     bool possible = false;             ///< both pressures are positive
     Scalar pressure_N_per_mm{0};       ///< K a at the jump
-    Scalar r{0};                       ///< at the jump
+    Scalar r{0};                       ///< r at the jump
     Scalar mean_pressure_N_per_mm{0};  ///< K a on average
     Scalar r_av{0};
     Scalar r_av_per_x{0};  ///< ∂r_av/∂F_aX, per N

@@ -26,7 +26,7 @@ struct LeastSquaresSolution {
     Eigen::Matrix<Scalar, N, N> covariance = Eigen::Matrix<Scalar, N, N>::Zero();
     Scalar residual_rms{0};      ///< √(Σe²/rows), weighted.
     Scalar residual_sd{0};       ///< s; NaN without a degree of freedom.
-    Scalar condition_number{0};  ///< of X with its columns scaled to length 1; infinity where a column is zero.
+    Scalar condition_number{0};  ///< that of X with its columns scaled to length 1; infinity where a column is zero.
     unsigned undetermined{0};    ///< bit j: the rows cannot determine parameter j (alone or apart from another one).
     int rows{0};
 
@@ -117,6 +117,10 @@ class LeastSquares {
 
   private:
     bool rotate(Vector x, Scalar y, Scalar weight);
+    /// Factors that bring the columns to length 1; 0 for a column of zeros.
+    Vector column_scale() const;
+    /// Residuals and covariance. `scaled_root`: (XᵀX)⁺ = scaled_root scaled_rootᵀ.
+    void fill_errors(const Matrix& scaled_root, Scalar unexplained, LeastSquaresSolution<Scalar, N>& solution) const;
 
     Matrix R_ = Matrix::Zero();
     Vector z_ = Vector::Zero();
@@ -157,18 +161,41 @@ bool LeastSquares<Scalar, N>::rotate(Vector x, Scalar y, Scalar weight) {
 }
 
 template <typename Scalar, int N>
-LeastSquaresSolution<Scalar, N> LeastSquares<Scalar, N>::solve(Scalar condition_limit) const {
-    using std::sqrt;
-    const Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
-    const Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    LeastSquaresSolution<Scalar, N> solution;
-    solution.rows = rows_;
-
+typename LeastSquares<Scalar, N>::Vector LeastSquares<Scalar, N>::column_scale() const {
     Vector scale;
     for (int j = 0; j < N; ++j) {
         const Scalar length = R_.col(j).norm();
         scale(j) = length > Scalar(0) ? Scalar(1) / length : Scalar(0);
     }
+    return scale;
+}
+
+template <typename Scalar, int N>
+void LeastSquares<Scalar, N>::fill_errors(const Matrix& scaled_root, Scalar unexplained,
+                                          LeastSquaresSolution<Scalar, N>& solution) const {
+    using std::sqrt;
+    const Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
+    const int free_rows = rows_ + priors_ - N;
+    solution.residual_rms = rows_ > 0 ? sqrt(unexplained / static_cast<Scalar>(rows_)) : nan;
+    solution.residual_sd = free_rows > 0 ? sqrt(unexplained / static_cast<Scalar>(free_rows)) : nan;
+    // Lazy: the usual product of matrices this large holds a way to the heap.
+    solution.covariance = scaled_root.lazyProduct(scaled_root.transpose());
+    solution.covariance *= solution.residual_sd * solution.residual_sd;
+    for (int j = 0; j < N; ++j) {
+        if (!solution.determined(j)) {
+            solution.covariance.row(j).setConstant(nan);
+            solution.covariance.col(j).setConstant(nan);
+        }
+    }
+}
+
+template <typename Scalar, int N>
+LeastSquaresSolution<Scalar, N> LeastSquares<Scalar, N>::solve(Scalar condition_limit) const {
+    const Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    LeastSquaresSolution<Scalar, N> solution;
+    solution.rows = rows_;
+
+    const Vector scale = column_scale();
     Matrix scaled = R_ * scale.asDiagonal();
     const Matrix V = orthogonalise_columns<Scalar, N>(scaled);
     Vector singular;
@@ -207,20 +234,7 @@ LeastSquaresSolution<Scalar, N> LeastSquares<Scalar, N>::solve(Scalar condition_
         }
     }
     solution.parameters = scale.asDiagonal() * unscaled;
-
-    const int free_rows = rows_ + priors_ - N;
-    solution.residual_rms = rows_ > 0 ? sqrt(unexplained / static_cast<Scalar>(rows_)) : nan;
-    solution.residual_sd = free_rows > 0 ? sqrt(unexplained / static_cast<Scalar>(free_rows)) : nan;
-    const Matrix scaled_root = scale.asDiagonal() * root;
-    // Lazy: the usual product of matrices this large holds a way to the heap.
-    solution.covariance = scaled_root.lazyProduct(scaled_root.transpose());
-    solution.covariance *= solution.residual_sd * solution.residual_sd;
-    for (int j = 0; j < N; ++j) {
-        if (!solution.determined(j)) {
-            solution.covariance.row(j).setConstant(nan);
-            solution.covariance.col(j).setConstant(nan);
-        }
-    }
+    fill_errors(scale.asDiagonal() * root, unexplained, solution);
     return solution;
 }
 

@@ -22,8 +22,8 @@ struct LowPassResponse {
     Scalar damping{literal<Scalar>(0.70710678118654752L)};  ///< ζ = 1/√2: Butterworth
 
     struct At {
-        Scalar step{0};    ///< of 1 from t = 0
-        Scalar ramp_s{0};  ///< of t from t = 0, in seconds
+        Scalar step{0};    ///< response to a step of 1 from t = 0
+        Scalar ramp_s{0};  ///< response to a ramp t from t = 0, in seconds
     };
 
     /// With ω_d = ω√(1 − ζ²):

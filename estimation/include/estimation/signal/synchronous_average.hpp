@@ -51,7 +51,7 @@ class SynchronousAverage {
         /// Mean rate of change of the last `Rates` signals: from their values at the window's ends.
         RateSignals rate_per_s = RateSignals::Zero();
         int revolutions = 0;    ///< 0: not enough has been seen since the last restart
-        int tooth_periods = 0;  ///< of these revolutions
+        int tooth_periods = 0;  ///< tooth periods of these revolutions
     };
 
     explicit SynchronousAverage(const Settings& settings);

@@ -59,14 +59,14 @@ struct RoughnessModel {
     RoughnessMeasure measure{RoughnessMeasure::Ra};
     Scalar constant_um{0};                 ///< C; 0: there is no model
     RoughnessValues<Scalar> exponent{};    ///< a₁ … a₅
-    RoughnessValues<Scalar> minimum{};     ///< of the tests: lower end of the range; 0: not given
-    RoughnessValues<Scalar> maximum{};     ///< of the tests: upper end of the range; 0: not given
+    RoughnessValues<Scalar> minimum{};     ///< lower end of the tests' range; 0: not given
+    RoughnessValues<Scalar> maximum{};     ///< upper end of the tests' range; 0: not given
     RoughnessValues<Scalar> reference{};   ///< geometric means of the tests
     Scalar tests{0};                       ///< n
     Scalar degrees_of_freedom{0};          ///< n − p; 0: no interval
     Scalar residual_ln_sd{0};              ///< s
     std::array<Scalar, pairs> leverage{};  ///< M, lower triangle by rows; see pair()
-    Scalar largest_leverage{0};            ///< of a test on the fit; 0: not given
+    Scalar largest_leverage{0};            ///< leverage of a test on the fit; 0: not given
 
     /// Place of M(row, column) in `leverage`; row ≥ column.
     static constexpr std::size_t pair(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
@@ -85,9 +85,9 @@ struct RoughnessPrediction {
     Scalar roughness_um{0};
     Scalar low_um{0};
     Scalar high_um{0};
-    Scalar leverage{0};        ///< h₀
-    unsigned outside{0};       ///< bit j: variable j lies outside the range of the tests; see also hidden_extrapolation
-    unsigned range_untold{0};  ///< bit j: the range of variable j is not given
+    Scalar leverage{0};   ///< h₀
+    unsigned outside{0};  ///< bit j: variable j lies outside the range of the tests; see also hidden_extrapolation
+    unsigned range_not_given{0};  ///< bit j: the range of variable j is not given
 
     /// Each variable is in its range, but no test had them together: h₀ is beyond that of any test.
     static constexpr unsigned hidden_extrapolation = 1U << static_cast<unsigned>(roughness_variable_count);
@@ -95,7 +95,7 @@ struct RoughnessPrediction {
     /// Within the fitted range, as far as it is given.
     [[nodiscard]] bool in_range() const { return valid && outside == 0U; }
     /// Good enough to act on: with an interval, and within a completely given range.
-    [[nodiscard]] bool is_sure() const { return in_range() && has_interval && range_untold == 0U; }
+    [[nodiscard]] bool is_sure() const { return in_range() && has_interval && range_not_given == 0U; }
 };
 
 template <typename Scalar>

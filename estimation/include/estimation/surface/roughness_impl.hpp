@@ -120,15 +120,15 @@ void RoughnessPredictor<Scalar>::compare_with_tests(const RoughnessConditions<Sc
     for (std::size_t j = 0; j < count; ++j) {
         const unsigned bit = 1U << static_cast<unsigned>(j);
         if (!(model_.maximum[j] > Scalar(0))) {
-            prediction.range_untold |= bit;
+            prediction.range_not_given |= bit;
         } else if (cut[j] < model_.minimum[j] * (Scalar(1) - tolerance) ||
                    cut[j] > model_.maximum[j] * (Scalar(1) + tolerance)) {
             prediction.outside |= bit;
         }
     }
-    const bool is_told = prediction.has_interval && model_.largest_leverage > Scalar(0);
+    const bool is_given = prediction.has_interval && model_.largest_leverage > Scalar(0);
     constexpr Scalar of_all_variables = Scalar(roughness_variable_count) * tolerance;
-    if (is_told && prediction.leverage > model_.largest_leverage * (Scalar(1) + of_all_variables)) {
+    if (is_given && prediction.leverage > model_.largest_leverage * (Scalar(1) + of_all_variables)) {
         prediction.outside |= RoughnessPrediction<Scalar>::hidden_extrapolation;
     }
 }

@@ -35,10 +35,10 @@ class EngagementPeaks {
     struct Factors {
         Scalar now{1};
         Scalar slot{1};    ///< the widest cut at the same depth
-        Scalar at_low{1};  ///< at the ends of the immersion's interval
+        Scalar at_low{1};  ///< factors at the ends of the immersion's interval
         Scalar at_high{1};
         Scalar by_K_s{0};  ///< change of `now` by one deviation of K_s
-        Scalar bound{1};   ///< without an immersion: the most that F_at allows
+        Scalar bound{1};   ///< factor without an immersion: the most that F_at allows
         Scalar surge{1};   ///< where it is wider than now
         Scalar turn{1};
     };

@@ -141,7 +141,7 @@ void CanDaemon::send_all() {
 }
 
 void CanDaemon::on_tick(const firmware::CanController& controller) {
-    local_outputs_.update(controller.told(), socketcan::monotonic_us());
+    local_outputs_.update(controller.sent_override(), socketcan::monotonic_us());
     if (unrecorded_count_ == unrecorded_.size()) {
         record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
@@ -191,15 +191,15 @@ firmware::Conditions CanDaemon::recent(const firmware::Conditions& now, std::uin
 void CanDaemon::report(std::uint64_t now_us) {
     const firmware::Conditions now = recent(conditions(now_us), now_us);
     const bool is_periodic = now_us >= next_status_us_;
-    const bool is_news = !has_told_ || !(now == told_);
+    const bool is_news = !has_reported_ || !(now == reported_);
     if (!is_periodic && !is_news) {
         return;
     }
     if (is_periodic) {
         notify_service_manager("WATCHDOG=1");
     }
-    has_told_ = true;
-    told_ = now;
+    has_reported_ = true;
+    reported_ = now;
     StatusEntry entry;
     entry.unix_us = now_us;
     entry.conditions = now;

@@ -73,8 +73,8 @@ class CanDaemon final : private firmware::TickListener {
     EstimateEntry newest_{};
     std::uint64_t measured_tick_us_ = 0;
     std::uint64_t next_status_us_ = 0;
-    firmware::Conditions told_{};
-    bool has_told_ = false;
+    firmware::Conditions reported_{};
+    bool has_reported_ = false;
     std::array<std::uint64_t, firmware::condition_count> seen_us_{};
     std::uint32_t frames_lost_ = 0;
     std::uint64_t frames_lost_us_ = 0;

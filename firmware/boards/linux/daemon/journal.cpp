@@ -104,10 +104,10 @@ void Journal::note_failure(const File& file) {
 
 void Journal::write_record() {
     for (RecordEntry entry; record_entries_.pop(entry);) {
-        if (entry.lost_before != told_lost_) {
+        if (entry.lost_before != reported_lost_) {
             put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n",
-                                     entry.lost_before - told_lost_));
-            told_lost_ = entry.lost_before;
+                                     entry.lost_before - reported_lost_));
+            reported_lost_ = entry.lost_before;
         }
         if (const auto* frame = std::get_if<hal::CanFrame>(&entry.what)) {
             put(record_, candump_line(*frame, entry.unix_us, settings_.interface));
@@ -140,7 +140,7 @@ void Journal::finish() {
     }
     ended_.store(true);
     writer_.join();
-    if (const std::uint64_t unheard = lost_records_ - told_lost_; unheard > 0) {
+    if (const std::uint64_t unheard = lost_records_ - reported_lost_; unheard > 0) {
         put(record_, fmt::format("# {} frames are missing here: the recorder was too slow\n", unheard));
     }
     flush_all();

@@ -79,7 +79,7 @@ class Journal {
     SpscRing<StatusEntry, 1U << 6U> statuses_{};
     std::atomic<std::uint64_t> lost_records_{0};
     std::atomic<std::uint64_t> lost_entries_{0};
-    std::uint64_t told_lost_ = 0;
+    std::uint64_t reported_lost_ = 0;
     std::uint64_t recorded_ = 0;
     std::string failed_file_;
     std::atomic<bool> ended_{false};

@@ -17,7 +17,7 @@ LinePrinter::~LinePrinter() {
     ended_.store(true);
     has_news_.release();
     writer_.join();
-    tell_lost(lost_);
+    report_lost(lost_);
 }
 
 void LinePrinter::print(std::string_view line) noexcept {
@@ -42,15 +42,16 @@ void LinePrinter::run() {
 
 void LinePrinter::write_all() {
     for (Line line; lines_.pop(line);) {
-        tell_lost(line.lost_before);
+        report_lost(line.lost_before);
         print_line(stream_, std::string_view(line.text.data(), line.length));
     }
 }
 
-void LinePrinter::tell_lost(std::uint64_t lost) {
-    if (lost != told_lost_) {
-        print_line(stream_, fmt::format("millforce: {} lines are missing here: nobody took them", lost - told_lost_));
-        told_lost_ = lost;
+void LinePrinter::report_lost(std::uint64_t lost) {
+    if (lost != reported_lost_) {
+        print_line(stream_,
+                   fmt::format("millforce: {} lines are missing here: nobody took them", lost - reported_lost_));
+        reported_lost_ = lost;
     }
 }
 

@@ -15,7 +15,7 @@
 namespace millforce::host {
 
 /// Lines for whoever watches, from a real-time thread: a thread beside it writes them, so that a terminal or a pipe
-/// that does not take them holds up nothing. Lines that did not fit are counted and told where they are missing.
+/// that does not take them holds up nothing. Lines that did not fit are counted, and reported where they are missing.
 /// Made before the caller becomes real-time: the writer inherits its scheduler. One thread calls print().
 class LinePrinter {
   public:
@@ -40,12 +40,12 @@ class LinePrinter {
 
     void run();
     void write_all();
-    void tell_lost(std::uint64_t lost);
+    void report_lost(std::uint64_t lost);
 
     std::FILE* stream_;
     SpscRing<Line, capacity> lines_{};
     std::uint64_t lost_ = 0;  // of the caller; the writer reads it after the end
-    std::uint64_t told_lost_ = 0;
+    std::uint64_t reported_lost_ = 0;
     std::atomic<bool> ended_{false};
     std::counting_semaphore<> has_news_{0};
     std::thread writer_{};

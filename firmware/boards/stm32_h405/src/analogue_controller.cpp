@@ -33,7 +33,7 @@ AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wirin
 
 void AnalogueController::start(const StartReport& report, const firmware::Parameters<float>& parameters,
                                std::uint64_t now_us) {
-    tell_start(report);
+    report_start(report);
     drives_.start();
     can_.start(wiring_.bit_rate, filters_);
     complete_us_ = now_us;
@@ -50,10 +50,10 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
     watchdog_.start(wiring_.watchdog_us);
 }
 
-void AnalogueController::tell_start(const StartReport& report) {
-    emergencies_.tell_start(report.cause);
+void AnalogueController::report_start(const StartReport& report) {
+    emergencies_.report_start(report.cause);
     if (report.had_processor_fault) {
-        emergencies_.tell(Reason::processor_fault, error_code(Reason::processor_fault), report.fault_program_counter);
+        emergencies_.report(Reason::processor_fault, error_code(Reason::processor_fault), report.fault_program_counter);
     }
     emergencies_.set(Reason::no_parameters, report.parameters != firmware::BlockError::none,
                      static_cast<std::uint32_t>(report.parameters));
@@ -82,7 +82,7 @@ void AnalogueController::receive_frames(std::uint64_t now_us) {
     }
     if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
         bus_offs_ = can_.health().bus_offs;
-        emergencies_.tell(Reason::bus_was_off, error_code(Reason::bus_was_off), bus_offs_);
+        emergencies_.report(Reason::bus_was_off, error_code(Reason::bus_was_off), bus_offs_);
     }
 }
 
@@ -139,7 +139,7 @@ bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {
            hal::is_within_limits(output, largest_ratio_);
 }
 
-bool AnalogueController::send_last_words(Reason reason, std::uint32_t detail) {
+bool AnalogueController::send_final_frames(Reason reason, std::uint32_t detail) {
     output_.hold = true;
     ++output_.heartbeat;
     hal::CanFrame heartbeat;

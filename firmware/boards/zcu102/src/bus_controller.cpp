@@ -21,7 +21,7 @@ BusController::BusController(const Peripherals& peripherals, const firmware::Can
       largest_ratio_(parameters.machine.cnc.override_max) {}
 
 void BusController::start(const zynqmp::CanBitTiming& timing, hal::ResetCause cause) {
-    emergencies_.tell_start(cause);
+    emergencies_.report_start(cause);
     timing_ = timing;
     can_.start(timing);
 }
@@ -58,7 +58,7 @@ void BusController::exchange_frames(std::uint64_t now_us) {
             controller_.on_frame(frame, now_us, true);
         }
     }
-    tell_what_is_wrong();
+    report_what_is_wrong();
     while (has_sent_ && can_.has_room() && emergencies_.take_frame(frame)) {
         can_.send(frame);
     }
@@ -83,14 +83,14 @@ void BusController::feed_watchdog() {
     }
 }
 
-void BusController::tell_what_is_wrong() {
+void BusController::report_what_is_wrong() {
     const hal::FeedOverride& output = controller_.output();
     const bool lacks_something = controller_.conditions().has(firmware::Condition::input_incomplete);
     emergencies_.set(Reason::inputs_missing, lacks_something && controller_.ticks() != 0, controller_.sample().present);
     emergencies_.set(Reason::tick_fault, output.fault != 0, output.fault);
     if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
         bus_offs_ = can_.health().bus_offs;
-        emergencies_.tell(Reason::bus_was_off, emergency::error_code(Reason::bus_was_off), bus_offs_);
+        emergencies_.report(Reason::bus_was_off, emergency::error_code(Reason::bus_was_off), bus_offs_);
     }
 }
 

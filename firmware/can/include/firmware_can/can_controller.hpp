@@ -41,8 +41,8 @@
 /// CNC's `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the
 /// CNC is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
 ///
-/// With a ToolSource the CNC tells which tool is in the spindle (tool_frame.hpp), and the tool's parameters change with
-/// it, at rest (tool_tick.hpp).
+/// With a ToolSource the CNC reports which tool is in the spindle (tool_frame.hpp), and the tool's parameters change
+/// with it, at rest (tool_tick.hpp).
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
@@ -101,7 +101,7 @@ class CanController {
     [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
     /// The output as it is sent to the CNC: with the holds that do not come from the tick.
-    [[nodiscard]] hal::FeedOverride told() const;
+    [[nodiscard]] hal::FeedOverride sent_override() const;
     [[nodiscard]] const ForceControlTick<float>& controller() const { return tick_.of_tool(); }
     [[nodiscard]] TickRecord record() const { return tick_record(tick_.of_tool(), output_, tick_time_us_); }
     /// Number of the tool that the override is for; 0: without a source of tools, or not known.
@@ -153,8 +153,8 @@ class CanController {
     std::uint64_t next_boot_up_us_ = 0;
     std::uint64_t heard_us_ = 0;  ///< by the clock of poll()
     std::uint64_t bus_time_us_ = 0;
-    std::uint64_t sync_time_us_ = 0;      ///< of the newest sample
-    std::uint64_t complete_time_us_ = 0;  ///< of the newest complete one
+    std::uint64_t sync_time_us_ = 0;      ///< time of the newest sample
+    std::uint64_t complete_time_us_ = 0;  ///< time of the newest complete one
     std::uint64_t next_silent_us_ = 0;
     std::uint64_t tick_time_us_ = 0;
     hal::DriveSample sample_{};

@@ -11,26 +11,26 @@ namespace millforce::firmware {
 enum class Condition : std::uint8_t {
     interface_absent,  ///< no such interface, or a kernel without CAN
     interface_down,
-    error_warning,  ///< of the CAN controller; frames flow
-    error_passive,  ///< the same
+    error_warning,  ///< of the CAN controller at its warning limit; frames flow
+    error_passive,  ///< CAN controller beyond it; frames flow
     bus_off,
     send_queue_full,       ///< ENOBUFS
     frames_lost,           ///< overruns: frames came faster than they were fetched, within the last second
     sync_lost,             ///< no SYNC for three periods
-    sync_foreign,          ///< somebody else sends SYNC, too, within the last second
-    drive_preparing,       ///< is asked or written to, or waited for
-    drive_refused,         ///< refused an SDO transfer
-    drive_lost,            ///< its heartbeat stays away
-    drive_not_enabled,     ///< its statusword shows a fault or a quick stop: the feed is held
-    drive_emergency,       ///< its last EMCY is an error
+    sync_foreign,          ///< another node sends SYNC; within the last second
+    drive_preparing,       ///< a drive is asked or written to, or waited for
+    drive_refused,         ///< a drive refused an SDO transfer
+    drive_lost,            ///< a drive's heartbeat stays away
+    drive_not_enabled,     ///< a drive's statusword shows a fault or a quick stop: the feed is held
+    drive_emergency,       ///< a drive's last EMCY is an error
     drive_units_disagree,  ///< velocity and position give different speeds
     input_incomplete,      ///< the last sample lacks a quantity of a drive
     input_stale,           ///< no complete sample for so long that the tick faults
     program_unknown,       ///< the CNC has not sent its status: the override stays where it is
     program_silent,        ///< the CNC sent its status and then stopped: the feed is held
-    tool_unknown,          ///< the CNC has told no tool that there are parameters for: the override is the operator's
-    local_input_failed,    ///< a converter or counter of this computer is absent, unreadable or silent
-    local_output_failed,   ///< the override does not reach this computer's converter or lines: it says hold everywhere
+    tool_unknown,  ///< the CNC has sent no tool number that there are parameters for: the override is the operator's
+    local_input_failed,   ///< a converter or counter of this computer is absent, unreadable or silent
+    local_output_failed,  ///< the override does not reach this computer's converter or lines: it says hold everywhere
 };
 inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::local_output_failed) + 1;
 

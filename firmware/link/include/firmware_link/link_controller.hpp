@@ -19,7 +19,7 @@
 ///
 /// A fault is latched until a sample with a reset comes, after one without, with all axes at rest.
 ///
-/// With a ToolSource the samples tell which tool is in the spindle, and the tool's parameters change with it, at rest
+/// With a ToolSource the samples say which tool is in the spindle, and the tool's parameters change with it, at rest
 /// (tool_tick.hpp).
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick.

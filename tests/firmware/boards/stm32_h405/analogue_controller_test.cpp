@@ -197,7 +197,7 @@ TEST(AnalogueController, bus_off_is_silence_and_told_when_it_is_over) {
     UNSIGNED_LONGS_EQUAL(1, BoardBench::detail_of(*emergency));
 }
 
-TEST(AnalogueController, last_words_end_the_CNCs_trust_at_once) {
+TEST(AnalogueController, final_frames_end_the_CNCs_trust_at_once) {
     BoardBench board;
     board.run(30);
     CHECK_TRUE(board.seen_by_cnc().is_alive);
@@ -212,7 +212,7 @@ TEST(AnalogueController, last_words_end_the_CNCs_trust_at_once) {
     UNSIGNED_LONGS_EQUAL(0x0800'4321, BoardBench::detail_of(*emergency));
 }
 
-TEST(AnalogueController, last_words_to_a_dead_bus_end) {
+TEST(AnalogueController, final_frames_to_a_dead_bus_end) {
     BoardBench board;
     board.run(30);
     int looks = 0;

@@ -22,7 +22,7 @@ MapPlace at(double path_mm, double block_end_mm, std::size_t line) {
 const PartMap map = {at(0, 10, 3),  at(4, 10, 3),  at(10, 30, 7), at(30, 35, 7), at(35, 55, 7),
                      at(55, 60, 8), at(60, 70, 9), at(70, 75, 8), at(75, 85, 9), at(85, 85, 9)};
 
-/// What is told for longer than a change of blocks takes.
+/// What is reported for longer than a change of blocks takes.
 std::optional<double> settled(PathPosition& position, std::uint32_t line, double to_go_mm) {
     for (int k = 0; k < 49; ++k) {
         (void)position.find(line, to_go_mm);

@@ -38,7 +38,7 @@ struct FluteMinimum {
     FlutePoint<Scalar> point = FlutePoint<Scalar>::Zero();
     Scalar misfit{0};  ///< sum of squared weighted residuals, knowledge included
     FlutePoint<Scalar> variance = FlutePoint<Scalar>::Zero();
-    Scalar residual_variance{1};  ///< of the weighted residuals, 1 where the assumed errors are right
+    Scalar residual_variance{1};  ///< variance of the weighted residuals, 1 where the assumed errors are right
     bool solved = false;
 };
 
@@ -53,7 +53,7 @@ class FluteSpectrumFit {
 
     struct Measured {
         Lines data{};
-        Lines response{};                           ///< of the low-pass
+        Lines response{};                           ///< response of the low-pass
         std::array<Scalar, Model::lines> weight{};  ///< 1/standard deviation; 0: not used
     };
 

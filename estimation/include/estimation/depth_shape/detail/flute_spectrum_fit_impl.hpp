@@ -242,6 +242,7 @@ bool FluteSpectrumFit<Scalar, Harmonics>::step(const Point& change, const FluteL
     constexpr int most_tries = 5;
     constexpr Scalar shorter = literal<Scalar>(0.4L);  // the last try is 1/40 of the step: with halves it were 1/16
     constexpr Scalar longest_rad = literal<Scalar>(0.2L);
+    constexpr Scalar worthwhile_gain = literal<Scalar>(1e-4L);  // of the misfit; less is far below its noise
     Scalar share{1};
     for (int k = 0; k < most_tries; ++k) {
         Point trial = minimum.point;
@@ -252,7 +253,7 @@ bool FluteSpectrumFit<Scalar, Harmonics>::step(const Point& change, const FluteL
         State at_trial = state_at(trial);
         const Scalar misfit = linear_fit(at_trial, scale).residual_sum_of_squares() + distance(trial, knowledge);
         if (misfit < minimum.misfit) {
-            const bool go_on = minimum.misfit - misfit > literal<Scalar>(1e-4L) * misfit;
+            const bool go_on = minimum.misfit - misfit > worthwhile_gain * misfit;
             minimum.misfit = misfit;
             minimum.point = trial;
             state = at_trial;

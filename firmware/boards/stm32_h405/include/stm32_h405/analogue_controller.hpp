@@ -59,14 +59,14 @@ class AnalogueController {
     void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us);
     /// As often as possible, at least once per sample period.
     void poll(std::uint64_t now_us);
-    /// Last words: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is
+    /// Final frames: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is
     /// asked while frames are on their way, and says when to wait no longer.
     template <typename Patience>
     bool give_up(emergency::Reason reason, std::uint32_t detail, Patience has_patience) {
         can_.abort_all();
         while (!can_.is_all_sent() && has_patience()) {
         }
-        const bool was_taken = send_last_words(reason, detail);
+        const bool was_taken = send_final_frames(reason, detail);
         while (!can_.is_all_sent() && has_patience()) {
         }
         return was_taken && can_.is_all_sent();
@@ -81,10 +81,10 @@ class AnalogueController {
     [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
 
   private:
-    void tell_start(const StartReport& report);
+    void report_start(const StartReport& report);
     void receive_frames(std::uint64_t now_us);
     void send_frames();
-    bool send_last_words(emergency::Reason reason, std::uint32_t detail);
+    bool send_final_frames(emergency::Reason reason, std::uint32_t detail);
     void run_tick(std::uint64_t now_us);
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] hal::FeedOverride step(std::uint64_t now_us);

@@ -31,10 +31,10 @@ struct AxisWiring {
 };
 
 struct Wiring {
-    stm32::CurrentScanSettings currents{{{{.input = 10, .A_per_V = 20.0F},
-                                          {.input = 11, .A_per_V = 10.0F},
-                                          {.input = 12, .A_per_V = 10.0F},
-                                          {.input = 13, .A_per_V = 10.0F}}},
+    stm32::CurrentScanSettings currents{{{{.input = 10, .A_per_V = 20.0F, .largest_A = 100.0F},
+                                          {.input = 11, .A_per_V = 10.0F, .largest_A = 100.0F},
+                                          {.input = 12, .A_per_V = 10.0F, .largest_A = 100.0F},
+                                          {.input = 13, .A_per_V = 10.0F, .largest_A = 100.0F}}},
                                         3.3F};
     std::array<AxisWiring, hal::axis_count> axes{};
     bool spindle_reversed = false;

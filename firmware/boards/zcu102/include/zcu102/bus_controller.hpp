@@ -82,7 +82,7 @@ class BusController {
     void exchange_frames(std::uint64_t now_us);
     void guard_ticks(std::uint64_t now_us);
     void feed_watchdog();
-    void tell_what_is_wrong();
+    void report_what_is_wrong();
 
     zynqmp::CanController can_;
     zynqmp::Watchdog watchdog_;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "firmware/wide_band_settings.hpp"
+
+namespace millforce::host {
+
+/// The columns of the wide-band methods, where the recording has a force sensor or the tool's parameters ask for force
+/// drops from the drives. Missing parameters are reported once, on standard error; the cells are then empty.
+class WideBandCells {
+  public:
+    using Estimates = firmware::WideBandEstimate<float>;
+
+    WideBandCells(bool has_sensor, const firmware::ToolParameters<float>& tool)
+        : tool_(tool), has_sensor_(has_sensor), is_there_(has_sensor || firmware::has_force_drop_law(tool_)) {}
+
+    void show_what_is_missing() const;
+    void write_header(std::ostream& out) const;
+    void write(std::ostream& out, const Estimates& made) const;
+    [[nodiscard]] std::string summary(const Estimates& made) const;
+
+  private:
+    [[nodiscard]] std::string_view lacking_for_force_drops() const;
+    [[nodiscard]] std::string_view lacking_for_depths() const;
+
+    firmware::ToolParameters<float> tool_;
+    bool has_sensor_;
+    bool is_there_;
+};
+
+}  // namespace millforce::host
