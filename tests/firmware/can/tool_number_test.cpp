@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller_on_loopback.hpp"
-#include "firmware/tools_of.hpp"
+#include "firmware/ready_tools.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -18,10 +18,13 @@ sim::Scenario slot() {
 }
 
 /// The scenario's tool under the numbers 7 and 8. Built once: it takes longer than a case.
-const ToolsOf<2>& tools() {
-    static const ToolsOf<2> ready = [] {
-        const firmware::ForceControlTick<float> tick(slot().parameters);
-        return ToolsOf<2>({ReadyTool{7, tick}, ReadyTool{8, tick}});
+const firmware::ReadyTools& tools() {
+    static std::array<firmware::ReadyTool, 2> memory;
+    static const firmware::ReadyTools ready = [] {
+        firmware::ReadyTools both(memory);
+        both.add(7, slot().parameters);
+        both.add(8, slot().parameters);
+        return both;
     }();
     return ready;
 }
