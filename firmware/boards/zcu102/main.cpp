@@ -46,17 +46,6 @@ std::uint64_t now_us() {
     return us;
 }
 
-/// The ticks of all tools by number that the block has. Less than 0.1 s for each.
-void add_tools(const firmware::BlockTools& of_block, const firmware::Parameters<float>& parameters,
-               firmware::ReadyTools& tools) {
-    static firmware::Parameters<float> with_tool = parameters;
-    for (std::size_t place = 0; place < of_block.size(); ++place) {
-        if (of_block.read_at(place, with_tool.tool)) {
-            tools.add(of_block.number_at(place), with_tool);
-        }
-    }
-}
-
 /// Silence: a CNC that hears nothing holds the feed. Where the watchdog runs it ends in a reset.
 [[noreturn]] void stay_silent() {
     for (;;) {
@@ -81,7 +70,7 @@ void millforce::board::run_image() {
     const firmware::BlockTools of_block = firmware::tools_of(block);
     static std::array<firmware::ReadyTool, firmware::largest_tool_count> memory;
     static firmware::ReadyTools tools(memory);
-    add_tools(of_block, parameters, tools);
+    tools.add(of_block, parameters);  // less than 0.1 s for each
     namespace address = zynqmp::address;
     static zcu102::BusController controller({.can = at<zynqmp::CanRegisters>(address::can0),
                                              .watchdog = at<zynqmp::WatchdogRegisters>(address::watchdog),

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "firmware/parameter_block.hpp"
 #include "firmware/tool_source.hpp"
 
 namespace millforce::firmware {
@@ -26,6 +27,15 @@ class ReadyTools final : public ToolSource {
         memory_[count_].number = number;
         memory_[count_].tick.emplace(parameters);
         ++count_;
+    }
+
+    /// The tools of a block. `parameters`: of its machine; the tool is overwritten.
+    void add(const BlockTools& of_block, Parameters<float>& parameters) {
+        for (std::size_t place = 0; place < of_block.size(); ++place) {
+            if (of_block.read_at(place, parameters.tool)) {
+                add(of_block.number_at(place), parameters);
+            }
+        }
     }
 
     [[nodiscard]] bool has(std::uint32_t number) const override { return place_of(number) < count_; }

@@ -17,14 +17,18 @@ sim::Scenario slot() {
     return sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/slot_entry.toml");
 }
 
-/// The scenario's tool under the numbers 7 and 8. Built once: it takes longer than a case.
+/// The scenario's tool under the numbers 7 and 8, out of a block as a board has it. Built once.
 const firmware::ReadyTools& tools() {
     static std::array<firmware::ReadyTool, 2> memory;
     static const firmware::ReadyTools ready = [] {
-        firmware::ReadyTools both(memory);
-        both.add(7, slot().parameters);
-        both.add(8, slot().parameters);
-        return both;
+        firmware::Parameters<float> parameters = slot().parameters;
+        const std::array<firmware::NumberedTool, 2> both{firmware::NumberedTool{7, parameters.tool},
+                                                         firmware::NumberedTool{8, parameters.tool}};
+        firmware::LargestParameterBlock block{};
+        const auto used = firmware::encode_tools(parameters.machine, both, 1, block);
+        firmware::ReadyTools of_block(memory);
+        of_block.add(firmware::tools_of(used), parameters);
+        return of_block;
     }();
     return ready;
 }
