@@ -23,7 +23,11 @@ PlantOnCan::PlantOnCan(const PlantOnCanSettings& settings, std::unique_ptr<host:
       cnc_(settings.cnc),
       heard_us_(port_->now_us()),
       plant_us_(now_us()),
-      due_us_(plant_us_) {}
+      due_us_(plant_us_) {
+    if (settings.tool != 0) {
+        cnc_.set_tool(settings.tool, plant_us_);
+    }
+}
 
 hal::FeedOverride PlantOnCan::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     const std::uint64_t time_us = now_us();

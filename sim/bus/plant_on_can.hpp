@@ -17,6 +17,7 @@ struct PlantOnCanSettings {
     std::string interface;  ///< for messages
     MachineOnBusSettings machine{};
     CncOnBusSettings cnc{};
+    std::uint32_t tool = 0;                  ///< number that the CNC tells; 0: it sends no frame of a tool
     std::uint64_t patience_us = 30'000'000;  ///< for a controller, at the start, on a clock
     host::BusTime time{};
     /// The sample that answers a SYNC was computed before it: so a plant that computes for a good part of a period does

@@ -4,8 +4,10 @@
 #include "firmware/some_parameters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <random>
 
@@ -16,7 +18,7 @@ using namespace millforce::firmware;
 
 namespace {
 
-constexpr std::size_t slot_bytes = 2048;
+constexpr std::size_t slot_bytes = 4096;
 static_assert(block_bytes <= slot_bytes);
 
 /// Two erasable pages, whose bits a write can only clear, and whose power fails after a number of bytes. What is being
@@ -82,12 +84,169 @@ void sign(ParameterBlock& block) {
 /// The limit that a store gives, −1 where it has no parameters.
 float limit_in(FakeFlash& flash) {
     Parameters<float> parameters;
-    return Store(flash).load(parameters) == BlockError::none ? parameters.tool.tooth_force_limit_N : -1.0F;
+    BlockTools tools;
+    return Store(flash).load(parameters, tools) == BlockError::none ? parameters.tool.tooth_force_limit_N : -1.0F;
 }
 
 }  // namespace
 
 TEST_GROUP(ParameterBlock){};
+
+/// Three tools by number.
+TEST_GROUP(ToolsBlock) {
+    LargestParameterBlock block{};
+    std::span<const std::uint8_t> used{};
+    Parameters<float> read{};
+
+    void setup() override {
+        used = write({7, 8, 4'000'000'000});
+    }
+
+    std::span<const std::uint8_t> write(std::initializer_list<std::uint32_t> numbers) {
+        std::array<NumberedTool, largest_tool_count> tools{};
+        std::size_t count = 0;
+        for (const std::uint32_t number : numbers) {
+            tools[count] = {number, with_limit(static_cast<float>(100 * (count + 1))).tool};
+            ++count;
+        }
+        return encode_tools(with_limit(1.0F).machine, std::span(tools).first(count), 5, block);
+    }
+    /// Puts the CRC of the header right.
+    void sign_header() {
+        const std::uint32_t header = crc32(0, std::span<const std::uint8_t>(block).first(20));
+        std::memcpy(block.data() + 20, &header, sizeof(header));
+    }
+    void set_length(std::size_t length) {
+        const auto as_written = static_cast<std::uint32_t>(length);
+        std::memcpy(block.data() + 12, &as_written, sizeof(as_written));
+        sign_header();
+    }
+    /// Puts the number of a tool, and its CRC right.
+    void renumber(std::size_t place, std::uint32_t number) {
+        std::uint8_t* tool = block.data() + block_header_bytes + machine_value_bytes + place * numbered_tool_bytes;
+        std::memcpy(tool, &number, sizeof(number));
+        const std::uint32_t crc = crc32(crc32(0, {tool, 4}), {tool + 8, tool_value_bytes});
+        std::memcpy(tool + 4, &crc, sizeof(crc));
+    }
+    /// The error of the first `bytes` of the block, which leaves the parameters as they are.
+    BlockError error_of(std::span<const std::uint8_t> bytes) {
+        read.tool.tooth_force_limit_N = 42.0F;
+        const BlockError error = decode(bytes, read);
+        CHECK_TRUE(error == BlockError::none || read.tool.tooth_force_limit_N == 42.0F);
+        return error;
+    }
+    BlockError error() {
+        return error_of(used);
+    }
+};
+
+TEST(ToolsBlock, gives_back_the_machine_and_every_tool_to_the_last_bit) {
+    const Parameters<float> written = test::distinct_parameters();
+    const std::array<NumberedTool, 2> both{NumberedTool{3, written.tool}, NumberedTool{9, with_limit(5.0F).tool}};
+    used = encode_tools(written.machine, both, 7, block);
+    LONGS_EQUAL(BlockError::none, error());
+    STRCMP_EQUAL("", test::first_difference(values_of(written), values_of(read)));
+    UNSIGNED_LONGS_EQUAL(7, sequence_of(used));
+    const BlockTools tools = tools_of(used);
+    UNSIGNED_LONGS_EQUAL(2, tools.size());
+    UNSIGNED_LONGS_EQUAL(9, tools.number_at(1));
+    CHECK_TRUE(tools.read_at(1, read.tool));
+    STRCMP_EQUAL("", test::first_difference(values_of({written.machine, with_limit(5.0F).tool}), values_of(read)));
+}
+
+TEST(ToolsBlock, finds_a_tool_by_its_number) {
+    const BlockTools tools = tools_of(used);
+    UNSIGNED_LONGS_EQUAL(1, tools.place_of(8));
+    UNSIGNED_LONGS_EQUAL(2, tools.place_of(4'000'000'000));
+    for (const std::uint32_t absent : {0U, 9U, 1U}) {
+        UNSIGNED_LONGS_EQUAL(3, tools.place_of(absent));
+    }
+}
+
+TEST(ToolsBlock, of_one_tool_without_a_number_has_no_tools_by_number) {
+    const ParameterBlock one = encoded(with_limit(100.0F), 1);
+    LONGS_EQUAL(BlockError::none, error_of(one));
+    UNSIGNED_LONGS_EQUAL(0, tools_of(one).size());
+}
+
+TEST(ToolsBlock, holds_sixteen_tools) {
+    used = write({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16});
+    UNSIGNED_LONGS_EQUAL(largest_block_bytes, used.size());
+    LONGS_EQUAL(BlockError::none, error());
+    UNSIGNED_LONGS_EQUAL(16, tools_of(used).size());
+}
+
+TEST(ToolsBlock, refuses_seventeen_tools) {
+    std::array<std::uint8_t, largest_block_bytes + numbered_tool_bytes> bytes{};
+    write({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16});
+    set_length(bytes.size() - block_header_bytes);
+    std::copy(block.begin(), block.end(), bytes.begin());
+    std::copy_n(block.end() - numbered_tool_bytes, numbered_tool_bytes, bytes.end() - numbered_tool_bytes);
+    LONGS_EQUAL(BlockError::bad_tools, error_of(bytes));
+}
+
+TEST(ToolsBlock, refuses_numbers_that_are_there_twice_fall_or_are_0) {
+    renumber(1, 7);
+    LONGS_EQUAL(BlockError::bad_tools, error());
+    renumber(1, 6);
+    LONGS_EQUAL(BlockError::bad_tools, error());
+    renumber(1, 8);
+    LONGS_EQUAL(BlockError::none, error());
+    renumber(0, 0);
+    LONGS_EQUAL(BlockError::bad_tools, error());
+}
+
+TEST(ToolsBlock, refuses_a_block_that_is_cut_off_anywhere) {
+    for (std::size_t length = 0; length < used.size(); ++length) {
+        CHECK_TRUE(error_of(used.first(length)) != BlockError::none);
+    }
+}
+
+TEST(ToolsBlock, refuses_any_other_length_however_well_signed) {
+    const std::size_t body = used.size() - block_header_bytes;
+    const auto all = std::span<const std::uint8_t>(block);
+    for (const std::size_t length : {std::size_t{0}, machine_value_bytes, body - 1, body + 1, body + 4,
+                                     block.size() - block_header_bytes + 1, std::size_t{UINT32_MAX}}) {
+        set_length(length);
+        LONGS_EQUAL(BlockError::bad_values, error_of(all));
+    }
+    set_length(body + numbered_tool_bytes);  // a tool of zeroes
+    LONGS_EQUAL(BlockError::bad_values, error_of(all));
+}
+
+TEST(ToolsBlock, notices_one_wrong_bit_anywhere) {
+    for (std::size_t offset = 0; offset < used.size(); ++offset) {
+        block[offset] ^= 0x10U;
+        CHECK_TRUE(error() != BlockError::none);
+        block[offset] ^= 0x10U;
+    }
+    LONGS_EQUAL(BlockError::none, error());
+}
+
+TEST(ToolsBlock, refuses_a_value_out_of_its_range_in_any_tool) {
+    for (std::size_t wrong = 0; wrong < 3; ++wrong) {
+        std::array<NumberedTool, 3> tools{NumberedTool{1, with_limit(100.0F).tool},
+                                          NumberedTool{2, with_limit(200.0F).tool},
+                                          NumberedTool{3, with_limit(300.0F).tool}};
+        tools[wrong].parameters.tooth_force_limit_N = -5.0F;
+        used = encode_tools(with_limit(1.0F).machine, tools, 1, block);
+        LONGS_EQUAL(BlockError::out_of_range, error());
+    }
+}
+
+TEST(ToolsBlock, is_in_force_where_it_is_newer_and_brings_its_tools) {
+    FakeFlash flash;
+    CHECK_TRUE(Store(flash).save(with_limit(900.0F)));
+    CHECK_TRUE(flash.program(1, 0, used));
+    BlockTools tools;
+    LONGS_EQUAL(BlockError::none, Store(flash).load(read, tools));
+    DOUBLES_EQUAL(100.0, read.tool.tooth_force_limit_N, 1e-6);
+    UNSIGNED_LONGS_EQUAL(3, tools.size());
+    flash.byte(1, used.size() - 1) ^= 1U;
+    LONGS_EQUAL(BlockError::none, Store(flash).load(read, tools));
+    DOUBLES_EQUAL(900.0, read.tool.tooth_force_limit_N, 1e-6);
+    UNSIGNED_LONGS_EQUAL(0, tools.size());
+}
 
 TEST(ParameterBlock, gives_back_every_parameter_to_the_last_bit) {
     const Parameters<float> written = test::distinct_parameters();
@@ -101,7 +260,8 @@ TEST(ParameterBlock, gives_back_every_parameter_to_the_last_bit) {
 TEST(ParameterBlock, an_empty_flash_has_no_parameters) {
     FakeFlash flash;
     Parameters<float> parameters;
-    LONGS_EQUAL(BlockError::empty, Store(flash).load(parameters));
+    BlockTools tools;
+    LONGS_EQUAL(BlockError::empty, Store(flash).load(parameters, tools));
 }
 
 TEST(ParameterBlock, the_last_one_saved_is_in_force) {

@@ -31,6 +31,11 @@ TEST(ParameterFields, are_as_many_as_their_count_and_each_another) {
     for_each_parameter(parameters, [&](const ParameterName& name, const auto& field, float /*minimum*/,
                                        float /*maximum*/) { CHECK_TEXT(fields.insert(&field).second, name.key); });
     UNSIGNED_LONGS_EQUAL(parameter_count, fields.size());
+    std::size_t of_machine = 0;
+    const auto count = [&of_machine](const ParameterName& /*name*/, const auto& /*field*/, float /*minimum*/,
+                                     float /*maximum*/) { ++of_machine; };
+    for_each_machine_parameter(parameters.machine, count);
+    UNSIGNED_LONGS_EQUAL(machine_parameter_count, of_machine);
 }
 
 TEST(ParameterFields, become_a_list_of_values_and_back) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "firmware/ready_tools.hpp"
 #include "firmware/tick_record.hpp"
 #include "firmware/tool_tick.hpp"
 #include "tick_bench.hpp"
-#include "tools_of.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -20,16 +21,22 @@ constexpr std::uint32_t weak = 12;
 constexpr float operators_override = 0.8F;
 constexpr double exactly = 0.0;
 
-ReadyTool tool_with(std::uint32_t number, float tooth_force_limit_N) {
+Parameters with_limit(float tooth_force_limit_N) {
     Parameters p = machine_and_tool();
     p.tool.tooth_force_limit_N = tooth_force_limit_N;
     p.tool.control.overload_share = 100.0F;
-    return {number, firmware::ForceControlTick<float>(p)};
+    return p;
 }
 
 /// Built once: it takes longer than all cases.
-const ToolsOf<2>& tools() {
-    static const ToolsOf<2> ready({tool_with(strong, 2000.0F), tool_with(weak, 150.0F)});
+const firmware::ReadyTools& tools() {
+    static std::array<firmware::ReadyTool, 2> memory;
+    static const firmware::ReadyTools ready = [] {
+        firmware::ReadyTools both(memory);
+        both.add(strong, with_limit(2000.0F));
+        both.add(weak, with_limit(150.0F));
+        return both;
+    }();
     return ready;
 }
 

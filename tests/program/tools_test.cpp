@@ -193,6 +193,31 @@ TEST(Tools, a_bus_without_a_program_status_cannot_tell_a_tool) {
     STRCMP_EQUAL("", not_refused(ended, {"--tools", "machine.toml: bus.program_status_id = 0"}).c_str());
 }
 
+TEST(Tools, of_a_folder_become_a_block_for_flash_that_is_printed_as_their_files) {
+    const Ended written =
+        run_millforce(inputs.with_tools({"parameters", "--write-block", inputs.name("parameters.bin")}));
+    LONGS_EQUAL(0, written.exit_code);
+    CHECK(contains(written.out, "1780 bytes, tools 7 12"));
+    const Ended read = run_millforce({"parameters", "--read-block", inputs.name("parameters.bin")});
+    LONGS_EQUAL(0, read.exit_code);
+    const std::size_t first = read.out.find("# T7.toml");
+    const std::size_t second = read.out.find("# T12.toml", first);
+    CHECK(read.out.find("tooth_force_limit_N = 700.0", first) < second);
+    CHECK(read.out.find("tooth_force_limit_N = 350.0", second) != std::string::npos);
+}
+
+TEST(Tools, beyond_sixteen_or_none_make_no_block) {
+    for (int number = 20; number < 35; ++number) {
+        inputs.write("tools/T" + std::to_string(number) + ".toml", tool_text);
+    }
+    const std::vector<std::string> write{"parameters", "--write-block", inputs.name("parameters.bin")};
+    STRCMP_EQUAL("", not_refused(run_millforce(inputs.with_tools(write)), {"17 tools, expected 1 to 16"}).c_str());
+    const std::vector<std::string> no_tool{"parameters", "--write-block", inputs.name("parameters.bin"), "--machine",
+                                           inputs.name("machine.toml")};
+    STRCMP_EQUAL("", not_refused(run_millforce(no_tool), {"--tool, --tools: neither was given"}).c_str());
+    CHECK_FALSE(std::filesystem::exists(inputs.path("parameters.bin")));
+}
+
 TEST(Tools, replay_follows_the_column_of_a_recording) {
     // Tool 9 is not there; 12 comes in motion, and is taken at rest.
     inputs.write("log.csv", recording([](int k) { return k < 100 ? "7" : (k < 200 ? "9" : "12"); },

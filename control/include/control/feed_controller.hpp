@@ -37,6 +37,7 @@ class FeedController {
     explicit FeedController(const Parameters& parameters);
 
     [[nodiscard]] CutState state() const { return states_.state(); }
+    [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
     /// Leaves a latched fault. Only at standstill: the caller has seen the spindle stop or the operator acknowledge.
     void reset();

@@ -12,6 +12,7 @@ std::uint16_t error_code(Reason reason) {
         0x5000,  // device hardware
         0xFF00,  // device-specific
         0x8140,  // recovered from bus-off
+        0xFF01,  // device-specific
     };
     return codes[static_cast<std::size_t>(reason)];
 }
@@ -22,6 +23,13 @@ void Emergencies::set(Reason reason, bool is_there, std::uint32_t detail) {
     }
     there_ ^= bit(reason);
     report(reason, is_there ? error_code(reason) : std::uint16_t{0}, detail);
+}
+
+void Emergencies::follow(Reason reason, bool is_there, std::uint32_t detail) {
+    if (is_there && has(reason) && detail != entries_[static_cast<std::size_t>(reason)].detail) {
+        report(reason, error_code(reason), detail);
+    }
+    set(reason, is_there, detail);
 }
 
 void Emergencies::report(Reason reason, std::uint16_t code, std::uint32_t detail) {

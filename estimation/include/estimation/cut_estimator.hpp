@@ -70,6 +70,8 @@ class CutEstimator {
     /// What was learnt in air, up to now: for the estimator of the next tool, before its first sample.
     [[nodiscard]] MachineDrives<Scalar> drives() const;
     void set_drives(const MachineDrives<Scalar>& learnt) { drives_ = learnt; }
+    /// Time passes without samples.
+    void let_drives_drift(Scalar passed_s) { drives_.predict(passed_s); }
     /// In the mean of the window no axis moved: nothing can be cut.
     [[nodiscard]] bool axes_rest() const;
 

@@ -62,15 +62,15 @@ stm32_h405::Peripherals peripherals() {
             .pwr = at<stm32::PwrRegisters>(address::pwr)};
 }
 
-firmware::BlockError load(firmware::Parameters<float>& parameters) {
+firmware::BlockError load(firmware::Parameters<float>& parameters, firmware::BlockTools& tools) {
     constexpr std::uintptr_t sector_10 = 0x080C'0000U;
     constexpr std::uintptr_t sector_11 = 0x080E'0000U;
-    constexpr std::size_t slot_words = (firmware::block_bytes + 3U) / 4U;
+    constexpr std::size_t slot_words = (firmware::largest_block_bytes + 3U) / 4U;
     const auto go_on = [] { return true; };
     stm32::ParameterFlash flash(at<stm32::FlashRegisters>(stm32::address::flash),
                                 {10, {&at<stm32::Register>(sector_10), slot_words}},
                                 {11, {&at<stm32::Register>(sector_11), slot_words}}, go_on);
-    return firmware::ParameterStore<decltype(flash)>(flash).load(parameters);
+    return firmware::ParameterStore<decltype(flash)>(flash).load(parameters, tools);
 }
 
 stm32_h405::StartReport report_of_start() {
@@ -104,9 +104,11 @@ void millforce::board::run_image() {
                              at<stm32::GpioRegisters>(stm32::address::gpio_c));
     stm32::start_microsecond_clock(at<stm32::TimerRegisters>(stm32::address::tim5), stm32::apb1_timer_clock_hz);
     static firmware::Parameters<float> parameters;
-    report.parameters = load(parameters);
+    firmware::BlockTools tools_of_block;
+    report.parameters = load(parameters, tools_of_block);
+    static const AnalogueController::Tools tools(tools_of_block, parameters);
     static AnalogueController controller(peripherals(), stm32_h405::Wiring{});
-    controller.start(report, parameters, now_us());
+    controller.start(report, parameters, now_us(), tools_of_block.size() > 0 ? &tools : nullptr);
     stm32::start_trigger(at<stm32::TimerRegisters>(stm32::address::tim8), stm32::apb2_timer_clock_hz,
                          stm32_h405::scan_rate_hz);
     running_controller = &controller;

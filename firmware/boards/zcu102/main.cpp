@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller on the first Cortex-R5F of a ZCU102, drives and CNC on its CAN 0: composition root.
 
+#include <array>
+#include <cstddef>
+#include <span>
+
 #include "common/processor.hpp"
 #include "firmware/parameter_block.hpp"
+#include "firmware/ready_tools.hpp"
 #include "zcu102/bus_controller.hpp"
 #include "zynqmp/reset_cause.hpp"
 
@@ -53,7 +58,8 @@ std::uint64_t now_us() {
 void millforce::board::run_image() {
     start_cycle_counter();
     static firmware::Parameters<float> parameters;
-    if (firmware::decode(std::span(_parameters, firmware::block_bytes), parameters) != firmware::BlockError::none) {
+    const std::span<const std::uint8_t> block(_parameters, firmware::largest_block_bytes);
+    if (firmware::decode(block, parameters) != firmware::BlockError::none) {
         stay_silent();
     }
     const firmware::CanControllerSettings settings =
@@ -61,11 +67,15 @@ void millforce::board::run_image() {
     if (cia402::check(settings.drives) != cia402::SettingsError::none) {
         stay_silent();
     }
+    const firmware::BlockTools of_block = firmware::tools_of(block);
+    static std::array<firmware::ReadyTool, firmware::largest_tool_count> memory;
+    static firmware::ReadyTools tools(memory);
+    tools.add(of_block, parameters);  // less than 0.1 s for each
     namespace address = zynqmp::address;
     static zcu102::BusController controller({.can = at<zynqmp::CanRegisters>(address::can0),
                                              .watchdog = at<zynqmp::WatchdogRegisters>(address::watchdog),
                                              .errors = at<zynqmp::ErrorRegisters>(address::errors)},
-                                            settings, parameters);
+                                            settings, parameters, of_block.size() > 0 ? &tools : nullptr);
     controller.start(zynqmp::kbit_1000, zynqmp::take_reset_cause(at<zynqmp::Register>(address::reset_reason)));
     for (;;) {
         controller.poll(now_us());

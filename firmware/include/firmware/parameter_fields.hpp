@@ -24,7 +24,9 @@ struct ParameterName {
 };
 
 /// How many fields for_each_parameter visits.
-inline constexpr std::size_t parameter_count = 310;
+inline constexpr std::size_t machine_parameter_count = 185;
+inline constexpr std::size_t tool_parameter_count = 125;
+inline constexpr std::size_t parameter_count = machine_parameter_count + tool_parameter_count;
 
 /// A field's value out of a float within the field's range.
 template <typename Field>
@@ -336,10 +338,9 @@ void visit_control(Tool& tool, Visit& visit) {
 
 }  // namespace detail
 
-/// Calls visit(name, field, minimum, maximum) for each parameter. `parameters` may be const.
-template <typename AnyParameters, typename Visit>
-void for_each_parameter(AnyParameters& parameters, Visit visit) {
-    auto& machine = parameters.machine;
+/// Calls visit(name, field, minimum, maximum) for each parameter of a machine. `machine` may be const.
+template <typename Machine, typename Visit>
+void for_each_machine_parameter(Machine& machine, Visit& visit) {
     detail::visit_spindle(machine, visit);
     for (std::size_t k = 0; k < machine.axes.size(); ++k) {
         detail::visit_axis(machine, k, visit);
@@ -349,7 +350,11 @@ void for_each_parameter(AnyParameters& parameters, Visit visit) {
     for (std::size_t k = 0; k < machine.bus.drives.size(); ++k) {
         detail::visit_drive(machine.bus.drives[k], k, visit);
     }
-    auto& tool = parameters.tool;
+}
+
+/// The same for a tool.
+template <typename Tool, typename Visit>
+void for_each_tool_parameter(Tool& tool, Visit& visit) {
     detail::visit_geometry(tool, visit);
     detail::visit_cutting(tool, visit);
     detail::visit_roughness(tool.roughness, visit);
@@ -358,6 +363,13 @@ void for_each_parameter(AnyParameters& parameters, Visit visit) {
     detail::visit_force_drop(tool.force_drop, visit);
     detail::visit_depth_shape(tool.depth_shape, visit);
     detail::visit_control(tool, visit);
+}
+
+/// Those of the machine, then those of the tool.
+template <typename AnyParameters, typename Visit>
+void for_each_parameter(AnyParameters& parameters, Visit visit) {
+    for_each_machine_parameter(parameters.machine, visit);
+    for_each_tool_parameter(parameters.tool, visit);
 }
 
 }  // namespace millforce::firmware

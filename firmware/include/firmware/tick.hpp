@@ -82,6 +82,14 @@ class ForceControlTick {
         was_rezeroed_ = learnt.was_rezeroed;
     }
 
+    /// Time passes without samples of the drives: what was learnt of the machine is less certain.
+    void let_machine_drift(Scalar passed_s) { estimator_.let_drives_drift(passed_s); }
+
+    /// The operator's, within the range of the machine's override.
+    [[nodiscard]] Scalar operators_override(const hal::ProgramStatus& program) const {
+        return control::bounded(controller_.parameters(), Scalar(program.operator_override));
+    }
+
     [[nodiscard]] bool estimate_due() const { return estimator_.work_due(); }
     [[nodiscard]] bool work_due() const { return estimator_.work_due() || wide_band_.work_due(); }
     /// One slice of the work beside the steps, of the estimate first.
@@ -128,7 +136,6 @@ class ForceControlTick {
     SurfaceMonitor<Scalar> surface_;
     SignalSupervisor<Scalar> supervisor_;
     control::FeedController<Scalar> controller_;
-    control::FeedControllerParameters<Scalar> control_parameters_;
     Scalar reaction_s_;  // of the CNC
     Scalar K_t1_Nm_per_A_;
     Scalar contact_current_A_;  // of the spindle: torque beyond the idle one by contact_force_N

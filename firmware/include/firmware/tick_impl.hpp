@@ -29,7 +29,6 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
       surface_(parameters.tool),
       supervisor_(parameters),
       controller_(controller_parameters(parameters)),
-      control_parameters_(controller_parameters(parameters)),
       reaction_s_(reaction_s(parameters.machine)),
       K_t1_Nm_per_A_(parameters.machine.spindle.K_t1_Nm_per_A),
       contact_current_A_(contact_current_A(parameters)),
@@ -185,7 +184,7 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const bool is_determined_by_forces = tooth.valid && !cut.tooth_force_is_bound;
     const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
     const Scalar sd_N = cut.tangential_sd_N;
-    const Scalar caution_N = control_parameters_.caution_sd * sd_N;
+    const Scalar caution_N = controller_.parameters().caution_sd * sd_N;
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
     const Scalar tangential_N =
         input_.way.tangential_N > Scalar(0)
@@ -259,7 +258,7 @@ void ForceControlTick<Scalar, WideBand>::work_on_wide_band() {
 template <typename Scalar, typename WideBand>
 bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::Measurement<Scalar>& tangential_N) const {
     using std::sqrt;
-    const Scalar level_N = control::contact_level_N(control_parameters_, sqrt(tangential_N.variance));
+    const Scalar level_N = control::contact_level_N(controller_.parameters(), sqrt(tangential_N.variance));
     const Scalar half_N = estimation::halved(level_N);
     const Scalar force_N = tangential_N.value;
     return tangential_N.valid && force_N < half_N && force_N > -half_N;
@@ -273,7 +272,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
     // The first windows after a change hold a mixture of air and cut.
-    const int enough = 2 * static_cast<int>(control_parameters_.teeth) + 1;
+    const int enough = 2 * static_cast<int>(controller_.parameters().teeth) + 1;
     if (air_periods_ >= enough) {
         was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
         air_periods_ = enough;
@@ -298,7 +297,8 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
     cut.law_is_refuted = estimation::is_refuted(e.engagement);
-    cut.tooth_force_N = tooth.valid ? tooth.value + control_parameters_.caution_sd * tooth_sd_N : e.worst_tooth_force_N;
+    cut.tooth_force_N =
+        tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
     if (e.newest_tangential_N > Scalar(0)) {
         const Scalar lead_s = reaction_s_ + estimation::halved(e.window_s);

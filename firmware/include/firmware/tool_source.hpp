@@ -8,8 +8,8 @@
 namespace millforce::firmware {
 
 /// The tools that the CNC may call by their numbers, from 1 on, all on one machine. Called by the thread of the tick,
-/// between two samples and at rest. Building a tick from parameters takes tens of milliseconds on a desktop processor:
-/// where the CNC does not wait for that long, have the ticks ready and copy them.
+/// between two samples and at rest. Building a tick from parameters takes some milliseconds on a desktop
+/// processor: where the CNC does not wait for that long, have the ticks ready and copy them (ready_tools.hpp).
 class ToolSource {
   public:
     /// Never tool 0.

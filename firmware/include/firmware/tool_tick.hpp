@@ -6,7 +6,7 @@
 #include "firmware/tick.hpp"
 #include "firmware/tool_source.hpp"
 
-/// The tick (tick.hpp) of the tool in the spindle. The CNC sends the tool's number; a ToolSource has its tick.
+/// The tick (tick.hpp) of the tool in the spindle. The CNC sends the tool's number; a source of tools has its tick.
 ///
 ///     tick.follow_tool(number, axes_rest);     // before each sample
 ///     tick.take(sample);                       // and on as with ForceControlTick
@@ -22,21 +22,26 @@
 /// A fault comes first: it holds the feed until its reset, and the tool changes after that.
 ///
 /// Without a source it is the tick of one tool, and numbers mean nothing. No heap. One thread. Cost: that of the
-/// tick.
+/// tick; a change, what the source takes. Bodies: tool_tick_impl.hpp.
 
 namespace millforce::firmware {
 
-class ToolTick {
+/// `Tick`: a ForceControlTick in float. `Source`: has() and set_up() as ToolSource.
+template <typename Tick, typename Source>
+class ToolTickOf {
   public:
     /// `parameters.tool`: without a source the tool; with one, any tool. `tools` outlives this, and its machine is that
     /// of `parameters`.
-    explicit ToolTick(const Parameters<float>& parameters, const ToolSource* tools = nullptr);
+    explicit ToolTickOf(const Parameters<float>& parameters, const Source* tools = nullptr);
 
-    /// `number`: 0 where the CNC has sent none. Finish the work of the last sample first.
-    void follow_tool(std::uint32_t number, bool axes_rest);
+    /// `number`: 0 where the CNC has sent none. Returns whether the tick is another one now; what was due of the last
+    /// sample is dropped then.
+    bool follow_tool(std::uint32_t number, bool axes_rest);
 
     void take(const hal::DriveSample& sample);
     hal::FeedOverride answer(const hal::ProgramStatus& program);
+    /// take() and answer() at once.
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program);
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);
     void reset_fault() { tick_.reset_fault(); }
     [[nodiscard]] bool estimate_due() const { return tick_.estimate_due(); }
@@ -47,20 +52,18 @@ class ToolTick {
     /// Number of the tool that the override is for; 0: without a source, or not known.
     [[nodiscard]] std::uint32_t tool() const { return is_tool_known() ? number_ : 0; }
 
-    [[nodiscard]] ForceControlTick<float>& of_tool() { return tick_; }
-    [[nodiscard]] const ForceControlTick<float>& of_tool() const { return tick_; }
+    [[nodiscard]] Tick& of_tool() { return tick_; }
+    [[nodiscard]] const Tick& of_tool() const { return tick_; }
 
   private:
     [[nodiscard]] bool has_tool() const { return tools_ == nullptr || number_ != 0; }
     [[nodiscard]] bool may_change() const;
-    void change_to(std::uint32_t number);
+    bool change_to(std::uint32_t number);
     [[nodiscard]] float elapsed_s(std::uint32_t time_us);
     hal::FeedOverride passed_on(hal::FeedOverride output, const hal::ProgramStatus& program);
 
-    const ToolSource* tools_;
-    control::FeedControllerParameters<float> limits_;  // of the override: the machine's
-    ForceControlTick<float> tick_;
-    MachineKnowledge<float> machine_;  // where no tick goes on learning it
+    const Source* tools_;
+    Tick tick_;
     bool has_begun_ = false;
     std::uint32_t reported_ = 0;
     std::uint32_t number_ = 0;  // of the tick's tool; 0: none
@@ -68,5 +71,8 @@ class ToolTick {
     std::uint32_t time_us_ = 0;  // of the newest sample
     std::uint32_t heartbeat_ = 0;
 };
+
+/// On a computer.
+using ToolTick = ToolTickOf<ForceControlTick<float>, ToolSource>;
 
 }  // namespace millforce::firmware

@@ -9,6 +9,7 @@
 #include "files/input_error.hpp"
 #include "parameters/parameter_block_file.hpp"
 #include "parameters/parameter_files.hpp"
+#include "parameters/tool_set.hpp"
 
 namespace millforce::host {
 
@@ -16,14 +17,27 @@ namespace {
 
 struct ParametersOptions {
     std::string machine;
-    std::string tool;
+    ToolChoice tools;
     std::string block_to_write;
     std::string block_to_read;
 };
 
 void write_block(const ParametersOptions& options) {
-    write_parameter_block(options.block_to_write, read_parameters(options.machine, options.tool));
-    fmt::print("{}: {} bytes, {} values\n", options.block_to_write, firmware::block_bytes, firmware::parameter_count);
+    options.tools.require_one();
+    if (!options.tools.is_folder()) {
+        write_parameter_block(options.block_to_write, read_parameters(options.machine, options.tools.file));
+        fmt::print("{}: {} bytes, {} values\n", options.block_to_write, firmware::block_bytes,
+                   firmware::parameter_count);
+        return;
+    }
+    const std::vector<NumberedTool> tools = read_tool_folder(options.tools.folder);
+    const std::size_t bytes =
+        write_tools_block(options.block_to_write, read_machine_parameters(options.machine), tools);
+    fmt::print("{}: {} bytes, tools", options.block_to_write, bytes);
+    for (const NumberedTool& tool : tools) {
+        fmt::print(" {}", tool.number);
+    }
+    fmt::print("\n");
 }
 
 }  // namespace
@@ -34,15 +48,20 @@ void add_parameters(Command& program) {
         "parameters",
         "Print every key of machine.toml and tool.toml as Markdown; make or print a target's flash block");
     Option write =
-        command.option("--write-block", options->block_to_write, "Make a target's flash block from the two files")
+        command.option("--write-block", options->block_to_write, "Make a target's flash block from the files")
             .value_name("FILE");
     Option machine = command.option("--machine", options->machine, "For --write-block").value_name("M.toml");
-    Option tool = command.option("--tool", options->tool, "For --write-block").value_name("T.toml");
+    Option tool = command.option("--tool", options->tools.file, "For --write-block").value_name("T.toml");
+    Option tools = command
+                       .option("--tools", options->tools.folder,
+                               "For --write-block, in place of --tool: folder of up to 16 tools T<number>.toml")
+                       .value_name("FOLDER");
     Option read = command.option("--read-block", options->block_to_read, "Print a target's flash block as TOML")
                       .value_name("FILE");
-    write.needs(machine).needs(tool).excludes(read);
+    write.needs(machine).excludes(read);
     machine.needs(write);
     tool.needs(write);
+    tools.needs(write);
     command.on_run([options] {
         if (!options->block_to_write.empty()) {
             write_block(*options);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <string_view>
 #include <type_traits>
@@ -46,42 +47,71 @@ void write_file(TomlWriter& writer, firmware::ParameterFile file, const firmware
     });
 }
 
-}  // namespace
-
-void write_parameter_block(const std::string& path, const firmware::Parameters<float>& parameters) {
-    const firmware::ParameterBlock block = firmware::encoded(parameters, 1);
+void write_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
     AtomicFile file(path);
-    for (const std::uint8_t byte : block) {
+    for (const std::uint8_t byte : bytes) {
         file.stream().put(static_cast<char>(byte));
     }
     file.commit();
 }
 
-firmware::Parameters<float> read_parameter_block(const std::string& path) {
+/// The longest block and one tool more, so that too many tools are called so.
+constexpr std::size_t most_bytes = firmware::largest_block_bytes + firmware::numbered_tool_bytes;
+
+}  // namespace
+
+void write_parameter_block(const std::string& path, const firmware::Parameters<float>& parameters) {
+    write_bytes(path, firmware::encoded(parameters, 1));
+}
+
+std::size_t write_tools_block(const std::string& path, const firmware::MachineParameters<float>& machine,
+                              std::span<const firmware::NumberedTool> tools) {
+    if (tools.empty() || tools.size() > firmware::largest_tool_count) {
+        throw InputError(
+            fmt::format("{}: {} tools, expected 1 to {} in a block", path, tools.size(), firmware::largest_tool_count));
+    }
+    firmware::LargestParameterBlock block{};
+    const std::span<const std::uint8_t> used = firmware::encode_tools(machine, tools, 1, block);
+    write_bytes(path, used);
+    return used.size();
+}
+
+BlockContents read_parameter_block(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
         throw InputError(fmt::format("{}: no such file", path));
     }
-    firmware::ParameterBlock block{};
+    std::array<std::uint8_t, most_bytes> block{};
     file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
-    const auto count = static_cast<std::size_t>(file.gcount());
+    const std::span<const std::uint8_t> bytes =
+        std::span<const std::uint8_t>(block).first(static_cast<std::size_t>(file.gcount()));
     firmware::Parameters<float> parameters;
-    const firmware::BlockError error = firmware::decode(std::span<const std::uint8_t>(block).first(count), parameters);
+    const firmware::BlockError error = firmware::decode(bytes, parameters);
     if (error != firmware::BlockError::none) {
         throw InputError(
-            fmt::format("{}: {}; expected a block of {} bytes as 'millforce parameters --write-block' of this "
-                        "version writes it",
-                        path, firmware::name(error), block.size()));
+            fmt::format("{}: {}; expected a block as 'millforce parameters --write-block' of this version writes it",
+                        path, firmware::name(error)));
     }
-    return parameters;
+    const firmware::BlockTools tools = firmware::tools_of(bytes);
+    BlockContents contents{parameters.machine, std::vector<firmware::NumberedTool>(tools.size())};
+    for (std::size_t place = 0; place < tools.size(); ++place) {
+        contents.tools[place].number = tools.number_at(place);
+        (void)tools.read_at(place, contents.tools[place].parameters);  // its values were checked with the block
+    }
+    if (contents.tools.empty()) {
+        contents.tools.push_back({0, parameters.tool});
+    }
+    return contents;
 }
 
-void write_parameters_as_toml(std::ostream& out, const firmware::Parameters<float>& parameters) {
+void write_parameters_as_toml(std::ostream& out, const BlockContents& contents) {
     TomlWriter writer(out);
     writer.comment("machine.toml");
-    write_file(writer, firmware::ParameterFile::machine, parameters);
-    writer.comment("tool.toml");
-    write_file(writer, firmware::ParameterFile::tool, parameters);
+    write_file(writer, firmware::ParameterFile::machine, {contents.machine, {}});
+    for (const firmware::NumberedTool& tool : contents.tools) {
+        writer.comment(tool.number == 0 ? std::string("tool.toml") : fmt::format("T{}.toml", tool.number));
+        write_file(writer, firmware::ParameterFile::tool, {contents.machine, tool.parameters});
+    }
 }
 
 }  // namespace millforce::host

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/parameter_block.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/tool_source.hpp"
 
@@ -24,18 +25,14 @@ struct ToolChoice {
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
 };
 
-/// A tool under the number by which the CNC calls it.
-struct NumberedTool {
-    std::uint32_t number = 0;
-    firmware::ToolParameters<float> parameters{};
-};
+using firmware::NumberedTool;
 
 /// Reads `T<number>.toml` of a folder, each by the rules of tool.toml, in the order of their numbers. Files whose names
 /// do not end with ".toml" are left alone. Throws InputError: no folder, no tool in it, a ".toml" with another name, a
 /// number that is 0, too large or there twice (T7.toml and T007.toml), a file that is refused as a tool.
 [[nodiscard]] std::vector<NumberedTool> read_tool_folder(const std::filesystem::path& folder);
 
-/// The ticks of several tools, ready to be copied: 30 ms of work and 18 KiB each.
+/// The ticks of several tools, ready to be copied: 3 ms of work and 18 KiB each.
 class PreparedTools final : public firmware::ToolSource {
   public:
     PreparedTools(const firmware::MachineParameters<float>& machine, const std::vector<NumberedTool>& tools);

@@ -41,15 +41,18 @@ class CutAt {
             last_rad = std::max(last_rad, arc.angles.exit_rad + sweep_rad(arc));
         }
         const float first_rad = arcs_.front().angles.entry_rad;
+        std::vector<estimation::ToothInCut<float>> in_arcs;
+        for (const Arc& arc : arcs_) {
+            in_arcs.emplace_back(tool_.law, feed_per_tooth_mm, arc.depth_mm, sweep_rad(arc), arc.angles);
+        }
         float largest_N = 0.0F;
         for (int k = 0; k <= steps; ++k) {
             const float tip_rad =
                 first_rad + (last_rad - first_rad) * static_cast<float>(k) / static_cast<float>(steps);
             float feed_N = 0.0F;
             float normal_N = 0.0F;
-            for (const Arc& arc : arcs_) {
-                const auto force = estimation::single_tooth_force(tool_.law, feed_per_tooth_mm, arc.depth_mm,
-                                                                  sweep_rad(arc), arc.angles, tip_rad);
+            for (const estimation::ToothInCut<float>& tooth : in_arcs) {
+                const auto force = tooth.force_at(tip_rad);
                 feed_N += force.feed_N;
                 normal_N += force.normal_N;
             }

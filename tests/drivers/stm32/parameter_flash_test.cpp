@@ -96,7 +96,8 @@ firmware::Parameters<float> with_limit(float tooth_force_limit_N) {
 float limit_in(FakeFlashChip& chip) {
     Flash flash = started(chip);
     firmware::Parameters<float> parameters;
-    const bool is_there = firmware::ParameterStore<Flash>(flash).load(parameters) == firmware::BlockError::none;
+    firmware::BlockTools tools;
+    const bool is_there = firmware::ParameterStore<Flash>(flash).load(parameters, tools) == firmware::BlockError::none;
     return is_there ? parameters.tool.tooth_force_limit_N : -1.0F;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller_on_loopback.hpp"
-#include "firmware/tools_of.hpp"
+#include "firmware/ready_tools.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -17,11 +17,18 @@ sim::Scenario slot() {
     return sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/slot_entry.toml");
 }
 
-/// The scenario's tool under the numbers 7 and 8. Built once: it takes longer than a case.
-const ToolsOf<2>& tools() {
-    static const ToolsOf<2> ready = [] {
-        const firmware::ForceControlTick<float> tick(slot().parameters);
-        return ToolsOf<2>({ReadyTool{7, tick}, ReadyTool{8, tick}});
+/// The scenario's tool under the numbers 7 and 8, out of a block as a board has it. Built once.
+const firmware::ReadyTools& tools() {
+    static std::array<firmware::ReadyTool, 2> memory;
+    static const firmware::ReadyTools ready = [] {
+        firmware::Parameters<float> parameters = slot().parameters;
+        const std::array<firmware::NumberedTool, 2> both{firmware::NumberedTool{7, parameters.tool},
+                                                         firmware::NumberedTool{8, parameters.tool}};
+        firmware::LargestParameterBlock block{};
+        const auto used = firmware::encode_tools(parameters.machine, both, 1, block);
+        firmware::ReadyTools of_block(memory);
+        of_block.add(firmware::tools_of(used), parameters);
+        return of_block;
     }();
     return ready;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/tools_of.hpp"
+#include "firmware/ready_tools.hpp"
 #include "firmware_link/link_controller.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -153,7 +153,9 @@ TEST(LinkController, gives_the_same_overrides_whenever_the_samples_come_and_what
 
 TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_it_is_not_known) {
     const firmware::Parameters<float> capped_mill{firmware::capped(a_mill().machine, 1.0F), a_mill().tool};
-    const test::ToolsOf<1> tools({test::ReadyTool{7, firmware::ForceControlTick<float>(capped_mill)}});
+    std::array<firmware::ReadyTool, 1> memory;
+    firmware::ReadyTools tools(memory);
+    tools.add(7, capped_mill);
     firmware::LinkController controller(a_mill(), 1.0F, nullptr, &tools);
     cnc.message.tool = 7;
     cnc.message.operator_limit = 0.7F;

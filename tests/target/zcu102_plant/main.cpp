@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plant of the bus in the loop, on the Cortex-A53 of an emulated zcu102: SCENARIO.toml. It lays the controller's
-// parameters where a boot loader would, starts the Cortex-R5F, mills, and prints the figures as TOML. Exit codes: 0
-// milled, 2 bad input, 3 the R5F does not start, 5 no CAN controller, 6 a system call that is not served, 68 a fault.
+// The plant of the bus in the loop, on the Cortex-A53 of an emulated zcu102: SCENARIO.toml [TOOL]. It lays the
+// controller's parameters where a boot loader would, starts the Cortex-R5F, mills, and prints the figures as TOML. Exit
+// codes: 0 milled, 2 bad input, 3 the R5F does not start, 5 no CAN controller, 6 a system call that is not served, 68 a
+// fault.
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,15 +34,35 @@ using namespace millforce;
 constexpr std::uint64_t turn_us = 100;
 constexpr std::uintptr_t parameters_of_r5f = 0x00F0'0000;  // firmware/boards/zcu102/memory.ld
 
-sim::PlantOnCanSettings plant_settings(const sim::Scenario& scenario) {
+sim::PlantOnCanSettings plant_settings(const sim::Scenario& scenario, std::uint32_t tool) {
     sim::PlantOnCanSettings settings = sim::plant_on_bus(scenario, "zcu102");
     settings.computes_ahead = true;
+    settings.tool = tool;
     return settings;
 }
 
-void start_controller(const sim::Scenario& scenario) {
-    const firmware::ParameterBlock block = firmware::encoded(scenario.parameters, 1);
+void lay_parameters(std::span<const std::uint8_t> block) {
     std::memcpy(reinterpret_cast<void*>(parameters_of_r5f), block.data(), block.size());
+}
+
+/// The scenario's tool under its number, between two that bear a tenth of its force.
+void lay_tools(const sim::Scenario& scenario, std::uint32_t number) {
+    firmware::ToolParameters<float> weak = scenario.parameters.tool;
+    weak.tooth_force_limit_N *= 0.1F;
+    const std::array<firmware::NumberedTool, 3> tools{firmware::NumberedTool{number - 1, weak},
+                                                      firmware::NumberedTool{number, scenario.parameters.tool},
+                                                      firmware::NumberedTool{number + 1, weak}};
+    firmware::LargestParameterBlock block{};
+    lay_parameters(firmware::encode_tools(scenario.parameters.machine, tools, 1, block));
+}
+
+/// `tool`: 0: the block has one tool, without a number.
+void start_controller(const sim::Scenario& scenario, std::uint32_t tool) {
+    if (tool != 0) {
+        lay_tools(scenario, tool);
+    } else {
+        lay_parameters(firmware::encoded(scenario.parameters, 1));
+    }
     if (start_processor(target::cortex_r5f, target::image_of_r5f) != 0) {
         target::exit_emulator(3);
     }
@@ -47,15 +71,15 @@ void start_controller(const sim::Scenario& scenario) {
 /// The board is switched on when the plant is there: time begins with its first sample.
 class PlantOnBoard final : public sim::PlantOnCan {
   public:
-    PlantOnBoard(const sim::Scenario& scenario, std::unique_ptr<target::BarePort> port)
-        : PlantOnBoard(scenario, *port, std::move(port)) {}
+    PlantOnBoard(const sim::Scenario& scenario, std::uint32_t tool, std::unique_ptr<target::BarePort> port)
+        : PlantOnBoard(scenario, tool, *port, std::move(port)) {}
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
         if (!is_on_) {
             is_on_ = true;
             calls_before_ = host_calls();
             wire.begin_time();
-            start_controller(scenario_);
+            start_controller(scenario_, tool_);
             target::take_turns(turn_us);
         }
         if (is_ready()) {
@@ -74,23 +98,25 @@ class PlantOnBoard final : public sim::PlantOnCan {
     std::uint64_t longest_computing_us = 0;  ///< of a sample, with the turns that were given away meanwhile
 
   private:
-    PlantOnBoard(const sim::Scenario& scenario, target::BarePort& bare, std::unique_ptr<host::CanPort> port)
-        : PlantOnCan(plant_settings(scenario), std::move(port)), wire(bare), scenario_(scenario) {}
+    PlantOnBoard(const sim::Scenario& scenario, std::uint32_t tool, target::BarePort& bare,
+                 std::unique_ptr<host::CanPort> port)
+        : PlantOnCan(plant_settings(scenario, tool), std::move(port)), wire(bare), scenario_(scenario), tool_(tool) {}
 
     const sim::Scenario& scenario_;
+    std::uint32_t tool_;
     bool is_on_ = false;
     unsigned long calls_before_ = 0;
     std::uint64_t answered_us_ = 0;
 };
 
-void mill(const char* scenario_file) {
+void mill(const char* scenario_file, std::uint32_t tool) {
     const sim::Scenario scenario = sim::read_scenario(scenario_file);
     auto port = std::make_unique<target::BarePort>();
     port->poll(0);
     if (!port->is_on_bus()) {
         target::exit_emulator(5);
     }
-    PlantOnBoard plant(scenario, std::move(port));
+    PlantOnBoard plant(scenario, tool, std::move(port));
     const sim::RunFigures figures = sim::simulate(scenario, plant, "zcu102").result.figures;
     const unsigned long calls = plant.calls();
     fmt::print("finished = {}\n", figures.finished);
@@ -111,10 +137,10 @@ void mill(const char* scenario_file) {
 
 int main(int argc, char** argv) {
     try {
-        if (argc != 2) {
-            throw host::InputError("expected SCENARIO.toml");
+        if (argc != 2 && argc != 3) {
+            throw host::InputError("expected SCENARIO.toml [TOOL]");
         }
-        mill(argv[1]);
+        mill(argv[1], argc == 3 ? static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)) : 0);
         return 0;
     } catch (const std::exception& error) {
         fmt::print("{}\n", error.what());

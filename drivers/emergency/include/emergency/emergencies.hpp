@@ -27,8 +27,9 @@ enum class Reason : std::uint8_t {
     inputs_missing = 4,   ///< detail: hal::Present of the inputs that are present
     tick_fault = 5,       ///< detail: control::Fault
     bus_was_off = 6,      ///< detail: how many times since the start; sent when the bus is back
+    tool_unknown = 7,     ///< detail: the number that the CNC tells, 0: none. The override is the operator's
 };
-inline constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::bus_was_off) + 1;
+inline constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::tool_unknown) + 1;
 
 /// What is wrong, and which of it has not been sent yet. One thread.
 class Emergencies {
@@ -37,6 +38,8 @@ class Emergencies {
 
     /// Reports a change of `is_there`, and nothing where it is as before.
     void set(Reason reason, bool is_there, std::uint32_t detail);
+    /// The same, and reports a change of the detail while it is there.
+    void follow(Reason reason, bool is_there, std::uint32_t detail);
     /// Reports an event that has no end.
     void report(Reason reason, std::uint16_t code, std::uint32_t detail);
     void report_start(hal::ResetCause cause);

@@ -47,83 +47,154 @@ struct PeakFactors {
 template <typename Scalar>
 inline constexpr Scalar straight_sweep_rad = literal<Scalar>(0.001L);
 
-/// In-plane force of one tooth whose tip is at θ (the tip leads; the edge above it lags by the helix).
+/// One tooth on its way through a cut. What does not depend on where it stands is worked out once.
 template <typename Scalar>
-AverageForces<Scalar> single_tooth_force(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm, Scalar axial_depth_mm,
-                                         Scalar sweep_rad, EngagementAngles<Scalar> engagement, Scalar tip_angle_rad) {
-    const Scalar sweep = sweep_rad > straight_sweep_rad<Scalar> ? sweep_rad : straight_sweep_rad<Scalar>;
-    const Scalar low = tip_angle_rad - sweep > engagement.entry_rad ? tip_angle_rad - sweep : engagement.entry_rad;
-    const Scalar high = tip_angle_rad < engagement.exit_rad ? tip_angle_rad : engagement.exit_rad;
-    const EngagementIntegrals<Scalar> in_cut = engagement_integrals(EngagementAngles<Scalar>{low, high});
-    const Scalar t_a = mean_chip_thickness_mm(feed_per_tooth_mm, engagement);
-    if (!(in_cut.delta_rad > Scalar(0)) || !(t_a > Scalar(0))) {
-        return {};
+class ToothInCut {
+  public:
+    /// `sweep_rad`: α_sw.
+    ToothInCut(const CuttingLaw<Scalar>& law, Scalar feed_per_tooth_mm, Scalar axial_depth_mm, Scalar sweep_rad,
+               EngagementAngles<Scalar> engagement)
+        : engagement_(engagement),
+          passage_rad_(engagement.exit_rad + sweep_rad - engagement.entry_rad),
+          sweep_rad_(sweep_rad > straight_sweep_rad<Scalar> ? sweep_rad : straight_sweep_rad<Scalar>) {
+        const Scalar t_a = mean_chip_thickness_mm(feed_per_tooth_mm, engagement);
+        const CuttingCoefficients<Scalar> k = cutting_coefficients(law, t_a);
+        const Scalar per_rad = axial_depth_mm / sweep_rad_;
+        has_chip_ = t_a > Scalar(0);
+        r_1_ = k.r_1;
+        G_N_ = k.K_s_N_per_mm2 * feed_per_tooth_mm * per_rad;
+        E_t_N_ = law.K_te_N_per_mm * per_rad;
+        E_r_N_ = law.K_re_N_per_mm * per_rad;
     }
-    const CuttingCoefficients<Scalar> k = cutting_coefficients(law, t_a);
-    const Scalar per_rad = axial_depth_mm / sweep;
-    const Scalar G = k.K_s_N_per_mm2 * feed_per_tooth_mm * per_rad;
-    const Scalar E_t = law.K_te_N_per_mm * per_rad;
-    const Scalar E_r = law.K_re_N_per_mm * per_rad;
-    return {G * in_cut.c + E_t * in_cut.delta_rad, G * (in_cut.s + k.r_1 * in_cut.b) + E_t * in_cut.d + E_r * in_cut.c,
-            G * (k.r_1 * in_cut.s - in_cut.b) - E_t * in_cut.c + E_r * in_cut.d};
+
+    /// In-plane force where the tip is at θ (the tip leads; the edge above it lags by the helix).
+    [[nodiscard]] AverageForces<Scalar> force_at(Scalar tip_angle_rad) const {
+        const Scalar end_rad = tip_angle_rad - sweep_rad_;
+        const Scalar low = end_rad > engagement_.entry_rad ? end_rad : engagement_.entry_rad;
+        const Scalar high = tip_angle_rad < engagement_.exit_rad ? tip_angle_rad : engagement_.exit_rad;
+        const EngagementIntegrals<Scalar> in_cut = engagement_integrals(EngagementAngles<Scalar>{low, high});
+        if (!(in_cut.delta_rad > Scalar(0)) || !has_chip_) {
+            return {};
+        }
+        return {G_N_ * in_cut.c + E_t_N_ * in_cut.delta_rad,
+                G_N_ * (in_cut.s + r_1_ * in_cut.b) + E_t_N_ * in_cut.d + E_r_N_ * in_cut.c,
+                G_N_ * (r_1_ * in_cut.s - in_cut.b) - E_t_N_ * in_cut.c + E_r_N_ * in_cut.d};
+    }
+
+    /// θ from the first touch to where the whole edge has left.
+    [[nodiscard]] Scalar first_rad() const { return engagement_.entry_rad; }
+    [[nodiscard]] Scalar passage_rad() const { return passage_rad_; }
+    /// Where the edge has just come in whole, or just begins to leave: the force may have a corner there.
+    [[nodiscard]] std::array<Scalar, 2> corners_rad() const {
+        return {engagement_.entry_rad + sweep_rad_, engagement_.exit_rad};
+    }
+
+  private:
+    EngagementAngles<Scalar> engagement_;
+    Scalar passage_rad_;
+    Scalar sweep_rad_;
+    bool has_chip_ = false;
+    Scalar r_1_{0};
+    Scalar G_N_{0};
+    Scalar E_t_N_{0};
+    Scalar E_r_N_{0};
+};
+
+/// The cut whose peaks are sought, per mm of depth, which is common to all: the squares of the forces stay within the
+/// range of fixed point.
+template <typename Scalar>
+struct CutOfPeaks {
+    CutOfPeaks(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings, Scalar radial_immersion,
+               Scalar axial_depth_mm)
+        : CutOfPeaks(law, settings, engagement_angles(settings.side, radial_immersion, settings.centre_offset_in_radii),
+                     sweep_rad(settings, axial_depth_mm)) {}
+
+    ToothInCut<Scalar> tooth;
+    Scalar tangential_N;  ///< F_at
+
+  private:
+    CutOfPeaks(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
+               EngagementAngles<Scalar> engagement, Scalar sweep)
+        : tooth(law, settings.nominal_feed_per_tooth_mm, Scalar(1), sweep, engagement),
+          tangential_N(average_forces(law, CutConditions<Scalar>{settings.nominal_feed_per_tooth_mm, Scalar(1),
+                                                                 engagement, settings.teeth})
+                           .tangential_N) {}
+
+    [[nodiscard]] static Scalar sweep_rad(const PeakFactorSettings<Scalar>& settings, Scalar axial_depth_mm) {
+        using elementary::tan;
+        return axial_depth_mm * tan(settings.helix_rad) / settings.cutter_radius_mm;
+    }
+};
+
+/// Square of the largest in-plane force of one tooth: Steps values over its passage, and the corners.
+template <typename Scalar, int Steps>
+Scalar largest_tooth_N2(const ToothInCut<Scalar>& tooth) {
+    Scalar largest{0};
+    const auto look_at = [&](Scalar tip) {
+        const AverageForces<Scalar> f = tooth.force_at(tip);
+        const Scalar magnitude = square(f.feed_N) + square(f.normal_N);
+        largest = magnitude > largest ? magnitude : largest;
+    };
+    for (int k = 0; k <= Steps; ++k) {
+        look_at(tooth.first_rad() + tooth.passage_rad() * Scalar(k) / Scalar(Steps));
+    }
+    for (const Scalar corner : tooth.corners_rad()) {
+        look_at(corner);
+    }
+    return largest;
 }
 
-/// κ and τ by search over one pitch and one tooth's passage (Steps values each). About Steps·(N + 1) single-tooth
-/// forces: for set-up, not for the tick.
-template <typename Scalar, int Steps = 72>
-PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
-                                 Scalar radial_immersion, Scalar axial_depth_mm) {
-    using elementary::tan;
-    using std::sqrt;
-    const EngagementAngles<Scalar> engagement =
-        engagement_angles(settings.side, radial_immersion, settings.centre_offset_in_radii);
-    const Scalar sweep = axial_depth_mm * tan(settings.helix_rad) / settings.cutter_radius_mm;
-    const Scalar feed = settings.nominal_feed_per_tooth_mm;
-    // Forces per mm of depth, which is common to both: their squares stay within the range of fixed point.
-    constexpr Scalar depth_mm{1};
-    const Scalar F_at =
-        average_forces(law, CutConditions<Scalar>{feed, depth_mm, engagement, settings.teeth}).tangential_N;
-    const auto tooth_at = [&](Scalar tip) { return single_tooth_force(law, feed, depth_mm, sweep, engagement, tip); };
-    const Scalar first = engagement.entry_rad;
-    const Scalar passage = engagement.exit_rad + sweep - first;
-    const Scalar pitch = turn_rad<Scalar> / settings.teeth;
-    const int behind = static_cast<int>(passage / pitch) + 1;
-    Scalar tooth_squared{0};
-    Scalar total_squared{0};
-    const auto look_at_tooth = [&](Scalar tip) {
-        const auto f = tooth_at(tip);
-        const Scalar magnitude = square(f.feed_N) + square(f.normal_N);
-        tooth_squared = magnitude > tooth_squared ? magnitude : tooth_squared;
-    };
-    const auto look_at_total = [&](Scalar tip) {
+/// The same for the sum of all teeth, over one pitch.
+template <typename Scalar, int Steps>
+Scalar largest_total_N2(const ToothInCut<Scalar>& tooth, Scalar pitch_rad) {
+    const int behind = static_cast<int>(tooth.passage_rad() / pitch_rad) + 1;
+    Scalar largest{0};
+    const auto look_at = [&](Scalar tip) {
         Scalar x{0};
         Scalar y{0};
-        for (int tooth = 0; tooth < behind; ++tooth) {
-            const auto f = tooth_at(tip + pitch * Scalar(tooth));
+        for (int k = 0; k < behind; ++k) {
+            const AverageForces<Scalar> f = tooth.force_at(tip + pitch_rad * Scalar(k));
             x += f.feed_N;
             y += f.normal_N;
         }
         const Scalar magnitude = square(x) + square(y);
-        total_squared = magnitude > total_squared ? magnitude : total_squared;
+        largest = magnitude > largest ? magnitude : largest;
     };
     for (int k = 0; k <= Steps; ++k) {
-        look_at_tooth(first + passage * Scalar(k) / Scalar(Steps));
-        look_at_total(first + pitch * Scalar(k) / Scalar(Steps));
+        look_at(tooth.first_rad() + pitch_rad * Scalar(k) / Scalar(Steps));
     }
-    // Where an edge has just come in whole, or just begins to leave, the force may have a corner between two steps.
-    const Scalar whole = first + (sweep > straight_sweep_rad<Scalar> ? sweep : straight_sweep_rad<Scalar>);
-    for (const Scalar corner : {whole, engagement.exit_rad}) {
-        look_at_tooth(corner);
-        const auto pitches = static_cast<int>((corner - first) / pitch);
-        look_at_total(corner - pitch * Scalar(pitches));
+    for (const Scalar corner : tooth.corners_rad()) {
+        const auto pitches = static_cast<int>((corner - tooth.first_rad()) / pitch_rad);
+        look_at(corner - pitch_rad * Scalar(pitches));
     }
-    total_squared = total_squared > tooth_squared ? total_squared : tooth_squared;
-    PeakFactors<Scalar> result;
-    if (F_at > Scalar(0)) {
-        result.total = sqrt(total_squared) / F_at;
-        result.tooth = sqrt(tooth_squared) / F_at;
+    return largest;
+}
+
+inline constexpr int peak_search_steps = 72;
+
+/// τ by search. About 72 single-tooth forces: for set-up, not for the tick.
+template <typename Scalar>
+Scalar tooth_peak_factor(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
+                         Scalar radial_immersion, Scalar axial_depth_mm) {
+    using std::sqrt;
+    const CutOfPeaks<Scalar> cut(law, settings, radial_immersion, axial_depth_mm);
+    return cut.tangential_N > Scalar(0)
+               ? sqrt(largest_tooth_N2<Scalar, peak_search_steps>(cut.tooth)) / cut.tangential_N
+               : Scalar(1);
+}
+
+/// κ and τ by search. About 72 (N + 1) single-tooth forces, with N teeth in the cut: for a display.
+template <typename Scalar>
+PeakFactors<Scalar> peak_factors(const CuttingLaw<Scalar>& law, const PeakFactorSettings<Scalar>& settings,
+                                 Scalar radial_immersion, Scalar axial_depth_mm) {
+    using std::sqrt;
+    const CutOfPeaks<Scalar> cut(law, settings, radial_immersion, axial_depth_mm);
+    if (!(cut.tangential_N > Scalar(0))) {
+        return {};
     }
-    return result;
+    const Scalar tooth_N2 = largest_tooth_N2<Scalar, peak_search_steps>(cut.tooth);
+    const Scalar total_N2 = largest_total_N2<Scalar, peak_search_steps>(cut.tooth, turn_rad<Scalar> / settings.teeth);
+    return {sqrt(total_N2 > tooth_N2 ? total_N2 : tooth_N2) / cut.tangential_N, sqrt(tooth_N2) / cut.tangential_N};
 }
 
 /// τ over immersion and sweep, read by bilinear interpolation. ImmersionNodes × SweepNodes scalars of RAM. Bodies:

@@ -21,7 +21,7 @@ void ToothPeakTable<Scalar, ImmersionNodes, SweepNodes>::build(const CuttingLaw<
             const Scalar sweeps = sweeps_of(Scalar(k));
             const Scalar depth =
                 sweep_rad_per_mm_ > Scalar(0) ? sweeps * engagement_rad / sweep_rad_per_mm_ : Scalar(1);
-            const Scalar scaled = peak_factors(law, settings, immersion, depth).tooth * scale_at(immersion, sweeps);
+            const Scalar scaled = tooth_peak_factor(law, settings, immersion, depth) * scale_at(immersion, sweeps);
             nodes_[index(i)][index(k)] = static_cast<Stored<Scalar>>(scaled);
         }
     }

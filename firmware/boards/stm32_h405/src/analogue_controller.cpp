@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::uint32_t can_patience = 100'000;  // polls until the CAN controller counts as absent
 
+/// Of less than an hour: from 32 bits, since from 64 a float needs the library's own arithmetic.
 float seconds(std::uint64_t microseconds) {
-    return static_cast<float>(microseconds) * 1e-6F;
+    return static_cast<float>(static_cast<std::uint32_t>(microseconds)) * 1e-6F;
 }
 
 }  // namespace
@@ -28,11 +29,13 @@ AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wirin
       watchdog_(p.watchdog),
       sender_(wiring.feed_override),
       program_(wiring.program),
+      tool_(program_status::tool_frame_id(wiring.program.id)),
       emergencies_(wiring.feed_override.node_id),
-      filters_{{{wiring.program.id, hal::largest_standard_can_id}}} {}
+      filters_{{{wiring.program.id, hal::largest_standard_can_id},
+                {program_status::tool_frame_id(wiring.program.id), hal::largest_standard_can_id}}} {}
 
 void AnalogueController::start(const StartReport& report, const firmware::Parameters<float>& parameters,
-                               std::uint64_t now_us) {
+                               std::uint64_t now_us, const Tools* tools) {
     report_start(report);
     drives_.start();
     can_.start(wiring_.bit_rate, filters_);
@@ -43,11 +46,11 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
         output_.state = static_cast<std::uint8_t>(control::CutState::fault);
         return;
     }
-    tick_.emplace(parameters);
+    tick_.emplace(parameters, tools);
     largest_ratio_ = parameters.machine.cnc.override_max;
     period_us_ = static_cast<std::uint32_t>(1e6F / parameters.machine.cnc.sample_rate_hz);
     drives_.watch_spindle(parameters.machine.encoder_counts_per_rev);
-    watchdog_.start(wiring_.watchdog_us);
+    watchdog_.start(tools != nullptr ? wiring_.watchdog_with_tools_us : wiring_.watchdog_us);
 }
 
 void AnalogueController::report_start(const StartReport& report) {
@@ -79,6 +82,7 @@ void AnalogueController::receive_frames(std::uint64_t now_us) {
     hal::CanFrame frame;
     while (can_.receive(frame)) {
         program_.on_frame(frame, now_us);
+        tool_.on_frame(frame, now_us);
     }
     if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
         bus_offs_ = can_.health().bus_offs;
@@ -107,6 +111,7 @@ void AnalogueController::run_tick(std::uint64_t now_us) {
     }
     output.hold = output.hold || is_supply_low;
     emergencies_.set(Reason::tick_fault, tick_ && output.fault != 0, output.fault);
+    emergencies_.follow(Reason::tool_unknown, tick_ && !tick_->is_tool_known(), tool_.number(now_us));
     output_ = output;
     sender_.update(output_, now_us);
 }
@@ -127,8 +132,11 @@ hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
     if (program_.take_reset() && is_at_rest()) {
         tick_->reset_fault();
     }
-    if (is_complete) {
+    if (is_complete || was_tool_changed_) {
         complete_us_ = now_us;
+    }
+    was_tool_changed_ = is_complete && tick_->follow_tool(tool_.number(now_us), is_at_rest());
+    if (is_complete && !was_tool_changed_) {
         return tick_->step(sample_, program);
     }
     return tick_->step_without_sample(seconds(now_us - complete_us_), seconds(period_us_), program);

@@ -13,11 +13,11 @@ constexpr std::uint64_t still_us = 5'000;
 }  // namespace
 
 BusController::BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
-                             const firmware::Parameters<float>& parameters)
+                             const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools)
     : can_(peripherals.can),
       watchdog_(peripherals.watchdog, peripherals.errors),
       emergencies_(settings.feed_override.node_id),
-      controller_(settings, parameters),
+      controller_(settings, parameters, nullptr, tools),
       largest_ratio_(parameters.machine.cnc.override_max) {}
 
 void BusController::start(const zynqmp::CanBitTiming& timing, hal::ResetCause cause) {
@@ -87,6 +87,8 @@ void BusController::report_what_is_wrong() {
     const hal::FeedOverride& output = controller_.output();
     const bool lacks_something = controller_.conditions().has(firmware::Condition::input_incomplete);
     emergencies_.set(Reason::inputs_missing, lacks_something && controller_.ticks() != 0, controller_.sample().present);
+    emergencies_.follow(Reason::tool_unknown, controller_.conditions().has(firmware::Condition::tool_unknown),
+                        controller_.told_tool());
     emergencies_.set(Reason::tick_fault, output.fault != 0, output.fault);
     if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
         bus_offs_ = can_.health().bus_offs;

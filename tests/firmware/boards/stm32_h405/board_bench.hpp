@@ -5,6 +5,7 @@
 #include "instructions/synthetic_cut.hpp"
 #include "override_frame/override_receiver.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/tool_frame.hpp"
 #include "stm32_h405/analogue_controller.hpp"
 
 #include <array>
@@ -23,8 +24,18 @@ class BoardBench {
                                                                             millforce::firmware::BlockError::none,
                                                                             false, 0})
         : parameters(millforce::instructions::machine_and_tool()) {
+        start(report, nullptr);
+    }
+    /// With the tools of a block, whose machine and first tool `parameters_of_block` are.
+    BoardBench(const AnalogueController::Tools& tools,
+               const millforce::firmware::Parameters<float>& parameters_of_block)
+        : parameters(parameters_of_block) {
+        start({millforce::hal::ResetCause::power_on}, &tools);
+    }
+
+    void start(const millforce::stm32_h405::StartReport& report, const AnalogueController::Tools* tools) {
         controller.emplace(peripherals(), wiring);
-        controller->start(report, parameters, now_us);
+        controller->start(report, parameters, now_us, tools);
         can.join_bus_with([this] {
             controller->poll(now_us);
             carry();
@@ -83,6 +94,11 @@ class BoardBench {
         return frame.data[4] | frame.data[5] * 0x100U | frame.data[6] * 0x1'0000U | frame.data[7] * 0x100'0000U;
     }
 
+    void tell_tool(std::uint32_t number) {
+        const auto frame = millforce::program_status::encode_tool(
+            number, millforce::program_status::tool_frame_id(millforce::program_status::default_id));
+        can.arrive(frame.id << 21U, frame.length, word(frame, 0), word(frame, 4));
+    }
     void tell_program(const millforce::program_status::ProgramStatusFrame& status) {
         const auto frame = millforce::program_status::encode(status, millforce::program_status::default_id);
         can.arrive(frame.id << 21U, frame.length, word(frame, 0), word(frame, 4));

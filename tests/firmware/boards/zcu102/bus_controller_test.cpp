@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zcu102/bus_controller.hpp"
 #include "drivers/zynqmp/fake_can.hpp"
+#include "firmware/ready_tools.hpp"
 #include "hal/tick_watch.hpp"
 #include "instructions/machine_and_tool.hpp"
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -69,9 +71,10 @@ TEST_GROUP(Zcu102Guard) {
     std::array<std::optional<hal::CanFrame>, emergency::reason_count> emergencies;
     int feeds = 0;
 
-    void start(hal::ResetCause cause) {
+    void start(hal::ResetCause cause, const firmware::ToolSource* tools = nullptr) {
         controller.emplace(zcu102::Peripherals{chip.registers, watchdog, errors},
-                           firmware::can_controller_settings(parameters.machine, zcu102::bus_objects), parameters);
+                           firmware::can_controller_settings(parameters.machine, zcu102::bus_objects), parameters,
+                           tools);
         controller->start(zynqmp::kbit_1000, cause);
         chip.react();
     }
@@ -121,6 +124,16 @@ TEST_GROUP(Zcu102Guard) {
             arrive(axis, 8, 0, no_current_operation_enabled);
         }
     }
+    void tell_tool(std::uint32_t number) {
+        const hal::CanFrame frame = program_status::encode_tool(number, 0x2FD);
+        const auto word = [&frame](std::size_t first) {
+            std::uint32_t value = 0;
+            std::memcpy(&value, frame.data.data() + first, sizeof(value));
+            return __builtin_bswap32(value);
+        };
+        chip.arrive(frame.id << 21U, frame.length, word(0), word(4));
+        poll();
+    }
     [[nodiscard]] std::uint32_t code_of(emergency::Reason reason) const {
         const auto& frame = emergencies[static_cast<std::size_t>(reason)];
         CHECK_TRUE_TEXT(frame.has_value(), "no such emergency");
@@ -150,6 +163,27 @@ TEST(Zcu102Guard, the_bus_is_told_why_the_chip_has_started) {
         UNSIGNED_LONGS_EQUAL(c.code, code_of(emergency::Reason::started));
         UNSIGNED_LONGS_EQUAL(c.cause, detail_of(emergency::Reason::started));
     }
+}
+
+TEST(Zcu102Guard, a_tool_of_the_block_is_taken_at_rest_and_another_one_is_told_with_its_number) {
+    std::array<firmware::ReadyTool, 2> memory;
+    firmware::ReadyTools tools(memory);
+    tools.add(7, parameters);
+    tools.add(12, parameters);
+    start(hal::ResetCause::power_on, &tools);
+    run_ms(20);
+    UNSIGNED_LONGS_EQUAL(0xFF01, code_of(emergency::Reason::tool_unknown));
+    for (const std::uint32_t number : {7U, 12U}) {
+        tell_tool(number);
+        run_ms(20);
+        UNSIGNED_LONGS_EQUAL(number, controller->controller().tool());
+        UNSIGNED_LONGS_EQUAL(0, code_of(emergency::Reason::tool_unknown));
+    }
+    tell_tool(99);
+    run_ms(20);
+    UNSIGNED_LONGS_EQUAL(0, controller->controller().tool());
+    UNSIGNED_LONGS_EQUAL(0xFF01, code_of(emergency::Reason::tool_unknown));
+    UNSIGNED_LONGS_EQUAL(99, detail_of(emergency::Reason::tool_unknown));
 }
 
 TEST(Zcu102Guard, the_watchdog_waits_for_the_first_tick_and_is_fed_once_by_each) {

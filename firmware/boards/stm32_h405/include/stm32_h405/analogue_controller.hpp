@@ -7,11 +7,13 @@
 
 #include "emergency/emergencies.hpp"
 #include "firmware/parameter_block.hpp"
-#include "firmware/tick.hpp"
+#include "firmware/tool_tick.hpp"
+#include "firmware/tools_in_block.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/reset_cause.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_receiver.hpp"
+#include "program_status/tool_frame.hpp"
 #include "stm32/clock.hpp"
 #include "stm32/watchdog.hpp"
 #include "stm32_h405/analogue_drives.hpp"
@@ -29,10 +31,14 @@
 /// | supply below 2.9 V | hold at once; its samples are not used | EMCY 0x3200 |
 /// | fault of the tick | hold | the frame's fault, EMCY 0xFF00 |
 /// | CNC falls silent | the tick holds the feed | the frame's hold bit |
-/// | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when the bus is back |
-/// | fault of the processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice |
-/// | a tick that hangs, or answers nonsense | silence, then the watchdog's reset | EMCY 0x6010 after it |
-/// | supply fails | silence, reset by the brown-out circuit | EMCY 0x3200 after it |
+/// | the CNC tells a tool that is not in the block, or none | the operator's (tool_tick.hpp) | EMCY 0xFF01 with the
+/// number | | bus-off | silence: the CNC stops the feed after 20 ms | EMCY 0x8140 when the bus is back | | fault of the
+/// processor | hold, heartbeat `stopped`, then reset | EMCY 0x6100 with the program counter, twice | | a tick that
+/// hangs, or answers nonsense | silence, then the watchdog's reset | EMCY 0x6010 after it | | supply fails | silence,
+/// reset by the brown-out circuit | EMCY 0x3200 after it |
+///
+/// A change of the tool, at rest, builds its tick: some 0.15 s without a frame, in which the CNC stops the feed by
+/// itself. The tick of the new tool begins with the sample after it.
 ///
 /// A tick is healthy if its heartbeat went on by one and its ratio is within the limits; nothing else feeds the
 /// watchdog. A missing input is no reason for a reset, which would not bring it back.
@@ -52,11 +58,14 @@ struct StartReport {
 class AnalogueController {
   public:
     using Tick = firmware::SmallTick<float>;
+    using Tools = firmware::ToolsInBlock<Tick>;
 
     AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
 
-    /// `parameters` are used where the report says that there are some.
-    void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us);
+    /// `parameters` are used where the report says that there are some. With `tools`, which outlive this, the CNC tells
+    /// which of them is in the spindle.
+    void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us,
+               const Tools* tools = nullptr);
     /// As often as possible, at least once per sample period.
     void poll(std::uint64_t now_us);
     /// Final frames: the feed held and why, by what CAN can still send; false where it could not. `has_patience()` is
@@ -79,6 +88,8 @@ class AnalogueController {
     [[nodiscard]] const stm32::CanController& can() const { return can_; }
     [[nodiscard]] stm32::CurrentScan& currents() { return drives_.currents(); }
     [[nodiscard]] std::uint32_t late_ticks() const { return late_ticks_; }
+    /// Number of the tool that the override is for; 0: without tools by number, or not known.
+    [[nodiscard]] std::uint32_t tool() const { return tick_ ? tick_->tool() : 0; }
 
   private:
     void report_start(const StartReport& report);
@@ -97,10 +108,12 @@ class AnalogueController {
     stm32::Watchdog watchdog_;
     override_frame::OverrideSender sender_;
     program_status::ProgramStatusReceiver program_;
+    program_status::ToolReceiver tool_;
     emergency::Emergencies emergencies_;
-    std::array<hal::CanFilter, 1> filters_;
+    std::array<hal::CanFilter, 2> filters_;
 
-    std::optional<Tick> tick_{};
+    std::optional<firmware::ToolTickOf<Tick, Tools>> tick_{};
+    bool was_tool_changed_ = false;  // at the last step
     float largest_ratio_ = 0.0F;
     std::uint32_t period_us_ = 1000;
     std::uint64_t next_tick_us_ = 0;

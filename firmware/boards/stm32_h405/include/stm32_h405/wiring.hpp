@@ -43,6 +43,9 @@ struct Wiring {
     override_frame::OverrideSenderSettings feed_override = firmware::override_sender_settings({});
     program_status::ProgramStatusReceiverSettings program = firmware::program_status_settings({});
     std::uint32_t watchdog_us = 20'000;
+    /// In place of it where the block has tools by number: longer than a change of the tool at the watchdog's fastest
+    /// clock. The CNC stops the feed after 20 ms of silence by itself.
+    std::uint32_t watchdog_with_tools_us = 400'000;
 };
 
 inline constexpr std::uint32_t crystal_hz = 8'000'000;

@@ -63,13 +63,15 @@ inline constexpr std::uint32_t watchdog_clock_MHz = 100;
 /// |---|---|
 /// | start | boot-up, EMCY with the reset's cause, 0x6010 after a watchdog |
 /// | a sample lacks something, once the ticks have begun | EMCY 0x5000 |
+/// | the CNC tells a tool that is not in the block, or none | the operator's override, EMCY 0xFF01 with the number |
 /// | fault of the tick | the override frame's fault, EMCY 0xFF00 |
 /// | bus-off | silence, EMCY 0x8140 when it is back |
 /// | fault of the processor, a tick that hangs or answers nonsense | silence, reset, EMCY 0x6010 after it |
 class BusController {
   public:
+    /// With `tools`, which outlive this, the CNC tells which of them is in the spindle.
     BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
-                  const firmware::Parameters<float>& parameters);
+                  const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools = nullptr);
 
     void start(const zynqmp::CanBitTiming& timing, hal::ResetCause cause);
     void poll(std::uint64_t now_us);
