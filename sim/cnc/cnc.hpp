@@ -10,6 +10,7 @@
 
 namespace millforce::sim {
 
+/// A scenario sets acceleration and latency from its machine file.
 struct CncSettings {
     double servo_period_s = 0.25e-3;      ///< 1e-6…0.1
     double acceleration_mm_s2 = 2000.0;   ///< along the path and across it (arcs, corners); 1…1e6

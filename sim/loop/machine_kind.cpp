@@ -11,7 +11,7 @@ namespace {
 
 using Table = host::TomlFile::Table;
 
-/// The noise of every current, of the plant and as the controller is told it.
+/// The noise of every current, of the plant and as the controller is given it.
 void set_noise(MachineKind& kind, double share_of_rated) {
     kind.current_noise_share = share_of_rated;
     firmware::MachineParameters<float>& machine = kind.machine;

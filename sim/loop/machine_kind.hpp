@@ -6,7 +6,7 @@
 #include "files/toml_reader.hpp"
 #include "loop/scenario.hpp"
 
-/// A kind of machine: how its currents reach the controller, and what the controller is told about them. The same part
+/// A kind of machine: how its currents reach the controller, and what the controller knows about them. The same part
 /// can be milled on machines of every kind.
 
 namespace millforce::sim {
@@ -21,7 +21,7 @@ struct MachineKind {
 };
 
 /// Reads kinds/NAME.toml: a machine file (relative to its own folder), whether there is a part map, [currents] and
-/// [load_meter]. What [currents] says about noise and gain holds for the plant and for what the controller is told.
+/// [load_meter]. What [currents] says about noise and gain holds for the plant and for what the controller is given.
 /// Throws InputError.
 MachineKind read_machine_kind(const std::string& path);
 

@@ -99,7 +99,7 @@ TEST(CommandLine, an_unknown_command_or_option_is_refused_with_the_nearest_one) 
     refuses({"simulat", "a.toml"}, {"unknown command 'simulat'", "did you mean simulate?"});
     refuses({"calibrate", "cuting", "a.csv", "-o", "b"}, {"unknown command 'cuting'", "did you mean cutting?"});
     refuses({"simulate", "a.toml", "--sed", "3"}, {"unknown option '--sed'", "did you mean --seed?"});
-    refuses({"frobnicate"}, {"unknown command 'frobnicate'", "expected one of simulate, ensemble, replay"});
+    refuses({"frobnicate"}, {"unknown command 'frobnicate'", "expected one of simulate, preview, ensemble"});
 }
 
 TEST(CommandLine, a_missing_argument_is_named) {

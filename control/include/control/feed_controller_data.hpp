@@ -59,7 +59,7 @@ struct CutEstimateForControl {
     bool fresh = false;
     Scalar tooth_periods{1};   ///< tooth periods since the previous estimate
     bool force_valid = false;  ///< there is an F_at from the spindle
-    Scalar tangential_N{0};    ///< F_at over the last tooth period or window, the larger counts
+    Scalar tangential_N{0};    ///< F_at over the last tooth period or window, the larger of the two
     Scalar tangential_sd_N{0};
     bool tooth_force_valid = false;     ///< the immersion behind tooth_force_N is an estimate, not a guess
     bool tooth_force_is_bound = false;  ///< tooth_force_N is an upper bound: no sign of an overload
