@@ -38,7 +38,7 @@ void ToolTick::change_to(std::uint32_t number) {
 
 void ToolTick::take(const hal::DriveSample& sample) {
     const float passed_s = elapsed_s(sample.time_us);
-    if (has_tool()) {
+    if (is_tool_known()) {
         tick_.take(sample);
         return;
     }

@@ -28,7 +28,7 @@ class ToolInputs : public Inputs {
     ToolInputs() {
         std::filesystem::create_directory(path("tools"));
         write("tools/T7.toml", tool_text);
-        write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 350.0"));
+        write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 600.0"));
     }
     [[nodiscard]] std::vector<std::string> with_tools(std::vector<std::string> words) const {
         words.insert(words.end(), {"--machine", name("machine.toml"), "--tools", name("tools")});
@@ -132,7 +132,7 @@ TEST(Tools, serve_changes_the_tool_at_rest_and_says_which_one_it_is) {
     {
         Bridge cnc(inputs.name("a.sock"));
         CHECK_FALSE(cnc.ask(7, 0.0F).tool_unknown);
-        CHECK(cnc.ask(12, 20.0F).tool_unknown);
+        CHECK_FALSE(cnc.ask(12, 20.0F).tool_unknown);  // still tool 7
         CHECK_FALSE(cnc.ask(12, 0.0F).tool_unknown);
         const local_link::OverrideMessage unknown = cnc.ask(9, 0.0F);
         CHECK(unknown.tool_unknown && !unknown.hold);
@@ -145,9 +145,20 @@ TEST(Tools, serve_changes_the_tool_at_rest_and_says_which_one_it_is) {
     LONGS_EQUAL(0, serve.exit_code());
     const std::string& told = serve.error();
     const std::size_t first = told.find("millforce: tool 7\n");
-    const std::size_t second = told.find("millforce: tool 12\n", first);
+    const std::size_t waits = told.find("another tool number: the limits of tool 7 hold until the axes rest\n", first);
+    const std::size_t second = told.find("millforce: tool 12\n", waits);
     const std::size_t none = told.find("tool not known: the override is the operator's\n", second);
     CHECK(told.find("millforce: tool 7\n", none) != std::string::npos);
+}
+
+TEST(Tools, the_check_at_the_start_sees_each_tool_of_the_folder) {
+    inputs.write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 5.0"));
+    Program serve(inputs.with_tools({"serve", inputs.name("a.sock")}));
+    { Bridge cnc(inputs.name("a.sock")); }
+    serve.interrupt(SIGTERM);
+    serve.wait();
+    CHECK(contains(serve.error(), "millforce: tool 12: error: contact is seen from 10 N on"));
+    CHECK_FALSE(contains(serve.error(), "tool 7: "));
 }
 
 TEST(Tools, serve_refuses_the_bridge_of_an_older_layout_by_its_version) {
