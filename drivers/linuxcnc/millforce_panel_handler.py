@@ -26,9 +26,12 @@ def load_colour(percent):
 
 
 class HandlerClass:
+    """qtvcp gives the window all these methods, too: none may have the name of one that a window of Qt has."""
+
     def __init__(self, halcomp, widgets, _paths):
         self.hal, self.w = halcomp, widgets
         self.pins = {}
+        self.values = {}
         self.timer = QtCore.QTimer()
 
     def initialized__(self):
@@ -38,48 +41,46 @@ class HandlerClass:
         reset = self.hal.newpin("millforce-reset", hal.HAL_BIT, hal.HAL_OUT)
         self.w.millforce_reset.pressed.connect(lambda: reset.set(True))
         self.w.millforce_reset.released.connect(lambda: reset.set(False))
-        self.timer.timeout.connect(self.show)
+        self.timer.timeout.connect(self.refresh)
         self.timer.start(PERIOD_MS)
 
-    def value(self, name):
-        return self.pins[name].get()
-
-    def number(self, name, digits):
+    def estimate_text(self, name, digits):
         """A quantity whose pin NAME-valid says whether there is an estimate."""
-        return f"{self.value(name):.{digits}f}" if self.value(name + "-valid") else NO_ESTIMATE
+        return f"{self.values[name]:.{digits}f}" if self.values[name + "-valid"] else NO_ESTIMATE
 
-    def show(self):
-        self.show_bars()
-        limit_N = self.value("tooth-limit")
-        tool = self.value("tool")
-        for name, text in {"tooth_force": self.number("tooth-force", 0),
+    def refresh(self):
+        self.values = {name: pin.get() for name, pin in self.pins.items()}
+        self.refresh_bars()
+        limit_N = self.values["tooth-limit"]
+        tool = self.values["tool"]
+        for name, text in {"tooth_force": self.estimate_text("tooth-force", 0),
                            "tooth_limit": f"{limit_N:.0f}" if limit_N > 0.0 else NO_ESTIMATE,
-                           "tangential_force": f"{self.value('tangential-force'):.0f}",
-                           "feed_force": f"{self.value('feed-force'):.0f}",
-                           "immersion": self.number("immersion", 2),
-                           "depth": self.number("depth", 1),
+                           "tangential_force": f"{self.values['tangential-force']:.0f}",
+                           "feed_force": f"{self.values['feed-force']:.0f}",
+                           "immersion": self.estimate_text("immersion", 2),
+                           "depth": self.estimate_text("depth", 1),
                            "tool": str(tool) if tool > 0 else NO_ESTIMATE,
-                           "state": word(STATES, self.value("state")),
-                           "fault": word(FAULTS, self.value("fault")),
-                           "reason": word(REASONS, self.value("reason"))}.items():
-            self.w["millforce_" + name].setText(text)
-        self.show_lamps()
+                           "state": word(STATES, self.values["state"]),
+                           "fault": word(FAULTS, self.values["fault"]),
+                           "reason": word(REASONS, self.values["reason"])}.items():
+            getattr(self.w, "millforce_" + name).setText(text)
+        self.refresh_lamps()
 
-    def show_bars(self):
-        limit_N = self.value("tooth-limit")
-        is_known = limit_N > 0.0 and self.value("tooth-force-valid")
-        percent = round(100.0 * self.value("tooth-force") / limit_N) if is_known else 0
-        self.w.millforce_override.setValue(round(100.0 * self.value("override")))
+    def refresh_bars(self):
+        limit_N = self.values["tooth-limit"]
+        is_known = limit_N > 0.0 and self.values["tooth-force-valid"]
+        percent = round(100.0 * self.values["tooth-force"] / limit_N) if is_known else 0
+        self.w.millforce_override.setValue(round(100.0 * self.values["override"]))
         load = self.w.millforce_load
         load.setValue(min(percent, load.maximum()))
         load.setFormat(f"{percent} %" if is_known else NO_ESTIMATE)
         load.setStyleSheet(f"QProgressBar::chunk {{ background: {load_colour(percent)} }}")
 
-    def show_lamps(self):
+    def refresh_lamps(self):
         """Each is seen while there is something to say."""
-        self.w.millforce_not_connected.setVisible(not self.value("connected"))
-        self.w.millforce_stopped.setVisible(self.value("stopped"))
-        self.w.millforce_tool_unknown.setVisible(self.value("tool-unknown"))
+        self.w.millforce_not_connected.setVisible(not self.values["connected"])
+        self.w.millforce_stopped.setVisible(self.values["stopped"])
+        self.w.millforce_tool_unknown.setVisible(self.values["tool-unknown"])
 
 
 def get_handlers(halcomp, widgets, paths):

@@ -67,13 +67,14 @@ def hang_controller(drive):
 
 
 def main():
+    os.environ["DISPLAY"] = os.environ["MILLFORCE_SCREEN"]
     subprocess.run(["halcmd", "loadusr", "-Wn", "qtvcp", "qtvcp", "-c", "qtvcp", "-g", "340x560+0+0", "-u",
                     "panel_probe_handler.py", "millforce_panel"], check=True, timeout=120)
     halcmd("-i", os.environ["INI_FILE_NAME"], "-f", "millforce_panel_qtvcp.hal")
     drive = Drive()
     drive.make_ready()
     drive.start(linuxcnc.ini(os.environ["INI_FILE_NAME"]).find("DISPLAY", "OPEN_FILE"))
-    drive.until("the panel says that the tool is not known", lambda: "tool_unknown" in seen(), 300.0)
+    drive.until("the panel says that T2 is not known", lambda: seen().get("tool") == "2" and "tool_unknown" in seen(), 300.0)
     wait_cycles(500)
     hang_controller(drive)
     if seen().get("reason") != "HEARTBEAT":

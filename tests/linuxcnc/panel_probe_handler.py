@@ -11,8 +11,8 @@ import millforce_panel_handler as panel
 class HandlerClass(panel.HandlerClass):
     seen = None
 
-    def show(self):
-        super().show()
+    def refresh(self):
+        super().refresh()
         seen = {widget.objectName().removeprefix("millforce_"): widget.text()
                 for kind in (QtWidgets.QLabel, QtWidgets.QProgressBar) for widget in self.w.findChildren(kind)
                 if widget.objectName().startswith("millforce_") and widget.isVisible()}

@@ -13,15 +13,16 @@ using namespace millforce::vcan;
 
 namespace {
 
-/// A slot of 3 × 10 mm between two rests; the last one is longer than any test.
+/// A slot of 3 × 10 mm, 16 s long, between rests; the last one is longer than any test.
 const std::string part = R"(G21 G90 G94
 S2000 M3
-G4 P3
-G1 X45 F1500
+G4 P1
+G0 X-8
+G1 X185 F1500
 G0 Z20
-G4 P3
-G0 X-30
-G4 P120
+G4 P30
+G0 X-40
+G4 P600
 M5
 M30
 )";
@@ -33,11 +34,11 @@ seed = 5
 [stock]
 min_x_mm = 0
 min_y_mm = -12
-max_x_mm = 60
+max_x_mm = 200
 max_y_mm = 12
 top_mm = 0
 cell_mm = 0.1
-start_x_mm = -30
+start_x_mm = -40
 start_y_mm = 0
 start_z_mm = -3
 [material]
@@ -57,15 +58,15 @@ class ToolsFolder : public LiveFolder {
         write("tools/T7.toml", text("tool.toml"));
         write("tools/T12.toml", text("tool.toml"));
     }
-    [[nodiscard]] std::vector<std::string> files() const {
-        return {"--machine", file("machine.toml"), "--tools", file("tools")};
-    }
     [[nodiscard]] std::vector<std::string> run_words() const {
-        std::vector<std::string> words{"run",   "vcan0",           "--log",
-                                       file("run.jsonl"), "--record", file("run.log")};
-        for (const std::string& word : files()) {
-            words.push_back(word);
-        }
+        return with_tools({"run", "vcan0", "--log", file("run.jsonl"), "--record", file("run.log")});
+    }
+    [[nodiscard]] std::vector<std::string> replay_words() const {
+        return with_tools({"replay", file("run.log"), "-o", file("replay.csv"), "--verify", file("run.jsonl")});
+    }
+    [[nodiscard]] std::vector<std::string> plant_words() const {
+        std::vector<std::string> words = LiveFolder::plant_words();
+        words.emplace_back("--lock-step");
         return words;
     }
     [[nodiscard]] std::vector<std::string> estimates_with(const std::string& member) const {
@@ -77,9 +78,20 @@ class ToolsFolder : public LiveFolder {
         }
         return found;
     }
+    /// The newest estimate is by this tool.
+    [[nodiscard]] bool has_tool(const std::string& number) const {
+        const std::vector<std::string> estimates = estimates_with("");
+        return !estimates.empty() && member(estimates.back(), "tool") == number;
+    }
+
+  private:
+    [[nodiscard]] std::vector<std::string> with_tools(std::vector<std::string> words) const {
+        words.insert(words.end(), {"--machine", file("machine.toml"), "--tools", file("tools"), "--lock-step"});
+        return words;
+    }
 };
 
-/// The CNC's frame with the number of the tool, every 50 ms from now on.
+/// The CNC's frame with the number of the tool, from now on: every 2 ms, as the bus may run faster than time.
 class ToolTeller {
   public:
     void tell(std::uint32_t number) {
@@ -89,7 +101,7 @@ class ToolTeller {
             std::snprintf(digits.data(), digits.size(), "%02X", static_cast<unsigned>(byte));
             hex += digits.data();
         }
-        sender_ = std::make_unique<Child>("cangen vcan0 -g 50 -I 2FD -L 8 -D " + hex);
+        sender_ = std::make_unique<Child>("cangen vcan0 -g 2 -I 2FD -L 8 -D " + hex);
     }
     void tell_none() { sender_.reset(); }
 
@@ -103,13 +115,25 @@ TEST_GROUP(RunWithTools) {
     ToolsFolder folder;
     ToolTeller cnc;
 
-    void replays() {
-        std::vector<std::string> words{"replay",   folder.file("run.log"),   "-o", folder.file("replay.csv"),
-                                       "--verify", folder.file("run.jsonl")};
-        for (const std::string& word : folder.files()) {
-            words.push_back(word);
+    [[nodiscard]] bool is_in_cut() const {
+        return wait_until([&] { return folder.estimates_with("\"state\":\"in_cut\"").size() > 5; });
+    }
+    static void end(test::Program & controller, test::Program & plant) {
+        controller.interrupt(SIGTERM);
+        controller.wait();
+        plant.interrupt(SIGTERM);
+        plant.wait();
+        LONGS_EQUAL(0, controller.exit_code());
+    }
+    /// The whole cut by the limits of tool 7; the operator's override is 1.
+    void judge_cut() const {
+        for (const std::string& line : folder.estimates_with("\"state\":\"in_cut\"")) {
+            STRCMP_EQUAL("7", member(line, "tool").c_str());
+            CHECK(std::stod(member(line, "override")) < 0.9);
         }
-        const test::Ended replay = test::run_millforce(words);
+    }
+    void replays() const {
+        const test::Ended replay = test::run_millforce(folder.replay_words());
         STRCMP_CONTAINS("bit for bit", replay.out.c_str());
         LONGS_EQUAL(0, replay.exit_code);
     }
@@ -119,25 +143,17 @@ TEST(RunWithTools, the_tool_frame_changes_the_tool_at_rest_and_none_in_a_cut) {
     cnc.tell(7);
     test::Program controller(folder.run_words());
     test::Program plant(folder.plant_words());
-    CHECK(wait_until([&] { return folder.estimates_with("\"state\":\"in_cut\"").size() > 5; }));
+    CHECK(is_in_cut());
     cnc.tell(12);
     CHECK(folder.logged("\"tool_change_due\""));
-    CHECK(wait_until([&] { return !folder.estimates_with("\"tool\":12").empty(); }));
+    CHECK(wait_until([&] { return folder.has_tool("12"); }));
     cnc.tell(99);
     CHECK(folder.logged("\"tool_unknown\""));
-    CHECK(wait_until([&] { return folder.estimates_with("\"tool\":0,").size() > 5; }));
+    CHECK(wait_until([&] { return folder.has_tool("0"); }));
     cnc.tell(7);
-    CHECK(wait_until([&] { return member(folder.estimates_with("").back(), "tool") == "7"; }));
-    controller.interrupt(SIGTERM);
-    controller.wait();
-    plant.interrupt(SIGTERM);
-    plant.wait();
-    LONGS_EQUAL(0, controller.exit_code());
-    const std::vector<std::string> in_cut = folder.estimates_with("\"state\":\"in_cut\"");
-    for (const std::string& line : in_cut) {
-        STRCMP_EQUAL("7", member(line, "tool").c_str());
-        CHECK(std::stod(member(line, "override")) < 0.9);  // the operator's is 1
-    }
+    CHECK(wait_until([&] { return folder.has_tool("7"); }));
+    end(controller, plant);
+    judge_cut();
     for (const std::string& line : folder.estimates_with("\"tool\":0,")) {
         STRCMP_EQUAL("1", member(line, "override").c_str());
         STRCMP_EQUAL("", member(line, "tangential_force_N").c_str());
@@ -151,18 +167,11 @@ TEST(RunWithTools, a_cnc_that_stops_telling_the_tool_in_a_cut_keeps_its_limits_t
     cnc.tell(7);
     test::Program controller(folder.run_words());
     test::Program plant(folder.plant_words());
-    CHECK(wait_until([&] { return folder.estimates_with("\"state\":\"in_cut\"").size() > 5; }));
+    CHECK(is_in_cut());
     cnc.tell_none();
     CHECK(folder.logged("\"tool_change_due\""));
-    CHECK(folder.logged("\"tool_unknown\""));
-    controller.interrupt(SIGTERM);
-    controller.wait();
-    plant.interrupt(SIGTERM);
-    plant.wait();
-    for (const std::string& line : folder.estimates_with("\"state\":\"in_cut\"")) {
-        STRCMP_EQUAL("7", member(line, "tool").c_str());
-        CHECK(std::stod(member(line, "override")) < 0.9);
-    }
-    CHECK_FALSE(folder.estimates_with("\"tool\":0,").empty());
+    CHECK(wait_until([&] { return folder.has_tool("0"); }));
+    end(controller, plant);
+    judge_cut();
     replays();
 }
