@@ -158,8 +158,8 @@ TEST(RunWithTools, the_tool_frame_changes_the_tool_at_rest_and_none_in_a_cut) {
         STRCMP_EQUAL("1", member(line, "override").c_str());
         STRCMP_EQUAL("", member(line, "tangential_force_N").c_str());
     }
-    STRCMP_CONTAINS("tool_change_due (", controller.error().c_str());
-    STRCMP_CONTAINS("tool_unknown (", controller.error().c_str());
+    STRCMP_CONTAINS("vcan0: tool_change_due\n", controller.error().c_str());
+    STRCMP_CONTAINS("vcan0: tool_unknown", controller.error().c_str());
     replays();
 }
 
