@@ -13,12 +13,12 @@ using namespace millforce::vcan;
 
 namespace {
 
-/// A slot of 3 × 10 mm, 16 s long, between rests; the last one is longer than any test.
+/// A slot of 3 × 10 mm, 9 s long, between rests; the last one is longer than any test.
 const std::string part = R"(G21 G90 G94
 S2000 M3
 G4 P1
 G0 X-8
-G1 X185 F1500
+G1 X105 F1500
 G0 Z20
 G4 P30
 G0 X-40
@@ -34,7 +34,7 @@ seed = 5
 [stock]
 min_x_mm = 0
 min_y_mm = -12
-max_x_mm = 200
+max_x_mm = 120
 max_y_mm = 12
 top_mm = 0
 cell_mm = 0.1
