@@ -68,7 +68,7 @@ def hang_controller(drive):
 
 def main():
     os.environ["DISPLAY"] = os.environ["MILLFORCE_SCREEN"]
-    subprocess.run(["halcmd", "loadusr", "-Wn", "qtvcp", "qtvcp", "-c", "qtvcp", "-g", "340x560+0+0", "-u",
+    subprocess.run(["halcmd", "loadusr", "-Wn", "qtvcp", "qtvcp", "-c", "qtvcp", "-g", "340x470+0+0", "-u",
                     "panel_probe_handler.py", "millforce_panel"], check=True, timeout=120)
     halcmd("-i", os.environ["INI_FILE_NAME"], "-f", "millforce_panel_qtvcp.hal")
     drive = Drive()
