@@ -36,6 +36,11 @@ class ToolInputs : public Inputs {
     }
 };
 
+const std::string machine_on_bus_without_program_status =
+    with(machine_text, "[x]\n", "[x]\nrated_current_A = 12\n") +
+    "[bus]\nprogram_status_id = 0\n[bus.x]\nnode_id = 2\n"
+    "tpdo1 = [\"0x606C:32\", \"0x6078:16\"]\nvelocity_mm_s_per_unit = 0.001\n";
+
 /// A CNC's bridge: connects when the socket is there.
 class Bridge {
   public:
@@ -157,8 +162,12 @@ TEST(Tools, the_check_at_the_start_sees_each_tool_of_the_folder) {
     { Bridge cnc(inputs.name("a.sock")); }
     serve.interrupt(SIGTERM);
     serve.wait();
-    CHECK(contains(serve.error(), "millforce: tool 12: error: contact is seen from 10 N on"));
-    CHECK_FALSE(contains(serve.error(), "tool 7: "));
+    inputs.write("machine.toml", machine_on_bus_without_program_status);
+    const std::string run_error = run_millforce(inputs.with_tools({"run", "vcan0"})).error;
+    for (const std::string& error : {serve.error(), run_error}) {
+        CHECK(contains(error, "millforce: tool 12: error: contact is seen from 10 N on"));
+        CHECK_FALSE(contains(error, "tool 7: "));
+    }
 }
 
 TEST(Tools, serve_refuses_the_bridge_of_an_older_layout_by_its_version) {
@@ -197,9 +206,7 @@ TEST(Tools, one_tool_or_a_folder_must_be_given_and_a_part_map_is_for_one_tool) {
 }
 
 TEST(Tools, a_bus_without_a_program_status_cannot_tell_a_tool) {
-    inputs.write("machine.toml", with(machine_text, "[x]\n", "[x]\nrated_current_A = 12\n") +
-                                     "[bus]\nprogram_status_id = 0\n[bus.x]\nnode_id = 2\n"
-                                     "tpdo1 = [\"0x606C:32\", \"0x6078:16\"]\nvelocity_mm_s_per_unit = 0.001\n");
+    inputs.write("machine.toml", machine_on_bus_without_program_status);
     const Ended ended = run_millforce(inputs.with_tools({"run", "vcan0"}));
     STRCMP_EQUAL("", not_refused(ended, {"--tools", "machine.toml: bus.program_status_id = 0"}).c_str());
 }
