@@ -13,14 +13,16 @@ void ToolTick::follow_tool(std::uint32_t number, bool axes_rest) {
     const bool is_first = !has_begun_;
     has_begun_ = true;
     told_ = number;
-    if (tools_ != nullptr && number != number_ && (is_first || (axes_rest && may_change()))) {
+    if (tools_ != nullptr && number != number_ && (is_first || (axes_rest && may_change_to(number)))) {
         change_to(number);
     }
 }
 
-bool ToolTick::may_change() const {
+/// A dwell in the workpiece ends in `exit`, and a number that was lost must not free the feed there.
+bool ToolTick::may_change_to(std::uint32_t number) const {
     const control::ControlOutput<float>& last = tick_.control();
-    return last.fault == control::Fault::none && !control::is_cutting(last.state);
+    const bool is_out = tools_->has(number) ? !control::is_cutting(last.state) : last.state == control::CutState::air;
+    return last.fault == control::Fault::none && is_out;
 }
 
 void ToolTick::change_to(std::uint32_t number) {

@@ -134,6 +134,19 @@ TEST(ToolTick, holds_the_last_tools_limits_through_a_cut_in_which_the_number_is_
     }
 }
 
+TEST(ToolTick, holds_the_last_tools_limits_through_a_dwell_in_the_workpiece_after_the_number_was_lost) {
+    mill.number = weak;
+    mill.run(Motion::air, 500);
+    mill.run(Motion::cut, 1000);
+    mill.number = 0;
+    mill.run(Motion::rest, 3000);
+    UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
+    CHECK(mill.run(Motion::cut, 1000).ratio < 0.5F * operators_override);
+    mill.run(Motion::air, 1000);
+    mill.run(Motion::rest, 10);
+    UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
+}
+
 TEST(ToolTick, still_faults_by_the_last_tools_limits_after_the_number_was_lost_in_a_cut) {
     mill.run(Motion::air, 500);
     mill.run(Motion::cut, 1000);

@@ -18,9 +18,9 @@
 /// and the override does not jump up in one. Until then it is by the limits of the last tool, and never above the
 /// operator's.
 ///
-/// The tool is not known where the axes rest and the number is 0 or not in the source. Then the override is the
-/// operator's, as with monitor_only: never one by the limits of the last tool. The tick sees the samples' time alone:
-/// it estimates and learns nothing.
+/// The tool is not known where the axes rest in the state `air` and the number is 0 or not in the source: a dwell in
+/// the workpiece is not enough. Then the override is the operator's, as with monitor_only: never one by the limits of
+/// the last tool. The tick sees the samples' time alone: it estimates and learns nothing.
 ///
 /// A fault comes first: it holds the feed until its reset, and the tool changes after that.
 ///
@@ -56,7 +56,7 @@ class ToolTick {
     [[nodiscard]] const ForceControlTick<float>& of_tool() const { return tick_; }
 
   private:
-    [[nodiscard]] bool may_change() const;
+    [[nodiscard]] bool may_change_to(std::uint32_t number) const;
     void change_to(std::uint32_t number);
     [[nodiscard]] float elapsed_s(std::uint32_t time_us);
     hal::FeedOverride passed_on(hal::FeedOverride output, const hal::ProgramStatus& program);
