@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "bus/can_port.hpp"
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
-#include "daemon/bus_clock.hpp"
-#include "daemon/can_port.hpp"
 #include "loop/override_source.hpp"
+#include "run_log/bus_clock.hpp"
 
 namespace millforce::sim {
 

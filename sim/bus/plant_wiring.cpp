@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::sim {
 

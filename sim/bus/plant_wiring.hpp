@@ -6,8 +6,8 @@
 #include "bus/cnc_on_bus.hpp"
 #include "bus/machine_on_bus.hpp"
 #include "bus/plant_on_can.hpp"
-#include "files/machine_bus.hpp"
 #include "loop/scenario.hpp"
+#include "parameters/machine_bus.hpp"
 
 namespace millforce::sim {
 

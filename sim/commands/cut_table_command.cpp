@@ -12,8 +12,8 @@
 #include "estimation/cutting/cut_geometry.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
-#include "files/parameter_choices.hpp"
 #include "loop/scenario.hpp"
+#include "parameters/parameter_choices.hpp"
 
 namespace millforce::sim {
 

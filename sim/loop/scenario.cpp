@@ -6,8 +6,8 @@
 #include "cutting/angle_units.hpp"
 #include "cutting/oblique_cutting.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
 #include "files/toml_reader.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::sim {
 

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "files/parameter_files.hpp"
 #include "judging/judge.hpp"
+#include "parameters/parameter_files.hpp"
 #include "percent.hpp"
 
 /// Prints how the estimates of many drawn cuts hold against the truth: judging_table [CUTS] [FIRST_SEED].

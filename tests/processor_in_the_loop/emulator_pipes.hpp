@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace millforce {
 

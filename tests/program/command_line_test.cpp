@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs.hpp"
 
-#include "files/parameter_table.hpp"
+#include "parameters/parameter_table.hpp"
 
 #include <CppUTest/TestHarness.h>
 

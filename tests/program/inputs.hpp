@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "firmware/program/files/temporary_folder.hpp"
 #include "program.hpp"
+#include "temporary_folder.hpp"
 
 #include <string>
 

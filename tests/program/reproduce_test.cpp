@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/program/files/temporary_folder.hpp"
 #include "program.hpp"
 #include "sim/report/json_check.hpp"
+#include "temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "files/parameter_files.hpp"
 #include "judging/judge.hpp"
+#include "parameters/parameter_files.hpp"
 
 #include <CppUTest/TestHarness.h>
 

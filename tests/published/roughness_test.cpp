@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimation/surface/roughness.hpp"
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_files.hpp"
 #include "reproduction_checks.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Two kinds of targets. Core targets (hal, estimation, control, the tick) run on the drive controller: no exceptions,
 # no RTTI, and a build-time search for the words that the core must not contain. Host targets may use all of C++20.
-# An include path is a permission: a target sees its own folder and what it links, nothing else.
+# A target includes its own headers and those of what it links, nothing else: in the core the include paths see to that,
+# for folders of the host check-includes does.
 
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 if(NOT CMAKE_CROSSCOMPILING)

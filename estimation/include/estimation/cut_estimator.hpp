@@ -2,15 +2,15 @@
 #pragma once
 
 #include "estimation/cut_estimate.hpp"
-#include "estimation/cutting/engagement_peaks.hpp"
-#include "estimation/cutting/tooth_force.hpp"
-#include "estimation/cutting/total_force.hpp"
 #include "estimation/drives/machine_drives.hpp"
 #include "estimation/engagement/depth_memory.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
+#include "estimation/engagement/force_memory.hpp"
 #include "estimation/signal/encoder_angle.hpp"
-#include "estimation/signal/force_memory.hpp"
 #include "estimation/signal/synchronous_average.hpp"
+#include "estimation/tooth_force/engagement_peaks.hpp"
+#include "estimation/tooth_force/tooth_force.hpp"
+#include "estimation/tooth_force/total_force.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "estimation/cut_estimator.hpp"
-#include "estimation/cutting/engagement_peaks_impl.hpp"
-#include "estimation/cutting/tooth_force_impl.hpp"
 #include "estimation/engagement/engagement_solver_impl.hpp"
 #include "estimation/signal/synchronous_average_impl.hpp"
+#include "estimation/tooth_force/engagement_peaks_impl.hpp"
+#include "estimation/tooth_force/tooth_force_impl.hpp"
 
 #include <cmath>
 

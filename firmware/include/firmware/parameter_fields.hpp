@@ -8,8 +8,8 @@
 #include <type_traits>
 
 /// Every parameter once: its file, table and key as in TOML, its field, its range. Host and target walk through the
-/// parameters by this list; units and sentences are the host's alone (files/parameter_table.cpp). Defaults stand in
-/// parameters.hpp.
+/// parameters by this list; units and sentences are the host's alone (parameters/parameter_table.cpp). Defaults stand
+/// in parameters.hpp.
 
 namespace millforce::firmware {
 

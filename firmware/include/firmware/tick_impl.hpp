@@ -24,7 +24,7 @@ static Scalar contact_current_A(const Parameters<Scalar>& p) {
 template <typename Scalar, typename WideBand>
 ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
     : estimator_(estimator_settings(parameters), spindle_parameters(parameters.machine), parameters.machine.axes,
-                 parameters.tool.law),
+                 estimator_law(parameters.tool)),
       wide_band_(parameters),
       surface_(parameters.tool),
       supervisor_(parameters),

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "estimation/cutting/total_force.hpp"
+#include "estimation/tooth_force/total_force.hpp"
 #include "firmware/parameters.hpp"
 #include "hal/feed_override.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "files/parameter_table.hpp"
+#include "parameters/parameter_table.hpp"
 
 namespace millforce::host {
 

@@ -9,7 +9,7 @@
 #include "calibration/plausible_units.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_files.hpp"
 
 #include <fmt/format.h>
 

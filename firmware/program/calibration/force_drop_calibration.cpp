@@ -12,9 +12,9 @@
 #include "estimation_calibration/force_drop_calibration.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
 #include "firmware/parameter_fields.hpp"
 #include "firmware/wide_band_settings.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
 

@@ -8,7 +8,7 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_table.hpp"
+#include "parameters/parameter_table.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "calibration/coefficient_library.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
-#include "files/parameter_table.hpp"
+#include "parameters/parameter_files.hpp"
+#include "parameters/parameter_table.hpp"
 
 #include <fmt/format.h>
 

@@ -10,8 +10,8 @@
 #include "estimation/depth_shape/depth_monitor.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
 #include "firmware/wide_band_settings.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
 

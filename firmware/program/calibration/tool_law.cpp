@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/estimate.hpp"
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
 

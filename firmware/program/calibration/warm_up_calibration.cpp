@@ -8,8 +8,8 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
 #include "files/progress.hpp"
+#include "parameters/parameter_files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "files/drive_names.hpp"
 #include "firmware/parameters.hpp"
+#include "parameters/drive_names.hpp"
 
 #include <string>
 #include <string_view>

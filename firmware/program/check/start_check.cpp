@@ -7,7 +7,7 @@
 
 #include "check/check_parameters.hpp"
 #include "files/console.hpp"
-#include "files/parameter_notes.hpp"
+#include "parameters/parameter_notes.hpp"
 
 namespace millforce::host {
 

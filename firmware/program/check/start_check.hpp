@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "files/tool_set.hpp"
+#include "parameters/tool_set.hpp"
 
 namespace millforce::host {
 

@@ -18,7 +18,7 @@
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "files/overwriting.hpp"
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
 

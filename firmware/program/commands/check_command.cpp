@@ -8,9 +8,9 @@
 #include "check/check_recording.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
-#include "files/machine_bus.hpp"
-#include "files/parameter_files.hpp"
-#include "files/parameter_notes.hpp"
+#include "parameters/machine_bus.hpp"
+#include "parameters/parameter_files.hpp"
+#include "parameters/parameter_notes.hpp"
 
 namespace millforce::host {
 

@@ -9,8 +9,8 @@
 #include <cstdio>
 
 #include "commands/usage.hpp"
-#include "daemon/bus_clock.hpp"
-#include "files/tool_set.hpp"
+#include "parameters/tool_set.hpp"
+#include "run_log/bus_clock.hpp"
 
 namespace millforce::host {
 

@@ -22,6 +22,7 @@ class Option;
 
 namespace millforce::host {
 
+struct BusPace;
 struct ToolChoice;
 
 /// One option or positional argument, as returned by Command. Refers to its program; cheap to copy.
@@ -103,10 +104,6 @@ extern template Option Command::option(const std::string&, std::vector<std::file
 void add_tools(Command& command, ToolChoice& tools);
 
 /// --slow-motion and --lock-step, of the commands on a bus.
-struct BusPace {
-    std::uint32_t slow_motion = 1;
-    bool lock_step = false;
-};
 void add_bus_pace(Command& command, BusPace& pace);
 
 /// The program with its commands.

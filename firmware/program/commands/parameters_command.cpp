@@ -7,8 +7,8 @@
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_block_file.hpp"
-#include "files/parameter_files.hpp"
+#include "parameters/parameter_block_file.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
 

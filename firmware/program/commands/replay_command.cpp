@@ -13,22 +13,22 @@
 
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
-#include "daemon/tool_forces.hpp"
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/overwriting.hpp"
-#include "files/parameter_files.hpp"
-#include "files/parameter_notes.hpp"
 #include "files/progress.hpp"
-#include "files/tool_set.hpp"
 #include "firmware/tick_record.hpp"
 #include "firmware/tool_tick.hpp"
 #include "firmware/wide_band_settings.hpp"
+#include "parameters/parameter_files.hpp"
+#include "parameters/parameter_notes.hpp"
+#include "parameters/tool_set.hpp"
 #include "recording/recording.hpp"
 #include "replay/estimate_rows.hpp"
 #include "replay/replay_candump.hpp"
 #include "replay/replay_findings.hpp"
+#include "run_log/tool_forces.hpp"
 
 namespace millforce::host {
 

@@ -14,9 +14,9 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/machine_bus.hpp"
-#include "files/parameter_files.hpp"
-#include "files/tool_set.hpp"
+#include "parameters/machine_bus.hpp"
+#include "parameters/parameter_files.hpp"
+#include "parameters/tool_set.hpp"
 
 namespace millforce::host {
 

@@ -15,9 +15,9 @@
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
-#include "files/tool_set.hpp"
 #include "firmware_link/link_controller.hpp"
+#include "parameters/parameter_files.hpp"
+#include "parameters/tool_set.hpp"
 #include "part_map/map_follower.hpp"
 #include "part_map/part_map_file.hpp"
 

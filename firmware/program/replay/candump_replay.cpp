@@ -8,9 +8,9 @@
 
 #include "candump/log_line.hpp"
 #include "cia402/objects.hpp"
-#include "daemon/bus_names.hpp"
-#include "daemon/local_line.hpp"
 #include "files/input_error.hpp"
+#include "run_log/bus_names.hpp"
+#include "run_log/local_line.hpp"
 
 namespace millforce::host {
 

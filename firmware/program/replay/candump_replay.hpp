@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "daemon/bus_clock.hpp"
-#include "files/machine_bus.hpp"
 #include "firmware_can/can_controller.hpp"
+#include "parameters/machine_bus.hpp"
+#include "run_log/bus_clock.hpp"
 
 namespace millforce::host {
 

@@ -11,9 +11,9 @@
 
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
-#include "files/machine_bus.hpp"
-#include "files/parameter_files.hpp"
 #include "files/progress.hpp"
+#include "parameters/machine_bus.hpp"
+#include "parameters/parameter_files.hpp"
 #include "replay/candump_replay.hpp"
 #include "replay/estimate_rows.hpp"
 #include "replay/run_check.hpp"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "commands/command_line.hpp"
-#include "files/tool_set.hpp"
+#include "parameters/tool_set.hpp"
+#include "run_log/bus_clock.hpp"
 
 namespace millforce::host {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "daemon/json_lines.hpp"
 #include "files/input_error.hpp"
+#include "run_log/estimate_line.hpp"
 
 namespace millforce::host {
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include "daemon/estimate_entry.hpp"
-#include "daemon/tool_forces.hpp"
+#include "run_log/estimate_entry.hpp"
+#include "run_log/tool_forces.hpp"
 
 namespace millforce::host {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/program/files/temporary_folder.hpp"
 #include "iio/adc_currents.hpp"
+#include "temporary_folder.hpp"
 
 /// A folder that looks as a device of Linux IIO does, with a FIFO in the place of /dev/iio:device0.
 

@@ -12,11 +12,11 @@
 #include "bus/loopback_bus.hpp"
 #include "bus/machine_on_bus.hpp"
 #include "bus/plant_wiring.hpp"
-#include "files/machine_bus.hpp"
-#include "files/parameter_files.hpp"
 #include "firmware_can/can_controller.hpp"
 #include "loop/override_source.hpp"
 #include "loop/scenario.hpp"
+#include "parameters/machine_bus.hpp"
+#include "parameters/parameter_files.hpp"
 
 /// The whole controller, a machine's drives and a CNC on one bus in memory, in virtual time.
 

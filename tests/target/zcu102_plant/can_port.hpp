@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "daemon/can_port.hpp"
+#include "bus/can_port.hpp"
 #include "target/zcu102_plant/emulated_time.hpp"
 #include "zynqmp/can_controller.hpp"
 

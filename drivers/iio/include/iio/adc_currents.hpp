@@ -46,7 +46,7 @@ struct AdcChannel {
     float largest_A = 0.0F;  ///< beyond it the value is not used
 };
 
-/// Defaults of what machine.toml gives are the program's (files/local_io.hpp).
+/// Defaults of what machine.toml gives are the program's (parameters/local_io.hpp).
 struct AdcSettings {
     Path device{};  ///< folder in sysfs: /sys/bus/iio/devices/iio:device0
     Path buffer{};  ///< /dev/iio:device0; buffered mode

@@ -18,7 +18,7 @@ namespace millforce::iio {
 /// fault, when the ratio is not finite, when no ticks come, and after this object's end.
 /// A converter keeps its last value when this program is killed or its processor stops: a voltage proves nothing.
 /// A CNC that follows it must also watch a sign of life: the pulse of gpio::FeedHoldLine, or the CAN heartbeat.
-/// Defaults of what machine.toml gives are the program's (files/local_io.hpp).
+/// Defaults of what machine.toml gives are the program's (parameters/local_io.hpp).
 struct AnalogueOverrideSettings {
     Path device{};          ///< folder in sysfs
     ChannelName channel{};  ///< `voltage0`

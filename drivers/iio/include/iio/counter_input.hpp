@@ -10,7 +10,7 @@ namespace millforce::iio {
 
 /// An encoder at a counter of Linux, read as a file: the counter subsystem's
 /// /sys/bus/counter/devices/counter0/count0/count, or IIO's in_count0_raw. Defaults are the program's
-/// (files/local_io.hpp).
+/// (parameters/local_io.hpp).
 struct CounterSettings {
     Path count_file{};
     std::uint32_t modulus = 0;       ///< counts after which it begins again at 0: the file `ceiling` plus 1; 0: 2³²

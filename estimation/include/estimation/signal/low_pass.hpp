@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "estimation/depth_shape/detail/phasor.hpp"
 #include "estimation/number/circle.hpp"
+#include "estimation/number/phasor.hpp"
 
 #include <cmath>
 

@@ -5,11 +5,11 @@
 #include <atomic>
 #include <cstdint>
 
-#include "daemon/bus_clock.hpp"
 #include "daemon/journal.hpp"
 #include "daemon/latency.hpp"
-#include "files/machine_bus.hpp"
 #include "firmware_can/can_controller.hpp"
+#include "parameters/machine_bus.hpp"
+#include "run_log/bus_clock.hpp"
 #include "socketcan/can_socket.hpp"
 
 namespace millforce::host {

@@ -7,11 +7,11 @@
 #include <chrono>
 #include <cstring>
 
-#include "daemon/candump_line.hpp"
-#include "daemon/json_lines.hpp"
-#include "daemon/local_line.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "run_log/candump_line.hpp"
+#include "run_log/estimate_line.hpp"
+#include "run_log/local_line.hpp"
 
 namespace millforce::host {
 

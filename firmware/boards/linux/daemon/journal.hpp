@@ -10,13 +10,10 @@
 #include <thread>
 #include <variant>
 
-#include "daemon/estimate_entry.hpp"
-#include "daemon/local_drives.hpp"
-#include "daemon/local_outputs.hpp"
 #include "daemon/spsc_ring.hpp"
-#include "daemon/tool_forces.hpp"
-#include "firmware_can/can_controller.hpp"
-#include "socketcan/can_socket.hpp"
+#include "daemon/status_lines.hpp"
+#include "run_log/estimate_entry.hpp"
+#include "run_log/tool_forces.hpp"
 
 namespace millforce::host {
 
@@ -26,23 +23,6 @@ struct JournalSettings {
     std::string log_file;      ///< JSON lines; empty: none
     bool status_line = false;  ///< on standard output, once a second
     ToolForces forces;         ///< for the log
-};
-
-/// How bus and drives are.
-struct StatusEntry {
-    std::uint64_t unix_us = 0;
-    bool is_periodic = false;  ///< once a second; else because a condition came or went
-    firmware::Conditions conditions{};
-    socketcan::LinkHealth link{};
-    cia402::BusHealth bus{};
-    cia402::RejectCounters rejects{};
-    std::array<cia402::NodeHealth, cia402::drive_capacity> drives{};
-    std::array<bool, cia402::drive_capacity> is_used{};
-    std::uint32_t ticks = 0;
-    std::uint32_t syncs_skipped = 0;
-    EstimateEntry newest{};
-    LocalInputHealth input{};
-    LocalOutputHealth output{};
 };
 
 /// The files of a run, written by a separate thread: the real-time thread hands over without waiting. Entries that did

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "files/machine_bus.hpp"
 #include "hal/drive_source.hpp"
 #include "iio/adc_currents.hpp"
 #include "iio/counter_input.hpp"
+#include "parameters/machine_bus.hpp"
 
 /// Drives without a bus: motor currents by a converter, and where they are wired encoders by counters, of this
 /// computer. poll() reads them, at each SYNC. The current is the converter's mean since the poll() before.

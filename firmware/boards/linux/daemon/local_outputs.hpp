@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "files/local_io.hpp"
 #include "gpio/feed_hold_line.hpp"
 #include "gpio/gpio_chip.hpp"
 #include "hal/feed_override.hpp"
 #include "iio/analogue_override.hpp"
+#include "parameters/local_io.hpp"
 
 namespace millforce::host {
 

@@ -2,7 +2,7 @@
 #include "calibration/cutting_calibration.hpp"
 #include "files/input_error.hpp"
 #include "firmware/program/calibration/synthetic_cuts.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 #include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
 

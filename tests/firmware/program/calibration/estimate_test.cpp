@@ -3,7 +3,7 @@
 #include "calibration/cutting_calibration.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 

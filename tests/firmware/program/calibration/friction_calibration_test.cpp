@@ -3,7 +3,7 @@
 #include "calibration/axis_motion.hpp"
 #include "estimation_calibration/friction_fit.hpp"
 #include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 #include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/roughness_calibration.hpp"
 #include "files/input_error.hpp"
-#include "files/parameter_files.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "parameters/parameter_files.hpp"
+#include "temporary_folder.hpp"
 
 #include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/warm_up_calibration.hpp"
 #include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>  // before CppUTest, which makes `new` a macro

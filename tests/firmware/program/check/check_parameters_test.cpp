@@ -6,9 +6,9 @@
 #include <string>
 
 #include "check/contradictions.hpp"
-#include "files/parameter_files.hpp"
 #include "firmware/program/check/made_recording.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "parameters/parameter_files.hpp"
+#include "temporary_folder.hpp"
 
 using namespace millforce;
 using namespace millforce::host;

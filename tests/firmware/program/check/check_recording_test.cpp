@@ -11,7 +11,7 @@
 
 #include "check/order_spectrum.hpp"
 #include "firmware/program/check/made_recording.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 using namespace millforce;
 using namespace millforce::host;

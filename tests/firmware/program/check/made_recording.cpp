@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "check/check_recording.hpp"
-#include "files/parameter_files.hpp"
 #include "machine/machine_plant.hpp"
+#include "parameters/parameter_files.hpp"
 
 namespace millforce::test {
 

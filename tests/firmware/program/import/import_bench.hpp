@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
 #include "import/import_recording.hpp"
 #include "program/csv_rows.hpp"
+#include "temporary_folder.hpp"
 
 namespace millforce::test {
 

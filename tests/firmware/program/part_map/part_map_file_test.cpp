@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "files/input_error.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 using namespace millforce::host;
 using namespace millforce::test;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "estimation/cutting/cut_geometry.hpp"
-#include "estimation/depth_shape/detail/phasor.hpp"
+#include "estimation/number/phasor.hpp"
 
 #include <array>
 #include <cstddef>

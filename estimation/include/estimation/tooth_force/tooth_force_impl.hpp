@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "estimation/engagement/side_choice.hpp"
+#include "estimation/number/elementary.hpp"
+#include "estimation/tooth_force/tooth_force.hpp"
+
+#include <cmath>
+
+namespace millforce::estimation {
+
+template <typename Scalar>
+ToothForce<Scalar>::ToothForce(const CutEstimatorSettings<Scalar>& settings, const CuttingLaw<Scalar>& law)
+    : teeth_(settings.teeth),
+      cutter_radius_mm_(settings.cutter_radius_mm),
+      runout_mm_(settings.runout_mm),
+      feed_exponent_(Scalar(1) + law.p_s) {}
+
+template <typename Scalar>
+void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table) {
+    using std::sqrt;
+    const auto feed = table.feed(e.feed_per_tooth_mm);
+    const auto model = table.forces(peaks.here_node(), feed);
+    const bool has_model = model.tangential_N > Scalar(0) && e.feed_per_tooth_mm > Scalar(0);
+    const Scalar per_model_N = has_model ? Scalar(1) / model.tangential_N : Scalar(0);
+    e.cutting_share = has_model ? model.cutting_tangential_N * per_model_N : Scalar(1);
+    e.feed_exponent = feed_exponent_;
+    force_exponent_ = e.feed_exponent * e.cutting_share;
+    if (!e.tangential_N.valid) {
+        return;
+    }
+    const Scalar newest_N = follow_growth(e);
+    estimate_tooth_force(e, peaks.factors(), newest_N);
+    if (!has_model) {
+        return;
+    }
+    const Scalar width_per_F_mm_N = peaks.now().radial_immersion * cutter_radius_mm_ * per_model_N;
+    e.section_mm2 = e.tangential_N.value * width_per_F_mm_N;
+    e.section_noise_mm2 = sqrt(e.tangential_N.noise) * width_per_F_mm_N;
+    const Scalar now_N = model.tangential_N * peaks.factors().now;
+    if (peaks.surge_is_wider()) {
+        e.surge = change_to(table.forces(peaks.surge_node(), feed), peaks.factors().surge, now_N);
+    }
+    if (peaks.turn_is_wider()) {
+        e.turn = change_to(table.forces(peaks.turn_node(), feed), peaks.factors().turn, now_N);
+    }
+}
+
+/// F_at of the window, or of the last tooth where that is clearly higher; and how fast it grows then.
+template <typename Scalar>
+Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
+    constexpr Scalar clear_deviations{2};
+    const Measurement<Scalar>& window = e.tangential_N;
+    const Measurement<Scalar>& tooth = e.tooth_tangential_N;
+    const Scalar rise_N = tooth.value - window.value;
+    const bool has_risen =
+        tooth.valid && rise_N > Scalar(0) && square(rise_N) > square(clear_deviations) * tooth.variance;
+    e.newest_tangential_N = has_risen ? tooth.value : window.value;
+    const Scalar half_window_s = halved(e.window_s);
+    if (has_risen && half_window_s > Scalar(0)) {
+        // The window's middle is half a window old, the last tooth's nearly now.
+        e.tangential_growth_N_per_s = rise_N / half_window_s;
+    }
+    return e.newest_tangential_N;
+}
+
+template <typename Scalar>
+void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const {
+    const EngagementEstimate<Scalar>& cut = e.engagement;
+    const Measurement<Scalar>& window = e.tangential_N;
+    const Scalar runout = runout_factor(e.feed_per_tooth_mm);
+    e.runout_factor = runout;
+    e.worst_tooth_force_N = newest_N * factors.now * runout;
+    e.least_tooth_force_N = newest_N * factors.slot;
+    const auto bound_by = [&](Scalar bound) {
+        const Scalar ratio = runout * (bound > factors.now ? bound : factors.now);
+        e.tooth_force_N = {true, newest_N * ratio, square(ratio) * window.variance, Scalar(0)};
+        e.tooth_force_is_bound = true;
+    };
+    if (cut.immersion_valid) {
+        // At the narrow end of a wide interval the force is nearly the most that it can be: a quarter above the middle
+        // of what the interval's ends give.
+        constexpr Scalar nearly_the_most{1.25F};
+        const Scalar of_middle = halved(factors.at_low + factors.at_high);
+        e.tooth_force_is_bound = factors.now > nearly_the_most * of_middle;
+        const Scalar factor_sd = (factors.at_low - factors.at_high) / width_of_95_percent<Scalar>;
+        const Scalar by_factor = square(newest_N) * (square(factor_sd) + square(factors.by_K_s));
+        e.tooth_force_N = {true, e.worst_tooth_force_N,
+                           square(runout) * (square(factors.now) * window.variance + by_factor), Scalar(0)};
+    } else if (cut.solved || (!e.x_N.valid && !e.y_N.valid)) {
+        // No estimate of the immersion, but a bound. Where even that is far from the limit, the force is known well
+        // enough.
+        bound_by(factors.bound);
+    }
+}
+
+/// The tooth with the largest radius takes (f_z + e) of chip where the mean takes f_z.
+template <typename Scalar>
+Scalar ToothForce<Scalar>::runout_factor(Scalar feed_per_tooth_mm) const {
+    using elementary::exp;
+    using elementary::log;
+    if (!(runout_mm_ > Scalar(0)) || !(feed_per_tooth_mm > Scalar(0))) {
+        return Scalar(1);
+    }
+    // One tooth cannot take more than the chips of all teeth together.
+    const Scalar chip = clamp(Scalar(1) + runout_mm_ / feed_per_tooth_mm, Scalar(1), teeth_);
+    return exp(force_exponent_ * log(chip));
+}
+
+template <typename Scalar>
+typename CutEstimate<Scalar>::Change ToothForce<Scalar>::change_to(const typename Table::Forces& forces_then,
+                                                                   Scalar factor, Scalar tooth_N_per_mm_now) {
+    return {forces_then.tangential_N * factor / tooth_N_per_mm_now,
+            forces_then.cutting_tangential_N / forces_then.tangential_N};
+}
+
+}  // namespace millforce::estimation

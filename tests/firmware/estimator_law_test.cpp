@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CppUTest/TestHarness.h>
+
+#include "firmware/parameters.hpp"
+
+using millforce::firmware::estimator_law;
+using millforce::firmware::ToolParameters;
+
+namespace {
+
+ToolParameters<float> tool_with_constant_coefficients() {
+    ToolParameters<float> tool;
+    tool.law.k_s_N_per_mm2 = 800.0F;
+    tool.law.k_1 = 0.3F;
+    return tool;
+}
+
+}  // namespace
+
+TEST_GROUP(EstimatorLaw){};
+
+TEST(EstimatorLaw, of_constant_coefficients_has_the_doubt_of_the_edges_that_it_leaves_out) {
+    const ToolParameters<float> tool = tool_with_constant_coefficients();
+    const auto law = estimator_law(tool);
+    CHECK(law.K_s_relative_sd > tool.law.K_s_relative_sd);
+    CHECK(law.K_s_exponent_sd > 0.0F);
+    CHECK(law.r_1_relative_sd > tool.law.r_1_relative_sd);
+    CHECK(law.r_1_exponent_sd > 0.0F);
+    CHECK(law.reference_chip_thickness_mm > 0.0F);
+}
+
+TEST(EstimatorLaw, keeps_a_larger_doubt_than_that) {
+    ToolParameters<float> tool = tool_with_constant_coefficients();
+    tool.law.K_s_relative_sd = 0.7F;
+    CHECK(estimator_law(tool).K_s_relative_sd == 0.7F);
+}
+
+TEST(EstimatorLaw, with_edge_forces_or_exponents_is_taken_at_its_word) {
+    for (float millforce::estimation::CuttingLaw<float>::*coefficient :
+         {&millforce::estimation::CuttingLaw<float>::K_te_N_per_mm, &millforce::estimation::CuttingLaw<float>::p_s}) {
+        ToolParameters<float> tool = tool_with_constant_coefficients();
+        tool.law.*coefficient = -0.2F;
+        const auto law = estimator_law(tool);
+        CHECK(law.K_s_relative_sd == tool.law.K_s_relative_sd);
+        CHECK(law.r_1_relative_sd == tool.law.r_1_relative_sd);
+        CHECK(law.K_s_exponent_sd == 0.0F);
+    }
+}
