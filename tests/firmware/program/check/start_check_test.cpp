@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "check/check_parameters.hpp"
-#include "firmware/program/files/temporary_folder.hpp"
 #include "parameters/parameter_files.hpp"
+#include "temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 
