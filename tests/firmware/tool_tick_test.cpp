@@ -119,24 +119,75 @@ TEST(ToolTick, holds_the_limits_of_the_tool_that_was_changed_to_at_rest) {
     DOUBLES_EQUAL(of_strong, mill.run(Motion::cut, 2000).ratio, 0.05F * of_strong);
 }
 
-TEST(ToolTick, leaves_the_override_to_the_operator_while_a_number_that_changed_in_motion_waits_for_rest) {
+TEST(ToolTick, holds_the_last_tools_limits_through_a_cut_in_which_the_number_is_lost_or_changes) {
+    for (const std::uint32_t number : {0U, 99U, strong}) {
+        Mill told;
+        Mill undisturbed;
+        for (Mill* each : {&told, &undisturbed}) {
+            each->number = weak;
+            each->run(Motion::air, 500);
+            each->run(Motion::cut, 1000);
+        }
+        told.number = number;
+        CHECK_FALSE(told.tick.is_change_due());
+        for (int k = 0; k < 1000; ++k) {
+            const hal::FeedOverride expected = undisturbed.run(Motion::cut, 1);
+            const hal::FeedOverride output = told.run(Motion::cut, 1);
+            CHECK(output.ratio == expected.ratio && output.hold == expected.hold && output.state == expected.state);
+            CHECK(output.ratio < 0.5F * operators_override);
+        }
+        CHECK(told.tick.is_change_due());
+        UNSIGNED_LONGS_EQUAL(weak, told.tick.tool());
+    }
+}
+
+TEST(ToolTick, holds_the_last_tools_limits_through_a_dwell_in_the_workpiece_after_the_number_was_lost) {
+    mill.number = weak;
     mill.run(Motion::air, 500);
     mill.run(Motion::cut, 1000);
-    mill.number = weak;
-    check_operators(mill.run(Motion::cut, 1));
-    check_operators(mill.run(Motion::air, 500));
-    mill.run(Motion::rest, 1);
+    mill.number = 0;
+    mill.run(Motion::rest, 3000);
     UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
+    CHECK(mill.run(Motion::cut, 1000).ratio < 0.5F * operators_override);
+    mill.run(Motion::air, 1000);
+    mill.run(Motion::rest, 10);
+    UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
+}
+
+TEST(ToolTick, still_faults_by_the_last_tools_limits_after_the_number_was_lost_in_a_cut) {
+    mill.run(Motion::air, 500);
+    mill.run(Motion::cut, 1000);
+    mill.number = 0;
+    mill.run(Motion::cut, 10);
+    CHECK(mill.tick.step_without_sample(1.0F, 1.0F, mill.status).hold);
+}
+
+TEST(ToolTick, takes_a_number_that_changed_in_motion_at_the_next_rest) {
+    for (const std::uint32_t number : {weak, 99U}) {
+        mill.change_at_rest(strong);
+        mill.run(Motion::cut, 1000);
+        mill.number = number;
+        mill.run(Motion::air, 500);
+        UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
+        CHECK(mill.run(Motion::air, 1).ratio <= operators_override);
+        const hal::FeedOverride at_rest = mill.run(Motion::rest, 1);
+        UNSIGNED_LONGS_EQUAL(number == weak ? weak : 0, mill.tick.tool());
+        CHECK_FALSE(mill.tick.is_change_due());
+        if (number != weak) {
+            check_operators(at_rest);
+        }
+    }
 }
 
 TEST(ToolTick, goes_on_where_a_number_that_changed_in_motion_changes_back) {
     mill.run(Motion::air, 500);
     const float before = mill.run(Motion::cut, 1000).ratio;
     mill.number = 0;
-    check_operators(mill.run(Motion::cut, 1));
+    mill.run(Motion::cut, 1);
     mill.number = strong;
     DOUBLES_EQUAL(before, mill.run(Motion::cut, 1).ratio, 0.01F * before);
     UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
+    CHECK_FALSE(mill.tick.is_change_due());
 }
 
 TEST(ToolTick, changes_no_tool_while_the_forces_show_a_cut) {
@@ -144,8 +195,9 @@ TEST(ToolTick, changes_no_tool_while_the_forces_show_a_cut) {
     mill.run(Motion::cut, 1000);
     mill.number = weak;
     mill.tick.follow_tool(weak, true);
-    UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
-    CHECK(mill.tick.of_tool().estimate().tangential_N.valid);  // still the tick of the other tool
+    UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
+    CHECK(mill.tick.is_change_due());
+    CHECK(mill.tick.of_tool().estimate().tangential_N.valid);
 }
 
 TEST(ToolTick, knows_no_tool_that_is_not_there_and_estimates_nothing_with_it) {
@@ -204,7 +256,7 @@ TEST(ToolTick, changes_the_tool_after_the_reset_of_a_fault_and_not_before) {
     const hal::FeedOverride in_fault = mill.run(Motion::rest, 100);
     CHECK(in_fault.hold);
     UNSIGNED_LONGS_EQUAL(static_cast<unsigned>(control::Fault::stale_input), in_fault.fault);
-    UNSIGNED_LONGS_EQUAL(0, mill.tick.tool());
+    UNSIGNED_LONGS_EQUAL(strong, mill.tick.tool());
     mill.tick.reset_fault();
     const hal::FeedOverride after = mill.run(Motion::rest, 2);
     UNSIGNED_LONGS_EQUAL(0, after.fault);

@@ -28,13 +28,18 @@ class ToolInputs : public Inputs {
     ToolInputs() {
         std::filesystem::create_directory(path("tools"));
         write("tools/T7.toml", tool_text);
-        write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 350.0"));
+        write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 600.0"));
     }
     [[nodiscard]] std::vector<std::string> with_tools(std::vector<std::string> words) const {
         words.insert(words.end(), {"--machine", name("machine.toml"), "--tools", name("tools")});
         return words;
     }
 };
+
+const std::string machine_on_bus_without_program_status =
+    with(machine_text, "[x]\n", "[x]\nrated_current_A = 12\n") +
+    "[bus]\nprogram_status_id = 0\n[bus.x]\nnode_id = 2\n"
+    "tpdo1 = [\"0x606C:32\", \"0x6078:16\"]\nvelocity_mm_s_per_unit = 0.001\n";
 
 /// A CNC's bridge: connects when the socket is there.
 class Bridge {
@@ -132,7 +137,7 @@ TEST(Tools, serve_changes_the_tool_at_rest_and_says_which_one_it_is) {
     {
         Bridge cnc(inputs.name("a.sock"));
         CHECK_FALSE(cnc.ask(7, 0.0F).tool_unknown);
-        CHECK(cnc.ask(12, 20.0F).tool_unknown);
+        CHECK_FALSE(cnc.ask(12, 20.0F).tool_unknown);  // still tool 7
         CHECK_FALSE(cnc.ask(12, 0.0F).tool_unknown);
         const local_link::OverrideMessage unknown = cnc.ask(9, 0.0F);
         CHECK(unknown.tool_unknown && !unknown.hold);
@@ -145,9 +150,25 @@ TEST(Tools, serve_changes_the_tool_at_rest_and_says_which_one_it_is) {
     LONGS_EQUAL(0, serve.exit_code());
     const std::string& reported = serve.error();
     const std::size_t first = reported.find("millforce: tool 7\n");
-    const std::size_t second = reported.find("millforce: tool 12\n", first);
+    const std::size_t waits =
+        reported.find("another tool number: the limits of tool 7 hold until the axes rest\n", first);
+    const std::size_t second = reported.find("millforce: tool 12\n", waits);
     const std::size_t none = reported.find("tool not known: the override is the operator's\n", second);
     CHECK(reported.find("millforce: tool 7\n", none) != std::string::npos);
+}
+
+TEST(Tools, the_check_at_the_start_sees_each_tool_of_the_folder) {
+    inputs.write("tools/T12.toml", with(tool_text, "tooth_force_limit_N = 700.0", "tooth_force_limit_N = 5.0"));
+    Program serve(inputs.with_tools({"serve", inputs.name("a.sock")}));
+    { Bridge cnc(inputs.name("a.sock")); }
+    serve.interrupt(SIGTERM);
+    serve.wait();
+    inputs.write("machine.toml", machine_on_bus_without_program_status);
+    const std::string run_error = run_millforce(inputs.with_tools({"run", "vcan0"})).error;
+    for (const std::string& error : {serve.error(), run_error}) {
+        CHECK(contains(error, "millforce: tool 12: error: contact is seen from 10 N on"));
+        CHECK_FALSE(contains(error, "tool 7: "));
+    }
 }
 
 TEST(Tools, serve_refuses_the_bridge_of_an_older_layout_by_its_version) {
@@ -186,9 +207,7 @@ TEST(Tools, one_tool_or_a_folder_must_be_given_and_a_part_map_is_for_one_tool) {
 }
 
 TEST(Tools, a_bus_without_a_program_status_cannot_tell_a_tool) {
-    inputs.write("machine.toml", with(machine_text, "[x]\n", "[x]\nrated_current_A = 12\n") +
-                                     "[bus]\nprogram_status_id = 0\n[bus.x]\nnode_id = 2\n"
-                                     "tpdo1 = [\"0x606C:32\", \"0x6078:16\"]\nvelocity_mm_s_per_unit = 0.001\n");
+    inputs.write("machine.toml", machine_on_bus_without_program_status);
     const Ended ended = run_millforce(inputs.with_tools({"run", "vcan0"}));
     STRCMP_EQUAL("", not_refused(ended, {"--tools", "machine.toml: bus.program_status_id = 0"}).c_str());
 }

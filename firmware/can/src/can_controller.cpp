@@ -278,6 +278,7 @@ void CanController::judge(std::uint64_t now_us) {
     found.set(Condition::program_unknown, source == program_status::ProgramSource::never_heard);
     found.set(Condition::program_silent, source == program_status::ProgramSource::silent);
     found.set(Condition::tool_unknown, has_begun_ && !tick_.is_tool_known());
+    found.set(Condition::tool_change_due, tick_.is_change_due());
     conditions_ = found;
 }
 

@@ -14,10 +14,13 @@
 /// The tool is changed where all axes rest and the forces show no cut. What belongs to the tool then begins again; what
 /// was learnt of the machine in air stays. The first number of a run is taken in motion, too.
 ///
-/// The tool is not known while the number is 0, is not in the source, or differs from that of the last change. Then
-/// the override is the operator's, as with monitor_only: never one by the limits of the last tool. A number that
-/// changes in motion waits for the axes to rest, and one that changes back is known again at once. From the first rest
-/// with an unknown tool on, the tick sees the samples' time alone: it estimates and learns nothing.
+/// A number that changes in motion, whatever it is, waits for the axes to rest: no spindle changes its tool in a cut,
+/// and the override does not jump up in one. Until then it is by the limits of the last tool, and never above the
+/// operator's.
+///
+/// The tool is not known where the axes rest in the state `air` and the number is 0 or not in the source: a dwell in
+/// the workpiece is not enough. Then the override is the operator's, as with monitor_only: never one by the limits of
+/// the last tool. The tick sees the samples' time alone: it estimates and learns nothing.
 ///
 /// A fault comes first: it holds the feed until its reset, and the tool changes after that.
 ///
@@ -48,16 +51,17 @@ class ToolTickOf {
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
     void work() { tick_.work(); }
 
-    [[nodiscard]] bool is_tool_known() const { return tools_ == nullptr || (number_ != 0 && number_ == reported_); }
+    [[nodiscard]] bool is_tool_known() const { return tools_ == nullptr || number_ != 0; }
+    /// The CNC sends another number than that of the tool that the override is for.
+    [[nodiscard]] bool is_change_due() const { return tools_ != nullptr && number_ != 0 && number_ != reported_; }
     /// Number of the tool that the override is for; 0: without a source, or not known.
-    [[nodiscard]] std::uint32_t tool() const { return is_tool_known() ? number_ : 0; }
+    [[nodiscard]] std::uint32_t tool() const { return number_; }
 
     [[nodiscard]] Tick& of_tool() { return tick_; }
     [[nodiscard]] const Tick& of_tool() const { return tick_; }
 
   private:
-    [[nodiscard]] bool has_tool() const { return tools_ == nullptr || number_ != 0; }
-    [[nodiscard]] bool may_change() const;
+    [[nodiscard]] bool may_change_to(std::uint32_t number) const;
     bool change_to(std::uint32_t number);
     [[nodiscard]] float elapsed_s(std::uint32_t time_us);
     hal::FeedOverride passed_on(hal::FeedOverride output, const hal::ProgramStatus& program);

@@ -14,13 +14,16 @@ bool ToolTickOf<Tick, Source>::follow_tool(std::uint32_t number, bool axes_rest)
     const bool is_first = !has_begun_;
     has_begun_ = true;
     reported_ = number;
-    return tools_ != nullptr && number != number_ && (is_first || (axes_rest && may_change())) && change_to(number);
+    const bool is_other = tools_ != nullptr && number != number_;
+    return is_other && (is_first || (axes_rest && may_change_to(number))) && change_to(number);
 }
 
+/// A dwell in the workpiece ends in `exit`, and a number that was lost must not free the feed there.
 template <typename Tick, typename Source>
-bool ToolTickOf<Tick, Source>::may_change() const {
+bool ToolTickOf<Tick, Source>::may_change_to(std::uint32_t number) const {
     const control::ControlOutput<float>& last = tick_.control();
-    return last.fault == control::Fault::none && !control::is_cutting(last.state);
+    const bool is_out = tools_->has(number) ? !control::is_cutting(last.state) : last.state == control::CutState::air;
+    return last.fault == control::Fault::none && is_out;
 }
 
 template <typename Tick, typename Source>
@@ -39,7 +42,7 @@ bool ToolTickOf<Tick, Source>::change_to(std::uint32_t number) {
 template <typename Tick, typename Source>
 void ToolTickOf<Tick, Source>::take(const hal::DriveSample& sample) {
     const float passed_s = elapsed_s(sample.time_us);
-    if (has_tool()) {
+    if (is_tool_known()) {
         tick_.take(sample);
         return;
     }

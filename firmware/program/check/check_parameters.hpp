@@ -10,7 +10,4 @@ namespace millforce::host {
 /// refuses is not repeated, nor what parameter_notes() says.
 Findings check_parameters(const firmware::Parameters<float>& parameters);
 
-/// Prints check_parameters() on standard error, one line each: for the start of `run` and `serve`.
-void show_parameter_findings(const firmware::Parameters<float>& parameters);
-
 }  // namespace millforce::host

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "check/check_parameters.hpp"
+#include "check/start_check.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "daemon/can_daemon.hpp"
@@ -16,7 +16,6 @@
 #include "files/input_error.hpp"
 #include "parameters/machine_bus.hpp"
 #include "parameters/parameter_files.hpp"
-#include "parameters/parameter_notes.hpp"
 #include "parameters/tool_set.hpp"
 
 namespace millforce::host {
@@ -73,8 +72,7 @@ int run_on_bus(const RunOptions& options) {
     options.tools.require_one();
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     const MachineBus bus = bus_of(options.machine);
-    show_parameter_notes(tools.parameters());
-    show_parameter_findings(tools.parameters());
+    show_start_check(tools);
     if ((options.pace.slow_motion != 1 || options.pace.lock_step) &&
         (bus.local.has_inputs() || bus.local.has_voltage() || bus.local.has_lines())) {
         throw InputError(

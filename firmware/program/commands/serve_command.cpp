@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "check/check_parameters.hpp"
+#include "check/start_check.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "control/cut_state.hpp"
@@ -17,7 +17,6 @@
 #include "files/input_error.hpp"
 #include "firmware_link/link_controller.hpp"
 #include "parameters/parameter_files.hpp"
-#include "parameters/parameter_notes.hpp"
 #include "parameters/tool_set.hpp"
 #include "part_map/map_follower.hpp"
 #include "part_map/part_map_file.hpp"
@@ -67,18 +66,23 @@ class MapReporter {
 class ToolReporter {
   public:
     void follow(const firmware::LinkController& controller, LinePrinter& printer) {
-        if (controller.is_tool_known() == is_known_ && controller.tool() == tool_) {
-            return;
+        if (controller.is_tool_known() != is_known_ || controller.tool() != tool_) {
+            is_known_ = controller.is_tool_known();
+            tool_ = controller.tool();
+            printer.print(is_known_ ? fmt::format("millforce: tool {}", tool_)
+                                    : "millforce: tool not known: the override is the operator's");
         }
-        is_known_ = controller.is_tool_known();
-        tool_ = controller.tool();
-        printer.print(is_known_ ? fmt::format("millforce: tool {}", tool_)
-                                : "millforce: tool not known: the override is the operator's");
+        if (controller.is_tool_change_due() && !was_change_due_) {
+            printer.print(
+                fmt::format("millforce: another tool number: the limits of tool {} hold until the axes rest", tool_));
+        }
+        was_change_due_ = controller.is_tool_change_due();
     }
 
   private:
     bool is_known_ = true;
     std::uint32_t tool_ = 0;
+    bool was_change_due_ = false;
 };
 
 void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower,
@@ -129,8 +133,7 @@ int serve(const ServeOptions& options) {
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
-    show_parameter_notes(parameters);
-    show_parameter_findings(parameters);
+    show_start_check(tools);
     const std::optional<PartMap> map = map_of(options, parameters);
     ignore_closed_pipes();
     UnixServer server(options.socket);

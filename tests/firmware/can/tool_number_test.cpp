@@ -50,6 +50,7 @@ class MachineWithTools {
         return newest;
     }
     [[nodiscard]] bool is_unknown() const { return bus.controller.conditions().has(Condition::tool_unknown); }
+    [[nodiscard]] bool is_change_due() const { return bus.controller.conditions().has(Condition::tool_change_due); }
 
     ControllerOnLoopback bus{slot(), &tools()};
 
@@ -82,18 +83,19 @@ TEST(ToolNumber, a_tool_that_the_cnc_tells_is_taken_at_rest_and_changed_at_rest)
     CHECK_FALSE(machine.is_unknown());
 }
 
-TEST(ToolNumber, a_change_that_is_told_in_motion_waits_for_rest_with_the_operators_override) {
+TEST(ToolNumber, a_change_that_is_told_in_motion_waits_for_rest_with_the_last_tools_limits) {
     machine.tell_tool(7);
     machine.run_ms(300, 0.0F);
     const float limited = machine.run_ms(300, 20.0F).ratio;
     CHECK(limited < 0.95F * operators_override);  // as the law has it in air
     machine.tell_tool(8);
-    check_operators(machine.run_ms(50, 20.0F));
-    CHECK(machine.is_unknown());
-    UNSIGNED_LONGS_EQUAL(0, machine.bus.controller.tool());
+    DOUBLES_EQUAL(limited, machine.run_ms(50, 20.0F).ratio, 1e-3);
+    CHECK(machine.is_change_due());
+    CHECK_FALSE(machine.is_unknown());
+    UNSIGNED_LONGS_EQUAL(7, machine.bus.controller.tool());
     machine.run_ms(10, 0.0F);
     UNSIGNED_LONGS_EQUAL(8, machine.bus.controller.tool());
-    CHECK_FALSE(machine.is_unknown());
+    CHECK_FALSE(machine.is_change_due());
 }
 
 TEST(ToolNumber, a_tool_that_there_is_not_leaves_the_override_to_the_operator_until_a_known_one_is_back) {

@@ -163,7 +163,10 @@ TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_
     UNSIGNED_LONGS_EQUAL(7, controller.tool());
     cnc.message.tool = 8;
     cnc.message.axis_velocity_mm_s = {5.0F, 0.0F, 0.0F};
-    for (const float velocity_mm_s : {5.0F, 0.0F, 5.0F}) {
+    CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);
+    CHECK(controller.is_tool_change_due());
+    UNSIGNED_LONGS_EQUAL(7, controller.tool());
+    for (const float velocity_mm_s : {0.0F, 5.0F}) {
         cnc.message.axis_velocity_mm_s[0] = velocity_mm_s;
         const auto unknown = answer(controller, cnc.next());
         CHECK(unknown.tool_unknown && !unknown.hold);

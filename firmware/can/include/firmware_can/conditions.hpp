@@ -28,7 +28,8 @@ enum class Condition : std::uint8_t {
     input_stale,           ///< no complete sample for so long that the tick faults
     program_unknown,       ///< the CNC has not sent its status: the override stays where it is
     program_silent,        ///< the CNC sent its status and then stopped: the feed is held
-    tool_unknown,  ///< the CNC has sent no tool number that there are parameters for: the override is the operator's
+    tool_unknown,     ///< the CNC has sent no tool number that there are parameters for: the override is the operator's
+    tool_change_due,  ///< the number changed in motion: the last tool's limits hold until the axes rest
     local_input_failed,   ///< a converter or counter of this computer is absent, unreadable or silent
     local_output_failed,  ///< the override does not reach this computer's converter or lines: it says hold everywhere
 };
@@ -36,11 +37,11 @@ inline constexpr std::size_t condition_count = static_cast<std::size_t>(Conditio
 
 constexpr const char* name(Condition condition) {
     constexpr const char* names[] = {
-        "interface_absent",   "interface_down",     "error_warning",     "error_passive",   "bus_off",
-        "send_queue_full",    "frames_lost",        "sync_lost",         "sync_foreign",    "drive_preparing",
-        "drive_refused",      "drive_lost",         "drive_not_enabled", "drive_emergency", "drive_units_disagree",
-        "input_incomplete",   "input_stale",        "program_unknown",   "program_silent",  "tool_unknown",
-        "local_input_failed", "local_output_failed"};
+        "interface_absent", "interface_down",     "error_warning",      "error_passive",   "bus_off",
+        "send_queue_full",  "frames_lost",        "sync_lost",          "sync_foreign",    "drive_preparing",
+        "drive_refused",    "drive_lost",         "drive_not_enabled",  "drive_emergency", "drive_units_disagree",
+        "input_incomplete", "input_stale",        "program_unknown",    "program_silent",  "tool_unknown",
+        "tool_change_due",  "local_input_failed", "local_output_failed"};
     static_assert(sizeof names / sizeof names[0] == condition_count);
     return names[static_cast<std::size_t>(condition) % condition_count];
 }

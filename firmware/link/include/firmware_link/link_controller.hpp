@@ -47,6 +47,7 @@ class LinkController {
 
     [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_.of_tool(); }
     [[nodiscard]] bool is_tool_known() const { return tick_.is_tool_known(); }
+    [[nodiscard]] bool is_tool_change_due() const { return tick_.is_change_due(); }
     /// Number of the tool that the override is for; 0: without a tools, or not known.
     [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
