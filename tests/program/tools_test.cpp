@@ -222,7 +222,7 @@ TEST(Tools, of_a_folder_become_a_block_for_flash_that_is_printed_as_their_files)
     const std::size_t first = read.out.find("# T7.toml");
     const std::size_t second = read.out.find("# T12.toml", first);
     CHECK(read.out.find("tooth_force_limit_N = 700.0", first) < second);
-    CHECK(read.out.find("tooth_force_limit_N = 350.0", second) != std::string::npos);
+    CHECK(read.out.find("tooth_force_limit_N = 600.0", second) != std::string::npos);
 }
 
 TEST(Tools, beyond_sixteen_or_none_make_no_block) {

@@ -100,9 +100,11 @@ TEST(ToolsOnBoard, a_number_that_is_told_in_motion_waits_for_rest) {
     run_periods(20, 7);
     run_periods(200, 7, 20.0F);
     UNSIGNED_LONGS_EQUAL(7, board.controller->tool());
-    run_periods(50, 12, 20.0F);
-    check_operators();
-    CHECK_TRUE(is_told_unknown());
+    for (const std::uint32_t number : {12U, 99U, 0U}) {
+        run_periods(50, number, 20.0F);
+        UNSIGNED_LONGS_EQUAL(7, board.controller->tool());
+        CHECK_FALSE(is_told_unknown());
+    }
     run_periods(40, 12);
     UNSIGNED_LONGS_EQUAL(12, board.controller->tool());
 }
