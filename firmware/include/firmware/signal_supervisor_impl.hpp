@@ -167,6 +167,7 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
 /// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.
 template <typename Scalar>
 control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
+    using estimation::square;
     using std::sqrt;
     constexpr Scalar bound = Scalar(1.5F);
     const typename Estimate::ToothChange& change = e.tooth_change;
@@ -181,16 +182,17 @@ control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     if (!change.tangential_N.valid || !(share < Scalar(1)) || !(before_N > Scalar(0))) {
         return control::Fault::none;
     }
-    const auto noise_N = [&](const estimation::Measurement<Scalar>& m) {
-        return significant * sqrt(Scalar(2) * m.variance);
+    const auto is_beyond_noise = [](Scalar excess_N, const estimation::Measurement<Scalar>& m) {
+        return excess_N > Scalar(0) && square(excess_N) > Scalar(2) * square(significant) * m.variance;
     };
-    if (-tangential_N > share * before_N + noise_N(change.tangential_N)) {
+    if (is_beyond_noise(-tangential_N - share * before_N, change.tangential_N)) {
         return control::Fault::force_vanished;
     }
     const Scalar larger_N = now_N > before_N ? now_N : before_N;  // a cut begins as fast as it ends
+    const Scalar most_N = share * total_per_tangential * larger_N;
     for (std::size_t k = 0; k < axis_N.size(); ++k) {
-        const Scalar most_N = share * total_per_tangential * larger_N + noise_N(change.axis_N[k]);
-        if (change.axis_N[k].valid && (axis_N[k] > most_N || -axis_N[k] > most_N)) {
+        const Scalar jump_N = axis_N[k] < Scalar(0) ? -axis_N[k] : axis_N[k];
+        if (change.axis_N[k].valid && is_beyond_noise(jump_N - most_N, change.axis_N[k])) {
             return control::Fault::force_jumped;
         }
     }
