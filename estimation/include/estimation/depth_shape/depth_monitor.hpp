@@ -23,6 +23,8 @@ class DepthMonitor {
   public:
     using Estimate = FluteProfileEstimate<Scalar>;
 
+    static constexpr Scalar usual_depth_sd = literal<Scalar>(0.005L);  ///< of known depths, relative
+
     DepthMonitor() = default;
     explicit DepthMonitor(const FluteProfileFitSettings<Scalar>& settings, int revolutions = 20);
 
@@ -37,7 +39,7 @@ class DepthMonitor {
 
     /// Learns the angle of the teeth at the encoder's zero from a profile of known depths, for all later profiles with
     /// this tool in this holder. False: no complete profile, or it does not determine the angle.
-    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = literal<Scalar>(0.005L));
+    bool learn_tip_angle(const DepthsOfCut<Scalar>& known, Scalar relative_sd = usual_depth_sd);
 
     [[nodiscard]] const Measurement<Scalar>& tip_angle_rad() const { return settings_.tip_angle_rad; }
     void restart();
