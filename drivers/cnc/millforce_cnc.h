@@ -10,7 +10,8 @@
 ///
 /// C99 or C++, this header alone: no library, no heap, no floating point, no clock. Bounded loops; a few hundred
 /// instructions per frame. One thread per object. Times are in µs, as a count that may wrap. The frames' layouts are in
-/// override_frame/override_frame.hpp and program_status/program_status_frame.hpp; vectors.txt has them as bytes.
+/// override_frame/override_frame.hpp, program_status/program_status_frame.hpp and program_status/tool_frame.hpp;
+/// vectors.txt has them as bytes.
 ///
 ///     static millforce_receiver receiver;
 ///     static millforce_status_sender sender;
@@ -21,6 +22,8 @@
 ///     millforce_received received = millforce_now(&receiver, now_us);
 ///     feed = received.hold ? 0 : programmed_feed * received.ratio / MILLFORCE_RATIO_OF_1;
 ///     if (millforce_status_due(&sender, &status, now_us, &frame)) { write_to_bus(&frame); }
+///     // With tools by number, and a millforce_tool_sender that was started like the other:
+///     if (millforce_tool_due(&tool_sender, tool_number, now_us, &frame)) { write_to_bus(&frame); }
 
 #define MILLFORCE_OVERRIDE_NODE 126U          ///< CANopen node of the controller; its heartbeat has the id 0x700 + node
 #define MILLFORCE_OVERRIDE_ID 0x1FEU          ///< TPDO 1 of node 126
@@ -29,6 +32,8 @@
 #define MILLFORCE_FEED_UNITS_PER_MM_MIN 100U  ///< `feed` at 1 mm/min
 #define MILLFORCE_LARGEST_FEED 0xFFFFFFU      ///< 167 772.15 mm/min
 #define MILLFORCE_STATUS_PERIOD_US 10000U
+#define MILLFORCE_TOOL_ID 0x2FDU  ///< TPDO 2 of node 125
+#define MILLFORCE_TOOL_PERIOD_US 100000U
 #define MILLFORCE_FRAME_BYTES 8U
 
 /// A frame of classical CAN.
@@ -339,6 +344,57 @@ static inline bool millforce_status_due(millforce_status_sender* sender, const m
     sender->has_sent = true;
     sender->sent_us = now_us;
     millforce_encode_status(status, sender->counter, sender->id, frame);
+    return true;
+}
+
+/// The tool in the spindle; 0: none, or not known.
+static inline void millforce_encode_tool(uint32_t number, uint32_t id, millforce_can_frame* frame) {
+    for (uint32_t k = 0U; k < 4U; ++k) {
+        frame->data[k] = (number >> (8U * k)) & 0xFFU;
+    }
+    frame->data[4] = 0U;
+    millforce_finish(frame, id, 0U);
+}
+
+/// Writes `number` where the result is ok.
+static inline millforce_result millforce_decode_tool(const millforce_can_frame* frame, uint32_t id, uint32_t* number) {
+    const millforce_result result = millforce_check(frame, id);
+    if (result != millforce_ok) {
+        return result;
+    }
+    if (frame->data[4] != 0U || frame->data[5] != 0U || frame->data[6] != 0U) {
+        return millforce_reserved_bits;
+    }
+    const uint32_t high = millforce_16_bits(&frame->data[2]);
+    *number = millforce_16_bits(&frame->data[0]) | (high << 16U);
+    return millforce_ok;
+}
+
+typedef struct {
+    uint32_t id;
+    uint32_t sent;
+    bool has_sent;
+    uint32_t sent_us;
+} millforce_tool_sender;
+
+static inline void millforce_tool_start(millforce_tool_sender* sender) {
+    sender->id = MILLFORCE_TOOL_ID;
+    sender->sent = 0U;
+    sender->has_sent = false;
+    sender->sent_us = 0U;
+}
+
+/// In each cycle. True where `frame` is to be sent: every 100 ms, and at once where the number changes.
+static inline bool millforce_tool_due(millforce_tool_sender* sender, uint32_t number, uint32_t now_us,
+                                      millforce_can_frame* frame) {
+    const bool is_time = now_us - sender->sent_us >= MILLFORCE_TOOL_PERIOD_US;
+    if (sender->has_sent && number == sender->sent && !is_time) {
+        return false;
+    }
+    sender->sent = number;
+    sender->has_sent = true;
+    sender->sent_us = now_us;
+    millforce_encode_tool(number, sender->id, frame);
     return true;
 }
 

@@ -45,6 +45,7 @@ struct Pins {
     hal_float_t* mm_per_unit;
     hal_float_t* operator_override;
     hal_s32_t* motion_type;
+    hal_s32_t* tool_number;
     hal_bit_t* feed_hold;
     hal_bit_t* reset;
 };
@@ -56,17 +57,19 @@ int export_pins(Pins& p, int component) {
     const auto u32 = [&](hal_u32_t** pin, const char* name) {
         return hal_pin_u32_newf(HAL_OUT, pin, component, "%s.%s", component_name, name);
     };
+    const auto s32 = [&](hal_s32_t** pin, const char* name) {
+        return hal_pin_s32_newf(HAL_IN, pin, component, "%s.%s", component_name, name);
+    };
     const auto bit = [&](hal_pin_dir_t direction, hal_bit_t** pin, const char* name) {
         return hal_pin_bit_newf(direction, pin, component, "%s.%s", component_name, name);
     };
-    const int failed = f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") |
-                       bit(HAL_OUT, &p.hold, "hold") | bit(HAL_OUT, &p.connected, "connected") |
-                       u32(&p.state, "state") | u32(&p.fault, "fault") | u32(&p.refused, "refused") |
-                       u32(&p.dropped, "dropped") | f32(HAL_IN, &p.requested_velocity, "requested-velocity") |
-                       f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
-                       f32(HAL_IN, &p.operator_override, "operator-override") |
-                       hal_pin_s32_newf(HAL_IN, &p.motion_type, component, "%s.motion-type", component_name) |
-                       bit(HAL_IN, &p.feed_hold, "feed-hold") | bit(HAL_IN, &p.reset, "reset");
+    const int failed =
+        f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") | bit(HAL_OUT, &p.hold, "hold") |
+        bit(HAL_OUT, &p.connected, "connected") | u32(&p.state, "state") | u32(&p.fault, "fault") |
+        u32(&p.refused, "refused") | u32(&p.dropped, "dropped") |
+        f32(HAL_IN, &p.requested_velocity, "requested-velocity") | f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
+        f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
+        s32(&p.tool_number, "tool-number") | bit(HAL_IN, &p.feed_hold, "feed-hold") | bit(HAL_IN, &p.reset, "reset");
     if (failed == 0) {
         *p.hold = true;
         *p.mm_per_unit = 1.0;
@@ -112,7 +115,8 @@ class Bridge {
   public:
     Bridge(int can, const Pins& pins) : can_(can), pins_(pins) {
         millforce_receiver_start(&receiver_, millforce_default_settings());
-        millforce_status_start(&sender_);
+        millforce_status_start(&status_sender_);
+        millforce_tool_start(&tool_sender_);
     }
 
     void step() {
@@ -153,7 +157,6 @@ class Bridge {
         *pins_.heartbeat = heartbeat_;
     }
 
-    /// What cannot be sent is dropped: the next one is newer.
     void report() {
         const real_t feed_mm_min = *pins_.requested_velocity * *pins_.mm_per_unit * mm_min_per_mm_s;
         millforce_program_status status{};
@@ -162,10 +165,19 @@ class Bridge {
         status.is_rapid = *pins_.motion_type == 1;
         status.is_feed_held = *pins_.feed_hold;
         status.resets_fault = *pins_.reset;
-        millforce_can_frame ours{};
-        if (!millforce_status_due(&sender_, &status, now_us(), &ours)) {
-            return;
+        const std::int32_t number = *pins_.tool_number;
+        const std::uint32_t tool = number > 0 ? static_cast<std::uint32_t>(number) : 0U;
+        millforce_can_frame frame{};
+        if (millforce_status_due(&status_sender_, &status, now_us(), &frame)) {
+            send(frame);
         }
+        if (millforce_tool_due(&tool_sender_, tool, now_us(), &frame)) {
+            send(frame);
+        }
+    }
+
+    /// What cannot be sent is dropped: the next one is newer.
+    void send(const millforce_can_frame& ours) {
         can_frame frame{};
         frame.can_id = ours.id;
         frame.can_dlc = MILLFORCE_FRAME_BYTES;
@@ -178,7 +190,8 @@ class Bridge {
     int can_;
     const Pins& pins_;
     millforce_receiver receiver_{};
-    millforce_status_sender sender_{};
+    millforce_status_sender status_sender_{};
+    millforce_tool_sender tool_sender_{};
     std::uint32_t heartbeat_ = 0;
 };
 

@@ -39,3 +39,19 @@ bool c99_status_due(millforce_status_sender* sender, const millforce_program_sta
                     millforce_can_frame* frame) {
     return millforce_status_due(sender, status, now_us, frame);
 }
+
+void c99_encode_tool(uint32_t number, uint32_t id, millforce_can_frame* frame) {
+    millforce_encode_tool(number, id, frame);
+}
+
+millforce_result c99_decode_tool(const millforce_can_frame* frame, uint32_t id, uint32_t* number) {
+    return millforce_decode_tool(frame, id, number);
+}
+
+void c99_tool_start(millforce_tool_sender* sender) {
+    millforce_tool_start(sender);
+}
+
+bool c99_tool_due(millforce_tool_sender* sender, uint32_t number, uint32_t now_us, millforce_can_frame* frame) {
+    return millforce_tool_due(sender, number, now_us, frame);
+}

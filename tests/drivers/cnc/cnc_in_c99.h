@@ -21,6 +21,10 @@ millforce_received c99_now(millforce_receiver* receiver, uint32_t now_us);
 void c99_status_start(millforce_status_sender* sender);
 bool c99_status_due(millforce_status_sender* sender, const millforce_program_status* status, uint32_t now_us,
                     millforce_can_frame* frame);
+void c99_encode_tool(uint32_t number, uint32_t id, millforce_can_frame* frame);
+millforce_result c99_decode_tool(const millforce_can_frame* frame, uint32_t id, uint32_t* number);
+void c99_tool_start(millforce_tool_sender* sender);
+bool c99_tool_due(millforce_tool_sender* sender, uint32_t number, uint32_t now_us, millforce_can_frame* frame);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #include "cnc_in_c99.h"
 #include "override_frame/override_receiver.hpp"
 #include "program_status/program_status_receiver.hpp"
+#include "program_status/tool_frame.hpp"
 
 #include <algorithm>
 #include <array>
@@ -168,6 +169,23 @@ TEST(CncSide, sends_the_program_status_every_ten_ms_and_at_once_where_a_flag_cha
     DOUBLES_EQUAL(2430.0 / 60.0, static_cast<double>(receiver.program(100'000).programmed_feed_mm_s), 1e-4);
 }
 
+TEST(CncSide, sends_the_tool_every_hundred_ms_and_at_once_where_it_changes) {
+    millforce_tool_sender sender{};
+    c99_tool_start(&sender);
+    program_status::ToolReceiver receiver(program_status::tool_frame_id(program_status::default_id));
+    millforce_can_frame frame{};
+    int sent = 0;
+    for (std::uint32_t now_us = 0; now_us < 500'000; now_us += 1000) {
+        const std::uint32_t tool = now_us < 250'000 ? 7 : 12;
+        if (c99_tool_due(&sender, tool, now_us, &frame)) {
+            CHECK(receiver.on_frame(in_cpp(frame), now_us));
+            ++sent;
+        }
+        CHECK_EQUAL(tool, receiver.number(now_us));
+    }
+    LONGS_EQUAL(6, sent);  // 0, 100, 200, 250, 350, 450 ms
+}
+
 TEST(CncSide, saturates_what_the_program_status_cannot_hold) {
     const millforce_program_status status{0x1000000, 300, false, false, false};
     millforce_can_frame frame{};
@@ -183,10 +201,12 @@ TEST(CncSide, in_structured_text_has_the_constants_of_the_c_header) {
     const std::string text = text_of_function_blocks();
     std::ostringstream id;
     id << std::uppercase << std::hex << "OverrideId : WORD := 16#" << settings.id << ";|HeartbeatId : WORD := 16#"
-       << 0x700U + settings.node << ";|StatusId : WORD := 16#" << MILLFORCE_STATUS_ID << ";|";
+       << 0x700U + settings.node << ";|StatusId : WORD := 16#" << MILLFORCE_STATUS_ID << ";|ToolId : WORD := 16#"
+       << MILLFORCE_TOOL_ID << ";|";
     std::ostringstream limits;
     limits << "Timeout : TIME := T#" << settings.timeout_us / 1000 << "ms;|Period : TIME := T#"
-           << MILLFORCE_STATUS_PERIOD_US / 1000 << "ms;|LargestStep : DINT := " << settings.largest_counter_step
+           << MILLFORCE_STATUS_PERIOD_US / 1000 << "ms;|Period : TIME := T#" << MILLFORCE_TOOL_PERIOD_US / 1000
+           << "ms;|LargestStep : DINT := " << settings.largest_counter_step
            << ";|FramesToTrust : INT := " << settings.frames_to_trust
            << ";|LargestRatio : DINT := " << settings.largest_ratio
            << ";|FallbackRatio : DINT := " << settings.fallback_ratio << ";|Crc XOR BYTE#16#2F;";

@@ -4,6 +4,7 @@
 #include "override_frame/override_receiver.hpp"
 #include "override_frame/override_sender.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/tool_frame.hpp"
 
 #include <algorithm>
 #include <map>
@@ -122,6 +123,29 @@ TEST(CncVectors, of_the_program_status_are_what_the_c_header_makes_and_what_our_
     LONGS_EQUAL(7, count);
 }
 
+TEST(CncVectors, of_the_tool_are_what_the_c_header_makes_and_what_our_receiver_reads) {
+    int count = 0;
+    for (const Words& words : cnc_vectors()) {
+        if (words[0] != "tool") {
+            continue;
+        }
+        const char* text = words.back().c_str();
+        const hal::CanFrame frame = frame_of(words, 1, 4);
+        const std::uint32_t number = decimal(words[2]);
+        millforce_can_frame encoded{};
+        c99_encode_tool(number, frame.id, &encoded);
+        check_same(frame, encoded, text);
+        std::uint32_t decoded = ~number;
+        CHECK_EQUAL_TEXT(millforce_ok, c99_decode_tool(&encoded, frame.id, &decoded), text);
+        CHECK_EQUAL_TEXT(number, decoded, text);
+        std::uint32_t ours = ~number;
+        CHECK_TEXT(program_status::decode_tool(frame, frame.id, ours) == program_status::FrameError::none, text);
+        CHECK_EQUAL_TEXT(number, ours, text);
+        ++count;
+    }
+    LONGS_EQUAL(5, count);
+}
+
 TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_name) {
     using Override = override_frame::FrameError;
     using Status = program_status::FrameError;
@@ -145,6 +169,10 @@ TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_n
             millforce_override theirs{};
             CHECK(override_frame::decode(frame, frame.id, ours) == override_reasons.at(words[1]).first);
             CHECK_EQUAL(override_reasons.at(words[1]).second, c99_decode_override(&c_frame, frame.id, &theirs));
+        } else if (words[0] == "refused_tool") {
+            std::uint32_t number = 0;
+            CHECK(program_status::decode_tool(frame, frame.id, number) == status_reasons.at(words[1]).first);
+            CHECK_EQUAL(status_reasons.at(words[1]).second, c99_decode_tool(&c_frame, frame.id, &number));
         } else {
             program_status::ProgramStatusFrame ours;
             millforce_program_status theirs{};
@@ -154,7 +182,7 @@ TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_n
         }
         ++count;
     }
-    LONGS_EQUAL(11, count);
+    LONGS_EQUAL(14, count);
 }
 
 TEST(CncVectors, of_sequences_lead_both_receivers_to_what_they_say) {
