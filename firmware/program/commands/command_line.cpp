@@ -140,7 +140,7 @@ Option Command::flag(const std::string& names, bool& value, const std::string& h
     return Option(app_->add_flag(names, value, help));
 }
 
-Option Command::named_choice(const std::string& names, const std::string& help, std::vector<std::string> words,
+Option Command::named_choice(const std::string& names, const std::string& help, const std::vector<std::string>& words,
                              const std::function<void(std::size_t)>& chosen) {
     const std::string list = list_of(words);
     const auto check = [words, list](const std::string& text) {

@@ -70,8 +70,7 @@ class Command {
             words.emplace_back(word);
             values.push_back(choice);
         }
-        return named_choice(names, help, std::move(words),
-                            [&value, values](std::size_t index) { value = values[index]; });
+        return named_choice(names, help, words, [&value, values](std::size_t index) { value = values[index]; });
     }
 
     /// Where this command is chosen, `run` is called and returns the program's exit code: 0 done; 1 done, and a stated
@@ -82,7 +81,7 @@ class Command {
   private:
     friend class CommandLine;
     Command(CLI::App* app, int* exit_code) : app_(app), exit_code_(exit_code) {}
-    Option named_choice(const std::string& names, const std::string& help, std::vector<std::string> words,
+    Option named_choice(const std::string& names, const std::string& help, const std::vector<std::string>& words,
                         const std::function<void(std::size_t)>& chosen);
 
     CLI::App* app_;
