@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -66,11 +68,16 @@ TEST(LinePrinter, does_not_wait_for_who_takes_no_line_and_says_how_many_are_miss
     std::fclose(pipe.stream);
     reader.join();
     int written = 0;
-    while (taken.find(fmt::format("line {}\n", written)) != std::string::npos) {
-        ++written;
+    int missing = 0;
+    std::istringstream text(taken);
+    for (std::string line; std::getline(text, line);) {
+        int count = 0;
+        written += line.starts_with("line ") ? 1 : 0;
+        missing += std::sscanf(line.c_str(), "millforce: %d lines are missing here", &count) == 1 ? count : 0;
     }
     CHECK(written >= static_cast<int>(LinePrinter::capacity));
-    CHECK(taken.ends_with(fmt::format("millforce: {} lines are missing here: nobody took them\n", lines - written)));
+    LONGS_EQUAL(lines, written + missing);
+    CHECK(taken.ends_with("lines are missing here: nobody took them\n"));
 }
 
 TEST(LinePrinter, writes_every_line_that_was_printed_before_its_end) {
