@@ -73,10 +73,8 @@ EnsembleFigures over_all_parts(const KindOnParts& milled) {
 }
 
 void print_estimates(const std::vector<KindOnParts>& machines) {
-    fmt::print(
-        "| machine | F_at error | F_ax error | immersion known | error, R | in its 95 % band | depth known | error, mm "
-        "| "
-        "in its 95 % band |\n|---|---|---|---|---|---|---|---|---|\n");
+    fmt::print("| machine | F_at error | F_ax error | immersion known | error, R | in its 95 % band ");
+    fmt::print("| depth known | error, mm | in its 95 % band |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const KindOnParts& milled : machines) {
         const EnsembleFigures all = over_all_parts(milled);
         fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", milled.kind.title, percent(all.tangential_error),
@@ -149,16 +147,11 @@ void add_kinds(host::Command& program) {
     host::Command command =
         program.subcommand("kinds", "Mill the same parts on several kinds of machines: what each kind gets");
     command.footer(
-        "Prints two Markdown tables: what is known of the forces and of the cut, over all parts, and what the feed "
-        "control "
-        "makes of it.\n"
-        "The plants are drawn as 'ensemble' draws them. Errors are root mean squares; those of forces are relative to "
-        "the "
-        "true ones in\n"
-        "cut. Peak: of the tooth's force over its limit. Time: over that of the largest constant feed that is safe for "
-        "a "
-        "steel up to\n"
-        "30 % harder. A run that takes three times as long as that is given up.");
+        "Prints two Markdown tables: what is known of the forces and of the cut, over all parts, and what the\n"
+        "feed control makes of it. The plants are drawn as 'ensemble' draws them. Errors are root mean squares;\n"
+        "those of forces are relative to the true ones in cut. Peak: of the tooth's force over its limit. Time:\n"
+        "over that of the largest constant feed that is safe for a steel up to 30 % harder. A run that takes\n"
+        "three times as long as that is given up.");
     command.option("scenarios", options->scenarios, "Parts to mill").required().value_name("SCENARIO.toml...");
     command.option("--kind", options->kinds, "Kinds of machines").required().value_name("KIND.toml...");
     command.option("--runs", options->runs, "Number of plants").within(1, 10000).shows_default();
