@@ -2,6 +2,7 @@
 #include "cnc/arc_plane.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace millforce::sim {
@@ -31,16 +32,10 @@ Eigen::Vector3d in_plane(const Eigen::Vector3d& p, ArcPlane plane) {
     return p;
 }
 
+/// Both upright planes turn the order of the axes, in opposite directions: one undoes the other.
 Eigen::Vector3d from_plane(const Eigen::Vector3d& p, ArcPlane plane) {
-    switch (plane) {
-        case ArcPlane::zx:
-            return {p.y(), p.z(), p.x()};
-        case ArcPlane::yz:
-            return {p.z(), p.x(), p.y()};
-        case ArcPlane::xy:
-            break;
-    }
-    return p;
+    constexpr std::array<ArcPlane, 3> opposite{ArcPlane::xy, ArcPlane::yz, ArcPlane::zx};
+    return in_plane(p, opposite[static_cast<std::size_t>(plane)]);
 }
 
 std::vector<Move> moves_from_plane(const Move& move, ArcPlane plane) {

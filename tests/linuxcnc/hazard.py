@@ -43,6 +43,13 @@ def wait_cycles(number):
         time.sleep(0.02)
 
 
+def break_off(drive):
+    """Ends the program, with what follows in the log."""
+    drive.command.abort()
+    drive.command.wait_complete(5)
+    wait_cycles(200)
+
+
 def client():
     return int(subprocess.run(["pidof", "millforce-hal"], capture_output=True, text=True, check=True).stdout)
 
@@ -179,9 +186,7 @@ def main():
         drive.await_end(300.0)
         return 1 if drive.errors else 0
     drive.poll()
-    drive.command.abort()
-    drive.command.wait_complete(5)
-    wait_cycles(200)
+    break_off(drive)
     return 0
 
 

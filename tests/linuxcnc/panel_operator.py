@@ -14,7 +14,7 @@ from Xlib.ext import xtest
 import linuxcnc
 
 from drive import Drive
-from hazard import controller, go_on, halcmd, set_patience, wait_cycles
+from hazard import break_off, controller, go_on, halcmd, set_patience, wait_cycles
 
 
 def seen():
@@ -81,9 +81,7 @@ def main():
         drive.fail("the fault stays until the reset")
     click_reset(drive)
     drive.until("the panel shows no fault any more", lambda: seen().get("reason") == "none")
-    drive.command.abort()
-    drive.command.wait_complete(5)
-    wait_cycles(200)
+    break_off(drive)
     return 0
 
 

@@ -88,7 +88,7 @@ void BusController::report_what_is_wrong() {
     const bool lacks_something = controller_.conditions().has(firmware::Condition::input_incomplete);
     emergencies_.set(Reason::inputs_missing, lacks_something && controller_.ticks() != 0, controller_.sample().present);
     emergencies_.follow(Reason::tool_unknown, controller_.conditions().has(firmware::Condition::tool_unknown),
-                        controller_.told_tool());
+                        controller_.reported_tool());
     emergencies_.set(Reason::tick_fault, output.fault != 0, output.fault);
     if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
         bus_offs_ = can_.health().bus_offs;

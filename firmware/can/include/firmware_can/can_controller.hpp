@@ -106,8 +106,8 @@ class CanController {
     [[nodiscard]] TickRecord record() const { return tick_record(tick_.of_tool(), output_, tick_time_us_); }
     /// Number of the tool that the override is for; 0: without a source of tools, or not known.
     [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
-    /// The number that the CNC tells; 0: none.
-    [[nodiscard]] std::uint32_t told_tool() const { return tool_receiver_.number(bus_time_us_); }
+    /// The number that the CNC sends; 0: none.
+    [[nodiscard]] std::uint32_t reported_tool() const { return tool_receiver_.number(bus_time_us_); }
     [[nodiscard]] std::uint32_t ticks() const { return output_.heartbeat; }
 
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
