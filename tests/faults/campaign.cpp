@@ -98,6 +98,30 @@ bool is_of_x(SignalFault fault) {
     return fault >= SignalFault::x_tenfold && fault <= SignalFault::x_and_y_swapped;
 }
 
+Outcome mill(const Part& part, sim::OverrideSource& controller, const std::function<void()>& begin, const Fault& fault,
+             std::uint64_t seed) {
+    constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
+    std::mt19937_64 random(seed);
+    sim::Scenario scenario = part.scenario;
+    scenario.seed = seed;
+    scenario.deviation = sim::drawn_deviation(scenario, seed);
+    FaultyMachine machine(controller,
+                          {.begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random),
+                           .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
+                           .begin = begin,
+                           .corrupt = corruption(part, fault, seed),
+                           .leaves_blind = leaves_blind(fault)});
+    sim::SimulationSettings stopped_early;
+    stopped_early.longest_run_s = longest_run_s(part);
+    stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };
+    Outcome outcome;
+    outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
+    outcome.reaction = machine.reaction();
+    outcome.crawled =
+        !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
+    return outcome;
+}
+
 template <typename Kind>
 void append(std::vector<Fault>& faults, int first, int end) {
     for (int k = first; k < end; ++k) {
@@ -167,26 +191,12 @@ std::vector<Fault> faults_on(Path path, const Part& part) {
 }
 
 Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed) {
-    constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
-    std::mt19937_64 random(seed);
-    sim::Scenario scenario = part.scenario;
-    scenario.seed = seed;
-    scenario.deviation = sim::drawn_deviation(scenario, seed);
-    Seat seat = seat_on(path, part, fault, seed);
-    FaultyMachine machine(*seat.controller,
-                          {.begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random),
-                           .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
-                           .begin = seat.begin,
-                           .corrupt = corruption(part, fault, seed),
-                           .leaves_blind = leaves_blind(fault)});
-    sim::SimulationSettings stopped_early;
-    stopped_early.longest_run_s = longest_run_s(part);
-    stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };
-    Outcome outcome;
-    outcome.run = sim::simulate(scenario, machine, name_of(path), stopped_early).result;
-    outcome.reaction = machine.reaction();
-    outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
-    return outcome;
+    const Seat seat = seat_on(path, part, fault, seed);
+    return mill(part, *seat.controller, seat.begin, fault, seed);
+}
+
+Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, SignalFault fault, std::uint64_t seed) {
+    return mill(part, controller, {}, fault, seed);
 }
 
 void Tally::add(const Outcome& outcome) {

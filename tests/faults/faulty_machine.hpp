@@ -48,6 +48,7 @@ class FaultyMachine : public sim::OverrideSource {
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(sim::TracePoint& point) const override { controller_.describe(point); }
     [[nodiscard]] bool is_ready() const override { return controller_.is_ready(); }
+    [[nodiscard]] PlantSteps plant_steps(const PlantSteps& usual) override { return controller_.plant_steps(usual); }
 
     [[nodiscard]] const Reaction& reaction() const { return reaction_; }
 

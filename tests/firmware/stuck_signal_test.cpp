@@ -46,6 +46,30 @@ TEST(StuckSignal, notices_a_noisy_signal_that_freezes_within_some_thirty_samples
     CHECK(count > 30 && count < 40);
 }
 
+TEST(StuckSignal, is_judged_by_what_it_learnt_before_where_it_only_watches) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.add(noisy.next());
+    }
+    signal.pause();
+    const float frozen = noisy.next();
+    int count = 0;
+    for (; count < 1000 && !signal.is_stuck(); ++count) {
+        signal.watch(frozen);
+    }
+    CHECK(count > 30 && count < 40);
+}
+
+TEST(StuckSignal, learns_nothing_where_it_only_watches) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.watch(noisy.next());
+    }
+    CHECK_FALSE(signal.has_learnt());
+}
+
 TEST(StuckSignal, lets_a_slow_source_repeat_itself_and_still_notices_that_it_hangs) {
     StuckSignal signal;
     NoisySignal noisy(0.1F);

@@ -6,6 +6,7 @@
 
 #include "emulated_controller.hpp"
 #include "estimation/number/fixed_point.hpp"
+#include "faults/campaign.hpp"
 #include "firmware/parameters_in.hpp"
 #include "loop/bounds.hpp"
 #include "loop/override_source.hpp"
@@ -87,6 +88,23 @@ void mill_on(const std::string& processor, std::uint32_t budget) {
     CHECK_COMPARE(controller.most_instructions, <=, budget);
 }
 
+/// What a fault leads to on the host is what it leads to on the processor.
+template <typename Scalar>
+void meet_faults_on(const std::string& processor) {
+    using faults::SignalFault;
+    const faults::Part part = faults::part_named("slot_entry");
+    std::uint64_t seed = 0;
+    for (const SignalFault fault : {SignalFault::spindle_frozen, SignalFault::x_tenfold, SignalFault::encoder_double,
+                                    SignalFault::not_a_number, SignalFault::rapid_stuck, SignalFault::time_backwards}) {
+        ComparedController<Scalar> controller(processor, part.stated);
+        CHECK_TRUE_TEXT(controller.image_works(), "the emulator does not start");
+        faults::Tally tally;
+        tally.add(faults::mill_with_controller(part, controller, fault, ++seed));
+        LONGS_EQUAL_TEXT(0, controller.different, faults::name_of(fault));
+        LONGS_EQUAL_TEXT(0, tally.violations(), faults::name_of(fault));
+    }
+}
+
 }  // namespace
 
 TEST_GROUP(ProcessorInTheLoop){void setup() override{std::signal(SIGPIPE, SIG_IGN);
@@ -105,4 +123,8 @@ TEST(ProcessorInTheLoop, a_Cortex_M4F_mills_a_part_as_the_host_does_bit_for_bit)
 
 TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) {
     mill_on<estimation::Fixed>("cortex-m3", 36'500);
+}
+
+TEST(ProcessorInTheLoop, a_Cortex_M4F_meets_faults_as_the_host_does_bit_for_bit) {
+    meet_faults_on<float>("cortex-m4f");
 }

@@ -103,7 +103,12 @@ void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, co
     spindle_count_ = sample.spindle_count;
     const bool has_turned = last_speed_rad_s_ > Scalar(0) && !stands;
     const bool has_spindle = (sample.present & hal::mask(hal::Present::spindle_current)) != 0 && has_turned;
-    spindle_[0].follow(sample.spindle_current_A, has_spindle && !cuts);
+    // Until the first cut has taught how the current varies in a cut, it must vary as it does in air.
+    if (has_spindle && cuts && !spindle_[1].has_learnt()) {
+        spindle_[0].watch(sample.spindle_current_A);
+    } else {
+        spindle_[0].follow(sample.spindle_current_A, has_spindle && !cuts);
+    }
     spindle_[1].follow(sample.spindle_current_A, has_spindle && cuts);
     bool any_is_stuck = spindle_[0].is_stuck() || spindle_[1].is_stuck();
     for (std::size_t k = 0; k < axes_.size(); ++k) {

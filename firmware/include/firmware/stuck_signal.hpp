@@ -19,19 +19,9 @@ namespace millforce::firmware {
 /// add() with each sample while the signal has a reason to vary, pause() otherwise. Cost: a comparison of bits.
 class StuckSignal {
   public:
-    void add(float value) {
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        if (has_last_ && bits == last_bits_) {
-            run_ = run_ < longest_count ? static_cast<std::uint16_t>(run_ + 1) : run_;
-            return;
-        }
-        if (changes_ < enough_changes && hal::is_smaller(value, largest_value)) {
-            learn(static_cast<std::int32_t>(value * units_per_one));
-        }
-        has_last_ = true;
-        last_bits_ = bits;
-        run_ = 0;
-    }
+    void add(float value) { take(value, true); }
+    /// As add(), but where the signal varies differently: that teaches nothing.
+    void watch(float value) { take(value, false); }
     void pause() {
         has_last_ = false;
         run_ = 0;
@@ -46,10 +36,11 @@ class StuckSignal {
         }
     }
 
+    [[nodiscard]] bool has_learnt() const { return changes_ == enough_changes; }
     [[nodiscard]] bool is_stuck() const {
         constexpr std::uint16_t least_run = 32;
         constexpr std::uint32_t longest_runs = 8;
-        return changes_ == enough_changes && run_ >= least_run && run_ > longest_runs * longest_run_ && has_noise();
+        return has_learnt() && run_ >= least_run && run_ > longest_runs * longest_run_ && has_noise();
     }
 
   private:
@@ -62,6 +53,19 @@ class StuckSignal {
     [[nodiscard]] bool has_noise() const {
         constexpr std::int32_t steps = 3;  // of the resolution
         return largest_step_ > steps * smallest_step_ + smallest_step_ / 2;
+    }
+    void take(float value, bool learns) {
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        if (has_last_ && bits == last_bits_) {
+            run_ = run_ < longest_count ? static_cast<std::uint16_t>(run_ + 1) : run_;
+            return;
+        }
+        if (learns && changes_ < enough_changes && hal::is_smaller(value, largest_value)) {
+            learn(static_cast<std::int32_t>(value * units_per_one));
+        }
+        has_last_ = true;
+        last_bits_ = bits;
+        run_ = 0;
     }
     void learn(std::int32_t now) {
         const std::int32_t size = now < learnt_ ? learnt_ - now : now - learnt_;
