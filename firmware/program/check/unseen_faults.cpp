@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/unseen_faults.hpp"
+
+namespace millforce::host {
+
+std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parameters) {
+    const auto& axes = parameters.machine.axes;
+    const bool has_axes = axes[0].K_x4_N_per_A > 0.0F || axes[1].K_x4_N_per_A > 0.0F;
+    std::vector<std::string> faults;
+    faults.emplace_back(
+        "a spindle current that drifts slowly within one cut looks like a cut that changes; it is found in the next "
+        "air, and until then the tooth may carry more than its limit");
+    if (has_axes) {
+        faults.emplace_back(
+            "the current of an axis that drifts slowly in a straight move along it looks like an immersion that changes; "
+            "it is found where the forces contradict the law of the cut, or in the next air");
+    } else {
+        faults.emplace_back(
+            "a spindle current that is too small in the cut, though its idle current is right, is contradicted by no "
+            "second current");
+    }
+    faults.emplace_back(
+        "a programmed feed that is told too high, and velocities that are told too low, only slow the machine down; "
+        "nothing reports them");
+    return faults;
+}
+
+}  // namespace millforce::host
