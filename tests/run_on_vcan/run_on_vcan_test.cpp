@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_bench.hpp"
+#include "program/service_manager.hpp"
 
 #include <CppUTest/TestHarness.h>
 
-#include <sys/socket.h>
-#include <sys/un.h>
-
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -19,31 +16,6 @@ namespace {
 bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-
-/// The end of a service manager's notification socket.
-class DatagramSocket {
-  public:
-    explicit DatagramSocket(const std::string& name) : descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        name.copy(address.sun_path, sizeof address.sun_path - 1);
-        const timeval patience{10, 0};
-        ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-        CHECK(::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
-    }
-    ~DatagramSocket() { ::close(descriptor_); }
-    DatagramSocket(const DatagramSocket&) = delete;
-    DatagramSocket& operator=(const DatagramSocket&) = delete;
-
-    [[nodiscard]] std::string receive() const {
-        std::array<char, 100> buffer{};
-        const ssize_t length = ::recv(descriptor_, buffer.data(), buffer.size(), 0);
-        return length > 0 ? std::string(buffer.data(), static_cast<std::size_t>(length)) : "nothing";
-    }
-
-  private:
-    int descriptor_;
-};
 
 constexpr const char* stopped_heartbeat = "77E#04";  // the controller's last frame
 
