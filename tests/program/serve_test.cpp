@@ -121,11 +121,13 @@ TEST(Serve, holds_the_feed_where_a_current_an_angle_or_everything_is_missing_or_
     }
 }
 
-TEST(Serve, holds_the_feed_where_the_encoder_stops_in_air) {
+TEST(Serve, does_not_raise_the_feed_where_the_encoder_stops_in_air_and_holds_it_at_the_first_cut) {
     start();
     CHECK_FALSE(ask_often(300).hold);
     cnc->counts_per_ms = 0;
-    STRCMP_EQUAL("spindle_stopped", fault_within(200).c_str());
+    STRCMP_EQUAL("none", fault_within(1000).c_str());  // a spindle that is off, perhaps
+    cnc->sample.spindle_current_A = 12.0F;
+    STRCMP_EQUAL("spindle_stopped", fault_within(60).c_str());
     end();
 }
 

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_bench.hpp"
+#include "program/pauses.hpp"
+#include "program/service_manager.hpp"
+
+#include <sys/resource.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+
+#include "cia402/objects.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::vcan;
+
+/// `millforce run` on a bus with its machine, and what happens to a process of a computer: it is stopped, its disk is
+/// full, its files are renamed, its clock is set, its memory is at its end, it is there twice.
+
+namespace {
+
+constexpr int pause_ms = 1000;  // stale_s of the machine here is 0.4 s
+
+/// An override frame's bytes as candump writes them.
+bool says_hold(const std::string& frame) {
+    return frame.substr(8, 2) == "01";
+}
+bool is_override(const std::string& frame) {
+    return frame.starts_with("1FE#");
+}
+
+/// This kernel is a guest of its own: its clock may be set.
+bool is_clock_ours() {
+    return test::text_of("/proc/cpuinfo").find("User Mode Linux") != std::string::npos;
+}
+
+void move_clock(double seconds) {
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    const auto whole = static_cast<time_t>(seconds);
+    now.tv_sec += whole;
+    now.tv_nsec += static_cast<long>((seconds - static_cast<double>(whole)) * 1e9);
+    now.tv_sec += now.tv_nsec < 0 ? -1 : now.tv_nsec / 1'000'000'000;
+    now.tv_nsec = (now.tv_nsec + 1'000'000'000) % 1'000'000'000;
+    CHECK(::clock_settime(CLOCK_REALTIME, &now) == 0);
+}
+
+std::uintmax_t size_of(const std::string& file) {
+    std::error_code none_yet;
+    const std::uintmax_t size = std::filesystem::file_size(file, none_yet);
+    return none_yet ? 0 : size;
+}
+
+std::size_t line_count(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+/// With the machine on the bus, from its first estimate on.
+TEST_GROUP(RunDisturbed) {
+    const LiveFolder folder{};
+    std::unique_ptr<Candump> candump;
+    std::unique_ptr<test::Program> controller;
+    std::unique_ptr<test::Program> plant;
+
+    void start() {
+        candump = std::make_unique<Candump>("vcan0");
+        controller = std::make_unique<test::Program>(folder.run_words());
+        plant = std::make_unique<test::Program>(folder.plant_words());
+        CHECK(folder.logged("\"type\":\"estimate\""));
+    }
+    void end(int exit_code = 0) {
+        controller->interrupt(SIGTERM);
+        controller->wait();
+        LONGS_EQUAL(exit_code, controller->exit_code());
+        plant->interrupt(SIGTERM);
+        plant->wait();
+    }
+    [[nodiscard]] std::vector<std::string> overrides() const {
+        std::vector<std::string> frames = candump->frames();
+        std::erase_if(frames, [](const std::string& frame) { return !is_override(frame); });
+        return frames;
+    }
+    /// So many more override frames.
+    [[nodiscard]] bool goes_on(std::size_t count) const {
+        const std::size_t before = overrides().size();
+        return wait_until([&] { return overrides().size() >= before + count; });
+    }
+    [[nodiscard]] bool estimates_go_on(std::size_t count) const {
+        const std::size_t before = estimates_of(folder.text("run.jsonl")).size();
+        return wait_until([&] { return estimates_of(folder.text("run.jsonl")).size() >= before + count; });
+    }
+    template <typename Pause>
+    void holds_after() {
+        start();
+        std::size_t before = 0;
+        {
+            const Pause stopped(controller->process());
+            before = overrides().size();
+            sleep_ms(pause_ms);
+            CHECK(overrides().size() <= before + 1);  // candump's own delay
+        }
+        CHECK(controller->says("process_paused ("));
+        CHECK(goes_on(20));
+        const std::vector<std::string> frames = overrides();
+        for (std::size_t k = before + 2; k < frames.size(); ++k) {
+            CHECK(says_hold(frames[k]));
+        }
+        CHECK(folder.logged("\"fault\":\"stale_input\""));
+        end();
+    }
+};
+
+TEST(RunDisturbed, after_sigstop_holds_and_says_so) {
+    holds_after<test::Stopped>();
+}
+
+TEST(RunDisturbed, after_a_debuggers_pause_of_its_loop_holds_and_says_so) {
+    holds_after<test::Debugged>();
+}
+
+TEST(RunDisturbed, a_loop_that_stands_is_no_longer_reported_alive) {
+    const test::ServiceManager manager(folder.file("notify"), 400'000);
+    start();
+    CHECK(manager.hears("WATCHDOG=1"));
+    {
+        const test::Debugged loop_stands(controller->process());
+        (void)manager.hears_nothing(1);
+        CHECK(manager.hears_nothing(500));
+    }
+    CHECK(manager.hears("WATCHDOG=1"));
+    end();
+}
+
+TEST(RunDisturbed, a_full_disk_is_told_at_once_and_costs_whole_lines_and_no_override) {
+    start();
+    CHECK(estimates_go_on(5));
+    const rlim_t full = size_of(folder.file("run.jsonl")) + 100;
+    const rlimit limited{full, RLIM_INFINITY};
+    LONGS_EQUAL(0, ::prlimit(controller->process(), RLIMIT_FSIZE, &limited, nullptr));
+    CHECK(controller->says("run.jsonl: File too large: lines are missing"));
+    CHECK(goes_on(50));
+    CHECK(folder.text("run.jsonl").ends_with("}\n"));
+    CHECK(folder.text("run.log").ends_with("\n"));
+    const rlimit free{RLIM_INFINITY, RLIM_INFINITY};
+    LONGS_EQUAL(0, ::prlimit(controller->process(), RLIMIT_FSIZE, &free, nullptr));
+    CHECK(folder.logged("{\"type\":\"missing\",\"lines\":"));
+    CHECK(wait_until([&] { return folder.text("run.log").find("# ") != std::string::npos; }));
+    CHECK(estimates_go_on(5));
+    end(1);
+    CHECK(controller->error().find("a write failed; the file is incomplete") != std::string::npos);
+}
+
+TEST(RunDisturbed, logs_that_are_renamed_go_on_in_new_files_after_sigusr1_without_a_line_lost) {
+    start();
+    CHECK(estimates_go_on(20));
+    for (const char* file : {"run.jsonl", "run.log"}) {
+        std::filesystem::rename(folder.file(file), folder.file(std::string(file) + ".1"));
+    }
+    CHECK(wait_until([&, size = size_of(folder.file("run.log.1"))] {
+        return size_of(folder.file("run.log.1")) > size + 1000;  // still the old one
+    }));
+    controller->interrupt(SIGUSR1);
+    CHECK(estimates_go_on(20));
+    end();
+    for (const char* file : {"run.jsonl", "run.log"}) {
+        const std::string old = folder.text(std::string(file) + ".1");
+        const std::string next = folder.text(file);
+        CHECK(old.ends_with("\n") && line_count(old) > 20 && line_count(next) > 20);
+        folder.write(file, old + next);
+    }
+    const test::Ended replay = test::run_millforce({"replay", folder.file("run.log"), "--machine",
+                                                    folder.file("machine.toml"), "--tool", folder.file("tool.toml"),
+                                                    "--verify", folder.file("run.jsonl"), "-o", folder.file("r.csv")});
+    STRCMP_EQUAL("", replay.error.c_str());
+    LONGS_EQUAL(0, replay.exit_code);
+}
+
+TEST(RunDisturbed, a_log_that_is_emptied_by_who_copied_it_goes_on_at_its_begin) {
+    start();
+    CHECK(estimates_go_on(5));
+    std::filesystem::resize_file(folder.file("run.jsonl"), 0);
+    CHECK(estimates_go_on(5));
+    STRCMP_EQUAL("{", folder.text("run.jsonl").substr(0, 1).c_str());
+    end();
+}
+
+TEST(RunDisturbed, a_clock_that_is_set_is_no_raise_and_at_most_a_fault_that_a_reset_clears) {
+    if (!is_clock_ours()) {
+        std::printf("skipped: the clock of this machine is not to be set\n");
+        return;
+    }
+    for (const double step_s : {3600.0, -3600.0, 0.3, -0.3}) {
+        start();
+        move_clock(step_s);
+        CHECK(goes_on(50));
+        CHECK(estimates_go_on(20));
+        end();
+        const std::vector<std::string> estimates = estimates_of(folder.text("run.jsonl"));
+        std::printf("    %.1f s: last estimate %s\n", step_s, estimates.back().c_str());
+        move_clock(-step_s);
+        std::filesystem::remove(folder.file("run.jsonl"));
+    }
+}
+
+TEST(RunDisturbed, goes_on_where_there_is_no_more_memory) {
+    start();
+    const rlimit nothing{1, RLIM_INFINITY};
+    LONGS_EQUAL(0, ::prlimit(controller->process(), RLIMIT_AS, &nothing, nullptr));
+    CHECK(estimates_go_on(50));
+    end();
+}
+
+TEST(RunDisturbed, two_on_one_bus_both_hold_and_say_so_until_one_has_ended) {
+    start();
+    std::vector<std::string> words = folder.run_words();
+    words.resize(6);
+    test::Program second(words);
+    CHECK(controller->says("override_foreign"));
+    CHECK(second.says("override_foreign"));
+    const std::size_t before = overrides().size();
+    CHECK(goes_on(40));
+    const std::vector<std::string> frames = overrides();
+    for (std::size_t k = before + 4; k < frames.size(); ++k) {
+        CHECK(says_hold(frames[k]));
+    }
+    second.interrupt(SIGTERM);
+    second.wait();
+    CHECK(wait_until([&] { return !says_hold(overrides().back()); }));
+    end();
+}
+
+TEST(RunDisturbed, a_log_that_another_one_writes_is_refused_and_stays_as_it_is) {
+    start();
+    CHECK(estimates_go_on(5));
+    STRCMP_EQUAL("", test::not_refused(test::run_millforce(folder.run_words()),
+                                       {"run.log: is being written by a running program"})
+                         .c_str());
+    CHECK(estimates_of(folder.text("run.jsonl")).size() > 5);
+    end();
+}
+
+TEST(RunDisturbed, an_sdo_write_to_the_controller_is_not_answered_and_changes_no_tick) {
+    start();
+    const std::string node_126 = "67E#";
+    for (const char* request : {"2F00200001000000", "2300200101000000", "23101001" "73617665", "4018100100000000"}) {
+        LONGS_EQUAL(0, shell("cansend vcan0 " + node_126 + request));
+    }
+    CHECK(candump->has(node_126, 4));
+    CHECK(estimates_go_on(20));
+    end();
+    for (const std::string& frame : candump->frames()) {
+        CHECK_FALSE(frame.starts_with("5FE#"));
+    }
+    const test::Ended replay = test::run_millforce({"replay", folder.file("run.log"), "--machine",
+                                                    folder.file("machine.toml"), "--tool", folder.file("tool.toml"),
+                                                    "--verify", folder.file("run.jsonl"), "-o", folder.file("r.csv")});
+    LONGS_EQUAL(0, replay.exit_code);
+}
