@@ -70,6 +70,7 @@ CanSocket::~CanSocket() {
 
 void CanSocket::poll(std::uint64_t now_us) {
     polled_us_ = now_us;
+    clock_.look();
     if (now_us < next_look_us_) {
         return;
     }

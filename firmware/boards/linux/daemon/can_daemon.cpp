@@ -127,8 +127,7 @@ void CanDaemon::end(std::uint64_t duration_us) {
 void CanDaemon::receive_all() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
-        const auto unix_us =
-            static_cast<std::uint64_t>(static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us());
+        const std::uint64_t unix_us = clock_.unix_us(received.time_us);
         journal_.record(received.frame, unix_us);
         clock_.on_frame(received.frame);
         if (received.is_own && override_frame::is_boot_up(received.frame, node_id_)) {
