@@ -9,8 +9,6 @@
 #include <cstdio>
 #include <ctime>
 
-#include "cia402/objects.hpp"
-
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce;
@@ -29,6 +27,30 @@ bool says_hold(const std::string& frame) {
 }
 bool is_override(const std::string& frame) {
     return frame.starts_with("1FE#");
+}
+
+const std::string listeners_bus = R"([bus]
+sync_period_ms = 20.0
+collect_time_ms = 20.0
+[bus.spindle]
+node_id = 1
+tpdo1 = ["0x6064:32", "0x6078:16"]
+[bus.x]
+node_id = 2
+tpdo1 = ["0x606C:32", "0x6078:16"]
+velocity_mm_s_per_unit = 0.001
+)";
+
+/// A CNC's SYNC with the answers of its drives: a spindle at 400 rpm, x at 20 mm/s, idle currents.
+void send_samples_for_ever() {
+    Listener bus(on("vcan0"));
+    for (std::uint32_t count = 0;; count += 1092) {
+        bus.socket.send(frame_of(0x080, {}));
+        bus.socket.send(
+            frame_of(0x181, {count & 0xFFU, count >> 8U & 0xFFU, count >> 16U & 0xFFU, count >> 24U, 0x75, 0}));
+        bus.socket.send(frame_of(0x182, {0x20, 0x4E, 0, 0, 0xA7, 0}));
+        bus.run_ms(20);
+    }
 }
 
 /// This kernel is a guest of its own: its clock may be set.
@@ -129,6 +151,29 @@ TEST(RunDisturbed, after_sigstop_holds_and_says_so) {
 
 TEST(RunDisturbed, after_a_debuggers_pause_of_its_loop_holds_and_says_so) {
     holds_after<test::Debugged>();
+}
+
+/// The drives are the CNC's and go on: no sample is missing, and the tick finds no gap.
+TEST(RunDisturbed, after_sigstop_beside_a_cnc_that_is_the_master_holds_until_a_newer_sample_without_a_fault) {
+    const std::string machine = test::with(folder.text("machine.toml"), "sample_rate_hz = 250", "sample_rate_hz = 50");
+    folder.write("machine.toml", machine.substr(0, machine.find("[bus]")) + listeners_bus);
+    candump = std::make_unique<Candump>("vcan0");
+    const Child drives([] { send_samples_for_ever(); });
+    controller = std::make_unique<test::Program>(folder.run_words());
+    CHECK(wait_until([&] { return !overrides().empty() && !says_hold(overrides().back()); }));
+    {
+        const test::Stopped stopped(controller->process());
+        sleep_ms(pause_ms);
+        candump = std::make_unique<Candump>("vcan0", folder.file("after.log"));
+    }
+    CHECK(wait_until([&] { return !overrides().empty(); }));
+    CHECK(says_hold(overrides().front()));
+    CHECK(controller->says("process_paused ("));
+    CHECK(wait_until([&] { return !says_hold(overrides().back()); }));
+    controller->interrupt(SIGTERM);
+    controller->wait();
+    LONGS_EQUAL(0, controller->exit_code());
+    CHECK(folder.text("run.jsonl").find("\"fault\":\"stale_input\"") == std::string::npos);
 }
 
 TEST(RunDisturbed, a_loop_that_stands_is_no_longer_reported_alive) {
