@@ -40,8 +40,12 @@ class SizeLimit {
 TEST_GROUP(LogFile) {
     millforce::test::TemporaryFolder folder;
 
-    std::string name() const { return folder.path("log").string(); }
-    std::string text() const { return folder.read("log"); }
+    std::string name() const {
+        return folder.path("log").string();
+    }
+    std::string text() const {
+        return folder.read("log");
+    }
 };
 
 TEST(LogFile, ends_with_a_whole_line_where_no_more_fits_and_says_later_what_is_missing) {
