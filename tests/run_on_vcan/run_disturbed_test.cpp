@@ -215,6 +215,25 @@ TEST(RunDisturbed, a_full_disk_is_told_at_once_and_costs_whole_lines_and_no_over
     CHECK(controller->error().find("a write failed; the file is incomplete") != std::string::npos);
 }
 
+TEST(RunDisturbed, messages_that_nobody_takes_cost_no_override_and_no_farewell) {
+    start();
+    controller->narrow_pipe_of_error();
+    std::filesystem::rename(folder.file("run.jsonl"), folder.file("run.jsonl.1"));
+    std::filesystem::create_directory(folder.file("run.jsonl"));
+    for (int k = 0; k < 60; ++k) {  // a message of some 80 bytes each
+        controller->interrupt(SIGUSR1);
+        sleep_ms(25);
+    }
+    CHECK(goes_on(50));
+    controller->interrupt(SIGTERM);
+    CHECK(candump->has("77E#04"));
+    CHECK(says_hold(overrides().back()));
+    controller->wait();
+    CHECK(controller->error().find("run.jsonl: Is a directory: the old file is written on") != std::string::npos);
+    plant->interrupt(SIGTERM);
+    plant->wait();
+}
+
 TEST(RunDisturbed, logs_that_are_renamed_go_on_in_new_files_after_sigusr1_without_a_line_lost) {
     start();
     CHECK(estimates_go_on(20));
