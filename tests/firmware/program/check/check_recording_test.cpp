@@ -347,8 +347,9 @@ TEST(RecordingCheck, finds_a_time_in_ms) {
     for (RecordedSample& sample : right) {
         sample.time_s *= 1000.0;
     }
-    check_says(lines_for(right, parameters), "error: 1 samples per second, and the machine's file says 1000; is the "
-                                             "time in ms? [time_s]");
+    check_says(lines_for(right, parameters),
+               "error: 1 samples per second, and the machine's file says 1000; is the "
+               "time in ms? [time_s]");
 }
 
 TEST_GROUP(OrderSpectrum){/// 100 revolutions of a sine of an order, 20 samples per revolution.
