@@ -87,8 +87,9 @@ void CanDaemon::step() {
     const std::uint64_t before_us = now_us();
     socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
     const std::uint64_t time_us = now_us();
-    look_for_pause(time_us);
-    socket_.poll(socketcan::monotonic_us());
+    const std::uint64_t turn_us = socketcan::monotonic_us();
+    look_for_pause(turn_us, time_us);
+    socket_.poll(turn_us);
     receive_all();
     controller_.poll(time_us);
     send_all();
@@ -97,12 +98,12 @@ void CanDaemon::step() {
     hold_where_needed();
     firmware::finish_work(controller_);
     report(time_us);
-    watchdog_.poll(socketcan::monotonic_us());
+    watchdog_.poll(turn_us);
 }
 
 /// After a pause the socket holds the frames of a cut that went on without an override.
-void CanDaemon::look_for_pause(std::uint64_t time_us) {
-    if (pause_watch_.look(socketcan::monotonic_us())) {
+void CanDaemon::look_for_pause(std::uint64_t turn_us, std::uint64_t time_us) {
+    if (pause_watch_.look(turn_us)) {
         resumed_us_ = time_us;
         is_paused_ = true;
         hold_where_needed();

@@ -41,7 +41,7 @@ class CanDaemon final : private firmware::TickListener {
   private:
     void on_tick(const firmware::CanController& controller) override;
     void step();
-    void look_for_pause(std::uint64_t time_us);
+    void look_for_pause(std::uint64_t turn_us, std::uint64_t time_us);
     void hold_where_needed();
     void receive_all();
     void read_beside_bus(std::uint64_t unix_us);
