@@ -14,7 +14,7 @@ int LoopbackBus::attach(Receiver receiver) {
 
 void LoopbackBus::send(int from, const hal::CanFrame& frame, std::uint64_t time_us) {
     const Fate fate = fault_ ? fault_(frame) : Fate{1, 0, frame};
-    for (int copy = 0; copy < fate.copies; ++copy) {
+    for (int copy = 0; copy < fate.copies && waiting_.size() < most_waiting; ++copy) {
         waiting_.push_back({from, time_us + fate.delay_us, fate.frame});
     }
 }

@@ -10,7 +10,8 @@
 namespace millforce::sim {
 
 /// A CAN bus in memory with the time that frames take: each participant's frame reaches all others when its bits have
-/// gone over the wire; of those that wait, the lowest id goes first. Deterministic.
+/// gone over the wire; of those that wait, the lowest id goes first. On a bus that carries more than it can, what the
+/// participants' queues do not hold is lost. Deterministic.
 class LoopbackBus {
   public:
     using Receiver = std::function<void(const hal::CanFrame& frame, std::uint64_t time_us)>;
@@ -42,6 +43,8 @@ class LoopbackBus {
         hal::CanFrame frame{};
     };
     [[nodiscard]] std::vector<Waiting>::iterator next(std::uint64_t until_us);
+
+    static constexpr std::size_t most_waiting = 64;
 
     double bit_rate_;
     std::vector<Receiver> receivers_;

@@ -61,6 +61,7 @@ CuttingForce::CuttingForce(const Cutter& cutter, const CuttingCoefficients& coef
     const EdgeResolution& resolution = options_.resolution;
     check_range("resolution.axial_slices", static_cast<double>(resolution.axial_slices), 1.0, 500.0);
     check_range("resolution.largest_angle_per_slice_rad", resolution.largest_angle_per_slice_rad, 1e-3, 0.2);
+    check_range("resolution.largest_turn_rad", resolution.largest_turn_rad, 1e-3, 0.2);
     lag_rad_per_mm_ = helix_lag_rad(cutter_, 1.0);
     mm_per_bin_ = lag_rad_per_mm_ > 0.0 ? EngagementMap::bin_rad / lag_rad_per_mm_ : 0.0;
     has_runout_ = cutter_.runout_mm > 0.0;

@@ -15,11 +15,12 @@
 
 namespace millforce::sim {
 
-/// How finely the edges are divided.
+/// How finely the edges are divided, and their way.
 struct EdgeResolution {
     std::size_t axial_slices = 20;  ///< over the flute length, 1…500; at most 1000 in all
     /// More slices where the lag ψ of one, or the arc κ of one on a ball, would exceed this; 0.001…0.2.
     double largest_angle_per_slice_rad = 2.0 * degree;
+    double largest_turn_rad = 3.0 * degree;  ///< from one force to the next, in a plant
 };
 
 struct CuttingForceOptions {

@@ -46,8 +46,7 @@ void MillingPlant::advance(double dt_s, const Command& command) {
                    cutting_load_, workpiece_->truth());
 }
 
-/// The force over the angle that the spindle turned in this step: as many points as keep a tooth from jumping
-/// over more than 3°.
+/// The force over the angle that the spindle turned in this step.
 void MillingPlant::cut(double dt_s, double feed_per_tooth_mm) {
     const double speed = machine_.spindle_speed_rad_s();
     cutting_load_ = {};
@@ -56,7 +55,8 @@ void MillingPlant::cut(double dt_s, double feed_per_tooth_mm) {
         return;
     }
     const double turned_rad = speed * dt_s;
-    const int points = std::max(1, static_cast<int>(std::ceil(turned_rad / (3.0 * degree))));
+    const int points =
+        std::max(1, static_cast<int>(std::ceil(turned_rad / scenario_.cutting_options.resolution.largest_turn_rad)));
     for (int k = 0; k < points; ++k) {
         const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
         const CuttingLoad part =

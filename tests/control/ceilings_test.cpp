@@ -144,6 +144,43 @@ TEST(Ceilings, a_rapid_gives_1) {
     }
 }
 
+TEST(Ceilings, contact_that_begins_in_a_rapid_ends_its_freedom) {
+    Controller controller;
+    Input input = in_air();
+    input.rapid = true;
+    input.programmed_feed_mm_s = 400.0F;
+    check_ratio(1.0F, repeat(controller, input, 2000));
+    input = in_contact();
+    input.rapid = true;
+    const Output output = repeat(controller, input, 100);
+    CHECK(output.state == CutState::entry);
+    check_ratio(ratio_of(0.05F, in_contact()), output);
+}
+
+TEST(Ceilings, a_rapid_at_the_feed_of_a_block_is_none_where_the_CNC_tells_the_feed_of_rapids) {
+    Input stuck = in_air();
+    stuck.rapid = true;
+    for (const bool tells : {false, true}) {
+        Controller controller;
+        Input rapid = stuck;
+        rapid.programmed_feed_mm_s = tells ? 400.0F : 0.0F;
+        controller.step(in_air());
+        repeat(controller, rapid, 2000);
+        check_ratio(tells ? ratio_of(0.05F, in_air()) : 1.0F, repeat(controller, stuck, 2000));
+    }
+}
+
+TEST(Ceilings, axes_that_are_faster_than_the_programmed_feed_allows_raise_nothing) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input input = in_contact();
+    const float before = controller.step(input).ratio;
+    input.programmed_feed_mm_s = 2.0F;  // told in another unit
+    const Output output = repeat(controller, input, 1000);
+    CHECK(output.ratio <= before);
+    CHECK(output.limit == Limit::feed_mismatch);
+}
+
 TEST(Ceilings, an_unknown_programmed_feed_raises_nothing) {
     for (const float feed_mm_s : {0.0F, -20.0F, not_a_number, beyond_all}) {
         Controller controller;

@@ -146,6 +146,29 @@ TEST(CutStates, holds_in_cut_once_the_force_is_missing_for_longer_than_stated) {
     CHECK_FALSE(seeing.hold);
 }
 
+TEST(CutStates, holds_in_air_once_the_tool_was_fed_without_a_force_for_longer_than_the_exit_travel) {
+    Controller controller;
+    repeat(controller, in_air(), 100);
+    const Input blind = without_force(in_air());
+    CHECK(repeat(controller, blind, 95).state == CutState::air);  // 1.9 of 2 mm
+    const Output output = repeat(controller, blind, 10);
+    CHECK(output.state == CutState::hold);
+    CHECK(output.hold);
+    CHECK(output.fault == Fault::none);
+    CHECK_FALSE(controller.step(in_air()).hold);
+}
+
+TEST(CutStates, moves_on_without_a_force_in_a_rapid_and_where_the_spindle_stands) {
+    for (const bool is_rapid : {false, true}) {
+        Controller controller;
+        Input blind = without_force(in_air());
+        blind.cut.spindle_turning = false;
+        blind.rapid = is_rapid;
+        blind.cut.spindle_stands = !is_rapid;
+        CHECK_FALSE(repeat(controller, blind, 2000).hold);
+    }
+}
+
 TEST(CutStates, a_cut_that_was_given_up_is_over_once_spindle_and_axes_have_stood_for_two_seconds) {
     Controller controller;
     bring_into_cut(controller);

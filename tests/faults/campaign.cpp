@@ -2,8 +2,13 @@
 #include "faults/campaign.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <random>
+#include <string_view>
 
+#include "firmware/can/controller_on_loopback.hpp"
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
@@ -13,40 +18,174 @@ namespace millforce::faults {
 
 namespace {
 
-sim::RunFigures mill(const Part& part, std::uint64_t seed, const FaultyMachine::Settings& settings,
-                     FaultyMachine::Reaction& reaction) {
-    sim::Scenario scenario = part.scenario;
-    scenario.seed = seed;
-    scenario.deviation = sim::drawn_deviation(scenario, seed);
-    sim::MillforceController controller(part.stated);
-    FaultyMachine machine(controller, settings);
-    sim::SimulationSettings stopped_early;  // where the feed is held for good
-    stopped_early.longest_run_s = part.duration_s > 0.0 ? 1.5 * part.duration_s : stopped_early.longest_run_s;
-    const sim::RunFigures figures = sim::simulate(scenario, machine, "millforce", stopped_early).result.figures;
-    reaction = machine.reaction();
-    return figures;
+/// Four times as fast as the plant's usual resolution; the force errs by at most (0.1 rad)²/6, 0.2 %.
+constexpr sim::EdgeResolution coarse{.largest_angle_per_slice_rad = 0.1, .largest_turn_rad = 0.11};
+
+/// What is held for so long is over.
+constexpr double held_for_good_s = 1.0;
+
+/// A controller on its path, and how a fault of that path begins.
+struct Seat {
+    std::unique_ptr<sim::OverrideSource> controller;
+    std::function<void()> begin{};
+};
+
+Seat seat_on_bus(const sim::Scenario& scenario, const Fault& fault, std::uint64_t seed) {
+    auto controller = std::make_unique<test::ControllerOnLoopback>(scenario);
+    controller->keeps_log = false;
+    controller->ticks.is_kept = false;
+    Seat seat;
+    if (const auto* of_bus = std::get_if<BusFault>(&fault)) {
+        seat.begin = [bus = controller.get(), kind = *of_bus, seed] { bus->wire.set_fault(on_bus(kind, seed)); };
+    }
+    seat.controller = std::move(controller);
+    return seat;
+}
+
+Seat seat_on_link(const sim::Scenario& scenario, const Fault& fault, std::uint64_t seed) {
+    auto controller = std::make_unique<ControllerOnLink>(scenario.parameters, seed);
+    Seat seat;
+    if (const auto* of_link = std::get_if<LinkFault>(&fault)) {
+        seat.begin = [link = controller.get(), kind = *of_link] { link->begin(kind); };
+    }
+    seat.controller = std::move(controller);
+    return seat;
+}
+
+Seat seat_on(Path path, const Part& part, const Fault& fault, std::uint64_t seed) {
+    sim::Scenario stated = part.scenario;
+    stated.parameters = part.stated;
+    switch (path) {
+        case Path::can:
+            return seat_on_bus(stated, fault, seed);
+        case Path::link:
+            return seat_on_link(stated, fault, seed);
+        case Path::tick:
+            break;
+    }
+    return {std::make_unique<sim::MillforceController>(part.stated), {}};
+}
+
+FaultyMachine::Corrupt corruption(const Part& part, const Fault& fault, std::uint64_t seed) {
+    const auto* of_signal = std::get_if<SignalFault>(&fault);
+    if (of_signal == nullptr || *of_signal == SignalFault::none) {
+        return {};
+    }
+    const auto rated_A = static_cast<double>(part.stated.machine.spindle_rated_current_A);
+    return [corruption = SignalCorruption(*of_signal, rated_A, seed)](
+               hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before,
+               double since_s) mutable { corruption.corrupt(sample, program, before, since_s); };
+}
+
+double longest_run_s(const Part& part) {
+    return part.duration_s > 0.0 ? 1.5 * part.duration_s : sim::SimulationSettings{}.longest_run_s;
+}
+
+bool is_in_message_alone(SignalFault fault) {
+    switch (fault) {
+        case SignalFault::not_a_number:
+        case SignalFault::spindle_absent:
+        case SignalFault::encoder_absent:
+        case SignalFault::time_frozen:
+        case SignalFault::time_backwards:
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool is_of_x(SignalFault fault) {
+    return fault >= SignalFault::x_tenfold && fault <= SignalFault::x_and_y_swapped;
+}
+
+template <typename Kind>
+void append(std::vector<Fault>& faults, int first, int end) {
+    for (int k = first; k < end; ++k) {
+        faults.emplace_back(static_cast<Kind>(k));
+    }
 }
 
 }  // namespace
 
-Part part_named(const std::string& name, bool spindle_alone) {
-    Part part{.scenario = sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml")};
-    part.stated = spindle_alone ? test::without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
-    FaultyMachine::Reaction none;
-    part.duration_s = mill(part, part.scenario.seed, {}, none).time_s;
+const char* name_of(Path path) {
+    constexpr const char* names[] = {"tick", "can", "link"};
+    static_assert(std::size(names) == paths);
+    return names[static_cast<std::size_t>(path)];
+}
+
+const char* name_of(const Fault& fault) {
+    return std::visit([](auto kind) { return name_of(kind); }, fault);
+}
+
+bool leaves_blind(const Fault& fault) {
+    using S = SignalFault;
+    static constexpr std::array<Fault, 14> blind{S::spindle_frozen,
+                                                 S::spindle_dead,
+                                                 S::spindle_absent,
+                                                 S::encoder_frozen,
+                                                 S::encoder_absent,
+                                                 S::not_a_number,
+                                                 S::time_frozen,
+                                                 S::time_backwards,
+                                                 BusFault::spindle_silent,
+                                                 BusFault::override_lost,
+                                                 BusFault::bus_dead,
+                                                 LinkFault::nothing_present,
+                                                 LinkFault::samples_repeated,
+                                                 LinkFault::controller_hangs};
+    return std::find(blind.begin(), blind.end(), fault) != blind.end();
+}
+
+Part part_named(const std::string& name) {
+    constexpr std::string_view spindle = ":spindle";
+    Part part;
+    part.name = name;
+    part.is_spindle_alone = name.ends_with(spindle);
+    const std::string scenario = part.is_spindle_alone ? name.substr(0, name.size() - spindle.size()) : name;
+    part.scenario = sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + scenario + ".toml");
+    part.stated =
+        part.is_spindle_alone ? test::without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
+    part.scenario.cutting_options.resolution = coarse;
+    sim::MillforceController controller(part.stated);
+    part.duration_s = sim::simulate(part.scenario, controller, "millforce").result.figures.time_s;
     return part;
 }
 
-Outcome mill_with(const Part& part, SignalFault fault, std::uint64_t seed) {
+std::vector<Fault> faults_on(Path path, const Part& part) {
+    std::vector<Fault> faults;
+    append<SignalFault>(faults, 0, signal_faults);
+    std::erase_if(faults, [&](const Fault& fault) {
+        const auto kind = std::get<SignalFault>(fault);
+        return (path == Path::can && is_in_message_alone(kind)) || (part.is_spindle_alone && is_of_x(kind));
+    });
+    if (path == Path::can) {
+        append<BusFault>(faults, 0, bus_faults);
+    } else if (path == Path::link) {
+        append<LinkFault>(faults, 1, link_faults);
+    }
+    return faults;
+}
+
+Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed) {
     constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
     std::mt19937_64 random(seed);
-    const double begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random);
-    const auto rated_A = static_cast<double>(part.stated.machine.spindle_rated_current_A);
+    sim::Scenario scenario = part.scenario;
+    scenario.seed = seed;
+    scenario.deviation = sim::drawn_deviation(scenario, seed);
+    Seat seat = seat_on(path, part, fault, seed);
+    FaultyMachine machine(*seat.controller,
+                          {.begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random),
+                           .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
+                           .begin = seat.begin,
+                           .corrupt = corruption(part, fault, seed),
+                           .leaves_blind = leaves_blind(fault)});
+    sim::SimulationSettings stopped_early;
+    stopped_early.longest_run_s = longest_run_s(part);
+    stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };
     Outcome outcome;
-    const sim::RunFigures figures = mill(
-        part, seed, {.fault = fault, .begins_s = begins_s, .spindle_rated_A = rated_A, .seed = seed}, outcome.reaction);
-    outcome.peak_over_limit = figures.peak_over_limit;
-    outcome.teeth_broken = figures.teeth_broken;
+    outcome.run = sim::simulate(scenario, machine, name_of(path), stopped_early).result;
+    outcome.reaction = machine.reaction();
+    outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
     return outcome;
 }
 
@@ -55,10 +194,15 @@ void Tally::add(const Outcome& outcome) {
         return;
     }
     ++runs;
-    broken_parts += outcome.teeth_broken > 0 ? 1 : 0;
-    over += outcome.peak_over_limit > sim::largest_peak_over_limit ? 1 : 0;
+    const sim::RunFigures& figures = outcome.run.figures;
+    broken_parts += figures.teeth_broken > 0 ? 1 : 0;
+    over += figures.peak_over_limit > sim::largest_peak_over_limit ? 1 : 0;
     faults += outcome.reaction.fault != 0 ? 1 : 0;
-    largest_peak = std::max(largest_peak, outcome.peak_over_limit);
+    beyond_bound += outcome.reaction.is_beyond_bound ? 1 : 0;
+    ran_in_fault += outcome.reaction.ran_in_fault ? 1 : 0;
+    rose_blind += outcome.reaction.rose_blind ? 1 : 0;
+    crawled += outcome.crawled ? 1 : 0;
+    largest_peak = std::max(largest_peak, figures.peak_over_limit);
     if (outcome.reaction.has_reacted) {
         reactions_s.push_back(outcome.reaction.after_s);
     }

@@ -3,32 +3,53 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "faults/bus_fault.hpp"
+#include "faults/controller_on_link.hpp"
+#include "faults/faulty_machine.hpp"
 #include "faults/signal_fault.hpp"
 #include "loop/scenario.hpp"
+#include "report/run_result.hpp"
 
-/// Parts that are milled in closed loop while one signal goes wrong at a drawn moment.
+/// Parts that are milled in closed loop while one thing goes wrong at a drawn moment.
 
 namespace millforce::faults {
 
+/// What stands between the machine and the tick. The same material, friction and noise in all of them.
+enum class Path : std::uint8_t {
+    tick,  ///< nothing: samples and overrides in memory
+    can,   ///< drives, CNC and CanController on a bus in memory
+    link,  ///< messages to and from a LinkController
+};
+inline constexpr int paths = static_cast<int>(Path::link) + 1;
+const char* name_of(Path path);
+
+using Fault = std::variant<SignalFault, BusFault, LinkFault>;
+const char* name_of(const Fault& fault);
+/// After it nothing says what the tool does: the spindle's current or its encoder is not there, or does not change.
+[[nodiscard]] bool leaves_blind(const Fault& fault);
+
 /// One part. `duration_s`: of the run without a fault, in which the fault's begin is drawn.
 struct Part {
+    std::string name;  ///< of its scenario; with ":spindle" where the axes' currents are not read
     sim::Scenario scenario;
     firmware::Parameters<float> stated{};  ///< to the controller
+    bool is_spindle_alone = false;
     double duration_s = 0.0;
 };
+Part part_named(const std::string& name);
+
+/// What can go wrong on this path, with what is read on this machine: a frame brings neither NaN nor the drive's time.
+[[nodiscard]] std::vector<Fault> faults_on(Path path, const Part& part);
 
 struct Outcome {
-    FaultyMachine::Reaction reaction;
-    double peak_over_limit = 0.0;
-    int teeth_broken = 0;
+    Reaction reaction;
+    sim::RunResult run;
+    bool crawled = false;  ///< the part took half as long again, without a fault or a hold
 };
-
-/// The scenario of that name with the spindle's current alone, or with all currents.
-Part part_named(const std::string& name, bool spindle_alone);
-
-Outcome mill_with(const Part& part, SignalFault fault, std::uint64_t seed);
+Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed);
 
 /// What the runs of one fault came to.
 struct Tally {
@@ -36,12 +57,18 @@ struct Tally {
     int broken_parts = 0;  ///< a tooth broke
     int over = 0;          ///< peak more than 10 % beyond the limit
     int faults = 0;        ///< latched at the end
+    int beyond_bound = 0;  ///< an override outside its bounds
+    int ran_in_fault = 0;
+    int rose_blind = 0;
+    int crawled = 0;
     double largest_peak = 0.0;
     std::vector<double> reactions_s;  ///< of the runs that held the feed or faulted
 
     void add(const Outcome& outcome);
     [[nodiscard]] double median_reaction_s() const;
     [[nodiscard]] double longest_reaction_s() const;
+    /// What must never be.
+    [[nodiscard]] int violations() const { return broken_parts + beyond_bound + ran_in_fault + rose_blind; }
 };
 
 }  // namespace millforce::faults

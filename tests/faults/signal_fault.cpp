@@ -50,40 +50,18 @@ const char* name_of(SignalFault fault) {
     return names[static_cast<std::size_t>(fault)];
 }
 
-hal::FeedOverride FaultyMachine::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    const double dt_s = has_first_ ? 1e-6 * static_cast<double>(sample.time_us - last_us_) : 0.0;
-    has_first_ = true;
-    last_us_ = sample.time_us;
-    time_s_ += dt_s;
-    if (time_s_ < settings_.begins_s) {
-        before_ = sample;
-        return controller_.step(sample, program);
-    }
-    since_s_ = time_s_ - settings_.begins_s;
-    hal::DriveSample seen = sample;
-    hal::ProgramStatus told = program;
-    corrupt(seen, told);
-    const hal::FeedOverride output = controller_.step(seen, told);
-    reaction_.has_begun = true;
-    if (!reaction_.has_reacted && (output.hold || output.fault != 0)) {
-        reaction_.has_reacted = true;
-        reaction_.after_s = since_s_;
-    }
-    reaction_.fault = output.fault;
-    return output;
-}
-
-void FaultyMachine::corrupt(hal::DriveSample& sample, hal::ProgramStatus& program) {
-    corrupt_spindle(sample);
-    corrupt_axes(sample);
-    corrupt_encoder(sample);
+void SignalCorruption::corrupt(hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before,
+                               double since_s) {
+    corrupt_spindle(sample, before, since_s);
+    corrupt_axes(sample, before, since_s);
+    corrupt_encoder(sample, before);
     corrupt_program(program);
-    corrupt_time(sample);
+    corrupt_time(sample, before);
 }
 
-void FaultyMachine::corrupt_spindle(hal::DriveSample& sample) {
+void SignalCorruption::corrupt_spindle(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) {
     float& current_A = sample.spindle_current_A;
-    switch (settings_.fault) {
+    switch (fault_) {
         case SignalFault::spindle_weak:
             current_A *= 0.3F;
             break;
@@ -91,13 +69,13 @@ void FaultyMachine::corrupt_spindle(hal::DriveSample& sample) {
             current_A *= 3.0F;
             break;
         case SignalFault::spindle_saturated:
-            current_A = std::min(current_A, before_.spindle_current_A);
+            current_A = std::min(current_A, before.spindle_current_A);
             break;
         case SignalFault::spindle_drifts:
-            current_A -= static_cast<float>(drift_A_per_s * since_s_);
+            current_A -= static_cast<float>(drift_A_per_s * since_s);
             break;
         case SignalFault::spindle_frozen:
-            current_A = before_.spindle_current_A;
+            current_A = before.spindle_current_A;
             break;
         case SignalFault::spindle_dead:
             current_A = 0.0F;
@@ -106,7 +84,7 @@ void FaultyMachine::corrupt_spindle(hal::DriveSample& sample) {
             current_A = -current_A;
             break;
         case SignalFault::spindle_noisy:
-            current_A += static_cast<float>(std::normal_distribution(0.0, 0.1 * settings_.spindle_rated_A)(random_));
+            current_A += static_cast<float>(std::normal_distribution(0.0, 0.1 * spindle_rated_A_)(random_));
             break;
         case SignalFault::spindle_absent:
             make_absent(sample, hal::Present::spindle_current);
@@ -119,14 +97,14 @@ void FaultyMachine::corrupt_spindle(hal::DriveSample& sample) {
     }
 }
 
-void FaultyMachine::corrupt_axes(hal::DriveSample& sample) {
+void SignalCorruption::corrupt_axes(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) const {
     float& x_A = sample.axis_current_A[0];
     const auto scale_velocities = [&sample](float factor) {
         for (float& velocity : sample.axis_velocity_mm_s) {
             velocity *= factor;
         }
     };
-    switch (settings_.fault) {
+    switch (fault_) {
         case SignalFault::x_tenfold:
             x_A *= 10.0F;
             break;
@@ -134,10 +112,10 @@ void FaultyMachine::corrupt_axes(hal::DriveSample& sample) {
             x_A = -x_A;
             break;
         case SignalFault::x_drifts:
-            x_A += static_cast<float>(drift_A_per_s * since_s_);
+            x_A += static_cast<float>(drift_A_per_s * since_s);
             break;
         case SignalFault::x_frozen:
-            x_A = before_.axis_current_A[0];
+            x_A = before.axis_current_A[0];
             break;
         case SignalFault::x_dead:
             x_A = 0.0F;
@@ -160,23 +138,23 @@ void FaultyMachine::corrupt_axes(hal::DriveSample& sample) {
     }
 }
 
-void FaultyMachine::corrupt_encoder(hal::DriveSample& sample) {
-    const std::uint32_t turned = sample.spindle_count - before_.spindle_count;
-    const std::uint32_t index_turned = sample.spindle_index_count - before_.spindle_count;
-    switch (settings_.fault) {
+void SignalCorruption::corrupt_encoder(hal::DriveSample& sample, const hal::DriveSample& before) const {
+    const std::uint32_t turned = sample.spindle_count - before.spindle_count;
+    const std::uint32_t index_turned = sample.spindle_index_count - before.spindle_count;
+    switch (fault_) {
         case SignalFault::encoder_double:
-            sample.spindle_count = before_.spindle_count + 2U * turned;
-            sample.spindle_index_count = before_.spindle_count + 2U * index_turned;
+            sample.spindle_count = before.spindle_count + 2U * turned;
+            sample.spindle_index_count = before.spindle_count + 2U * index_turned;
             break;
         case SignalFault::encoder_half:
-            sample.spindle_count = before_.spindle_count + turned / 2U;
+            sample.spindle_count = before.spindle_count + turned / 2U;
             sample.spindle_index_count =
-                before_.spindle_count + static_cast<std::uint32_t>(static_cast<std::int32_t>(index_turned) / 2);
+                before.spindle_count + static_cast<std::uint32_t>(static_cast<std::int32_t>(index_turned) / 2);
             break;
         case SignalFault::encoder_frozen:
-            sample.spindle_count = before_.spindle_count;
-            sample.spindle_index_count = before_.spindle_index_count;
-            sample.spindle_index_number = before_.spindle_index_number;
+            sample.spindle_count = before.spindle_count;
+            sample.spindle_index_count = before.spindle_index_count;
+            sample.spindle_index_number = before.spindle_index_number;
             break;
         case SignalFault::encoder_absent:
             make_absent(sample, hal::Present::spindle_count);
@@ -186,8 +164,8 @@ void FaultyMachine::corrupt_encoder(hal::DriveSample& sample) {
     }
 }
 
-void FaultyMachine::corrupt_program(hal::ProgramStatus& program) {
-    switch (settings_.fault) {
+void SignalCorruption::corrupt_program(hal::ProgramStatus& program) const {
+    switch (fault_) {
         case SignalFault::rapid_stuck:
             program.rapid = true;
             break;
@@ -202,11 +180,11 @@ void FaultyMachine::corrupt_program(hal::ProgramStatus& program) {
     }
 }
 
-void FaultyMachine::corrupt_time(hal::DriveSample& sample) {
-    if (settings_.fault == SignalFault::time_frozen) {
-        sample.time_us = before_.time_us;
-    } else if (settings_.fault == SignalFault::time_backwards) {
-        sample.time_us = before_.time_us - (sample.time_us - before_.time_us);
+void SignalCorruption::corrupt_time(hal::DriveSample& sample, const hal::DriveSample& before) const {
+    if (fault_ == SignalFault::time_frozen) {
+        sample.time_us = before.time_us;
+    } else if (fault_ == SignalFault::time_backwards) {
+        sample.time_us = before.time_us - (sample.time_us - before.time_us);
     }
 }
 

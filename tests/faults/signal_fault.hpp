@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <random>
 
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
-#include "loop/override_source.hpp"
 
-/// Signals that go wrong in the middle of a part, between the machine and its controller.
+/// Signals that go wrong between a machine and its controller.
 
 namespace millforce::faults {
 
@@ -47,48 +45,25 @@ inline constexpr int signal_faults = static_cast<int>(SignalFault::time_backward
 
 const char* name_of(SignalFault fault);
 
-/// Stands before a controller and corrupts what it sees from `begins_s` on. Time is the samples' own.
-class FaultyMachine : public sim::OverrideSource {
+/// Corrupts what a controller sees of its machine from the first call on.
+class SignalCorruption {
   public:
-    struct Settings {
-        SignalFault fault = SignalFault::none;
-        double begins_s = 0.0;  ///< after the first sample
-        double spindle_rated_A = 1.0;
-        std::uint64_t seed = 1;
-    };
+    SignalCorruption(SignalFault fault, double spindle_rated_A, std::uint64_t seed)
+        : fault_(fault), spindle_rated_A_(spindle_rated_A), random_(seed) {}
 
-    FaultyMachine(sim::OverrideSource& controller, const Settings& settings)
-        : controller_(controller), settings_(settings), random_(settings.seed) {}
-
-    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
-    void describe(sim::TracePoint& point) const override { controller_.describe(point); }
-
-    /// What the controller did about it. It has reacted where it holds the feed, or has a fault.
-    struct Reaction {
-        bool has_begun = false;  ///< the part was not over before
-        bool has_reacted = false;
-        double after_s = 0.0;
-        std::uint8_t fault = 0;  ///< control::Fault
-    };
-    [[nodiscard]] const Reaction& reaction() const { return reaction_; }
+    /// `before`: the last good sample. `since_s`: how long it lasts already.
+    void corrupt(hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before, double since_s);
 
   private:
-    void corrupt(hal::DriveSample& sample, hal::ProgramStatus& program);
-    void corrupt_spindle(hal::DriveSample& sample);
-    void corrupt_axes(hal::DriveSample& sample);
-    void corrupt_encoder(hal::DriveSample& sample);
-    void corrupt_program(hal::ProgramStatus& program);
-    void corrupt_time(hal::DriveSample& sample);
+    void corrupt_spindle(hal::DriveSample& sample, const hal::DriveSample& before, double since_s);
+    void corrupt_axes(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) const;
+    void corrupt_encoder(hal::DriveSample& sample, const hal::DriveSample& before) const;
+    void corrupt_program(hal::ProgramStatus& program) const;
+    void corrupt_time(hal::DriveSample& sample, const hal::DriveSample& before) const;
 
-    sim::OverrideSource& controller_;
-    Settings settings_;
+    SignalFault fault_;
+    double spindle_rated_A_;
     std::mt19937_64 random_;
-    bool has_first_ = false;
-    std::uint32_t last_us_ = 0;
-    double time_s_ = 0.0;
-    double since_s_ = 0.0;
-    hal::DriveSample before_{};  ///< the last good one
-    Reaction reaction_{};
 };
 
 }  // namespace millforce::faults

@@ -17,8 +17,8 @@ bool is_slow(SignalFault fault) {
 }  // namespace
 
 TEST_GROUP(SignalFaults) {
-    const std::array<Part, 3> parts{part_named("slot_entry", false), part_named("depth_ramp", false),
-                                    part_named("width_step", true)};
+    const std::array<Part, 3> parts{part_named("slot_entry"), part_named("depth_ramp"),
+                                    part_named("width_step:spindle")};
 };
 
 TEST(SignalFaults, break_no_tooth_whenever_they_begin) {
@@ -26,8 +26,8 @@ TEST(SignalFaults, break_no_tooth_whenever_they_begin) {
     for (int k = 1; k < signal_faults; ++k) {
         const auto fault = static_cast<SignalFault>(k);
         for (const Part& part : parts) {
-            const Outcome outcome = mill_with(part, fault, ++seed);
-            CHECK_TEXT(is_slow(fault) || outcome.teeth_broken == 0, name_of(fault));
+            const Outcome outcome = mill_with(part, Path::tick, fault, ++seed);
+            CHECK_TEXT(is_slow(fault) || outcome.run.figures.teeth_broken == 0, name_of(fault));
         }
     }
 }
@@ -36,16 +36,30 @@ TEST(SignalFaults, stop_the_feed_within_a_tenth_of_a_second_where_there_is_no_fo
     for (const SignalFault fault : {SignalFault::spindle_weak, SignalFault::spindle_dead, SignalFault::spindle_frozen,
                                     SignalFault::spindle_absent, SignalFault::encoder_double,
                                     SignalFault::encoder_absent, SignalFault::not_a_number, SignalFault::time_frozen}) {
-        const Outcome outcome = mill_with(parts[1], fault, 3);  // begins in the cut
+        const Outcome outcome = mill_with(parts[1], Path::tick, fault, 3);  // begins in the cut
         CHECK_TEXT(outcome.reaction.has_reacted && outcome.reaction.after_s < 0.1, name_of(fault));
+    }
+}
+
+TEST(SignalFaults, of_a_bus_or_a_link_break_no_tooth_and_leave_no_feed_free_where_nothing_is_known) {
+    std::uint64_t seed = 500;
+    for (const Path path : {Path::can, Path::link}) {
+        for (const Fault& fault : faults_on(path, parts[0])) {
+            if (std::holds_alternative<SignalFault>(fault)) {
+                continue;
+            }
+            Tally tally;
+            tally.add(mill_with(parts[0], path, fault, ++seed));
+            LONGS_EQUAL_TEXT(0, tally.violations(), name_of(fault));
+        }
     }
 }
 
 TEST(SignalFaults, are_not_seen_where_there_are_none) {
     for (const Part& part : parts) {
         for (std::uint64_t seed = 100; seed < 104; ++seed) {
-            const Outcome outcome = mill_with(part, SignalFault::none, seed);
-            CHECK(outcome.peak_over_limit > 0.5);
+            const Outcome outcome = mill_with(part, Path::tick, SignalFault::none, seed);
+            CHECK(outcome.run.figures.peak_over_limit > 0.5);
             CHECK_FALSE(outcome.reaction.has_reacted);
         }
     }

@@ -25,12 +25,14 @@
 ///   way ahead  where a part map is known: its feed (feed_ahead.hpp). It replaces air, entry, exit, surge,
 ///              turn and fading, which guard a tool that does not see. The force, which is measured, stays.
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
-///   program    a rapid goes at 1, whatever the forces: the program says that nothing is in the way
+///   program    a rapid goes at 1: the program says that nothing is in the way. Not where contact begins in it
+///              (state entry), nor, on a CNC that tells a rapid's F, at an F of the blocks: then all ceilings hold.
 ///   operator   the operator's override below 1; NaN or infinite counts as 0
 ///
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the
-/// forces contradict the law (limit law_misfit), since a signal may be wrong. In a cut that fades it
+/// forces contradict the law (limit law_misfit), since a signal may be wrong, and where the axes are faster than F and
+/// override_max make them (limit feed_mismatch), since F may be wrong. In a cut that fades it
 /// is one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
 ///
 /// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. State kept until the next estimate
@@ -82,6 +84,7 @@ class Ceilings {
 
   private:
     void follow_program(const Parameters& parameters, const ControlInput<Scalar>& input);
+    [[nodiscard]] bool runs_free(const ControlInput<Scalar>& input, CutState state) const;
     void follow_surge(const Parameters& parameters, const ControlInput<Scalar>& input, const Situation& situation);
     void follow_turn(const Parameters& parameters, const ControlInput<Scalar>& input, bool turned);
     void follow_surface(const ControlInput<Scalar>& input);
@@ -97,6 +100,7 @@ class Ceilings {
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 
     Scalar highest_programmed_feed_mm_s_{0};
+    bool tells_feed_of_rapids_ = false;  // the CNC: a rapid's F was above that of all blocks
     Scalar override_at_state_entry_{0};
     Scalar surge_ceiling_{0};
     CutTrend<Scalar> trend_{};

@@ -9,6 +9,15 @@
 
 namespace millforce::control {
 
+/// The axes are faster than programmed feed and largest override make them: the axes still brake, or F is wrong.
+template <typename Scalar>
+static bool is_faster_than_F_allows(const FeedControllerParameters<Scalar>& parameters,
+                                    const ControlInput<Scalar>& input) {
+    constexpr Scalar tolerance = Scalar(1.25F);
+    constexpr Scalar tolerance_mm_s = Scalar(1);
+    return input.path_speed_mm_s > tolerance * parameters.override_max * input.programmed_feed_mm_s + tolerance_mm_s;
+}
+
 template <typename Scalar>
 static bool predicts_a_ceiling(const SurfaceForControl<Scalar>& surface) {
     return surface.valid && is_known(surface.feed_ceiling_mm_s);
@@ -47,6 +56,15 @@ void Ceilings<Scalar>::follow_program(const Parameters& parameters, const Contro
     if (is_known(input.programmed_feed_mm_s) && !input.rapid) {
         raise_to(input.programmed_feed_mm_s);
     }
+    tells_feed_of_rapids_ = tells_feed_of_rapids_ || (input.rapid && is_known(input.programmed_feed_mm_s) &&
+                                                      input.programmed_feed_mm_s > highest_programmed_feed_mm_s_);
+}
+
+template <typename Scalar>
+bool Ceilings<Scalar>::runs_free(const ControlInput<Scalar>& input, CutState state) const {
+    const bool is_fast =
+        !is_known(input.programmed_feed_mm_s) || input.programmed_feed_mm_s > highest_programmed_feed_mm_s_;
+    return input.rapid && state != CutState::entry && (is_fast || !tells_feed_of_rapids_);
 }
 
 template <typename Scalar>
@@ -119,8 +137,8 @@ void Ceilings<Scalar>::follow_surface(const ControlInput<Scalar>& input) {
 template <typename Scalar>
 Ceiling<Scalar> Ceilings<Scalar>::lowest(const Parameters& parameters, const ControlInput<Scalar>& input,
                                          const Situation& situation) const {
-    Ceiling<Scalar> lowest =
-        input.rapid ? Ceiling<Scalar>{Scalar(1), Limit::none} : lowest_in_feed(parameters, input, situation);
+    Ceiling<Scalar> lowest = runs_free(input, situation.state) ? Ceiling<Scalar>{Scalar(1), Limit::none}
+                                                               : lowest_in_feed(parameters, input, situation);
     if (situation.state == CutState::hold) {
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
     }
@@ -147,6 +165,9 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, c
     }
     if (input.way.known) {
         lowest.lower_to(input.way.feed_mm_s / input.programmed_feed_mm_s, Limit::way_ahead);
+    }
+    if (is_faster_than_F_allows(parameters, input)) {
+        lowest.lower_to(situation.override_ratio, Limit::feed_mismatch);
     }
     lower_by_state(lowest, parameters, input, situation);
     lowest.lower_to(override_of_feed_per_tooth(parameters.max_feed_per_tooth_mm, parameters.teeth, input),

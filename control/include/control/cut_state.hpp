@@ -13,7 +13,7 @@ namespace millforce::control {
 enum class CutState : std::uint8_t {
     /// No contact.
     /// Entered: at the start, and from `exit` after the exit travel without contact or at a sharp turn of the path.
-    /// Left: contact → entry.
+    /// Left: contact → entry; fed for exit_travel_mm without an estimate, and the spindle does not stand → hold.
     air = 0,
 
     /// The cutter enters the workpiece, and its engagement still grows.
@@ -29,12 +29,13 @@ enum class CutState : std::uint8_t {
 
     /// Contact was lost: the end of a cut or a gap in it. The feed of the cut is kept, not raised.
     /// Entered: from entry or in_cut by lost contact, and from hold by an estimate without contact.
-    /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air.
+    /// Left: contact → entry; after the exit travel without contact, or at a sharp turn of the path → air; without an
+    /// estimate as air.
     exit = 3,
 
-    /// There is no estimate, or the feed is held: the override is not raised. Without an estimate in a cut, the feed is
-    /// held as well.
-    /// Entered: from any state but fault while the feed is held, from entry or in_cut without an estimate.
+    /// There is no estimate, or the feed is held: the override is not raised. Without an estimate the feed is held as
+    /// well, but not in a rapid.
+    /// Entered: from any state but fault while the feed is held, or without an estimate.
     /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air once spindle and
     /// axes have stood still for 2 s.
     hold = 4,
@@ -86,14 +87,15 @@ enum class Limit : std::uint8_t {
     operator_limit = 7,
     no_estimate = 8,  ///< held where it was, since there is no estimate
     feed_per_tooth = 9,
-    roughness = 10,   ///< the upper bound of the predicted R_a is at its limit
-    law_misfit = 11,  ///< held where it was: the forces contradict each other, or the law of the cut
-    way_ahead = 12,   ///< the part map knows a place ahead that the machine must be slow enough for
+    roughness = 10,      ///< the upper bound of the predicted R_a is at its limit
+    law_misfit = 11,     ///< held where it was: the forces contradict each other, or the law of the cut
+    way_ahead = 12,      ///< the part map knows a place ahead that the machine must be slow enough for
+    feed_mismatch = 13,  ///< held where it was: the axes are faster than programmed feed and largest override allow
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
 inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::idle_torque) + 1U;
-inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::way_ahead) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::feed_mismatch) + 1U;
 
 constexpr const char* name(CutState state) {
     constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
@@ -121,7 +123,7 @@ constexpr const char* name(Fault fault) {
 constexpr const char* name(Limit limit) {
     constexpr const char* names[limit_count] = {
         "none",           "force",       "override_max",   "override_min", "air_feed",   "entry_feed", "surge",
-        "operator_limit", "no_estimate", "feed_per_tooth", "roughness",    "law_misfit", "way_ahead"};
+        "operator_limit", "no_estimate", "feed_per_tooth", "roughness",    "law_misfit", "way_ahead",  "feed_mismatch"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

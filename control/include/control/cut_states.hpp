@@ -12,7 +12,8 @@
 ///   lost contact:  F_at below half of it; between the two the state stays (hysteresis)
 ///
 /// Only a fresh estimate moves between air, entry, in_cut and exit. Without a valid force nothing counts as contact and
-/// nothing as lost contact: the state stays, and after no_estimate_hold_s the tool counts as held.
+/// nothing as lost contact: the state stays. In a cut the tool counts as held after no_estimate_hold_s; out of it after
+/// exit_travel_mm of feed, unless the spindle stands: who moves with a spindle that stands does not mill.
 ///
 /// Watches, each latched as a fault:
 ///   stale_input      no drive sample for longer than stale_s, or of unknown age (NaN), in any state
@@ -40,7 +41,7 @@ class CutStates {
     [[nodiscard]] Fault fault() const { return fault_; }
     /// The tool has been in_cut since it was last in air, so it has already survived a cut at this feed.
     [[nodiscard]] bool has_cut() const { return has_cut_; }
-    /// In `hold` because there is no estimate in a cut.
+    /// In `hold` because there is no estimate.
     [[nodiscard]] bool is_blind() const { return is_blind_; }
 
   private:
@@ -49,6 +50,7 @@ class CutStates {
     void go_to(CutState state);
     void follow_contact(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool has_entered(const Parameters& parameters) const;
+    void watch_force(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion);
     [[nodiscard]] bool lacks_estimate(const Parameters& parameters) const;
     void watch_input(const Parameters& parameters, const ControlInput<Scalar>& input);
     void watch_spindle(const Parameters& parameters, const ControlInput<Scalar>& input,
@@ -64,6 +66,7 @@ class CutStates {
     Scalar travel_in_state_mm_{0};
     Scalar tooth_periods_in_state_{0};  // counted: a sum of shares of a revolution would round
     Scalar without_force_s_{0};
+    Scalar fed_without_force_mm_{0};
     Scalar spindle_at_rest_s_{0};
     Scalar at_rest_s_{0};  // spindle and axes
     Scalar overload_tooth_periods_{0};

@@ -31,7 +31,7 @@ void CutStates<Scalar>::step(const Parameters& parameters, const ControlInput<Sc
         return;
     }
     travel_in_state_mm_ += motion.travel_mm;
-    without_force_s_ = input.cut.force_valid ? Scalar(0) : without_force_s_ + motion.dt_s;
+    watch_force(input, motion);
     if (input.cut.fresh) {
         follow_contact(parameters, input);
     }
@@ -96,8 +96,17 @@ bool CutStates<Scalar>::has_entered(const Parameters& parameters) const {
 }
 
 template <typename Scalar>
+void CutStates<Scalar>::watch_force(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion) {
+    without_force_s_ = input.cut.force_valid ? Scalar(0) : without_force_s_ + motion.dt_s;
+    const bool may_meet_the_workpiece = !input.rapid && !input.cut.spindle_stands;
+    fed_without_force_mm_ =
+        input.cut.force_valid || !may_meet_the_workpiece ? Scalar(0) : fed_without_force_mm_ + motion.travel_mm;
+}
+
+template <typename Scalar>
 bool CutStates<Scalar>::lacks_estimate(const Parameters& parameters) const {
-    return is_cutting(state_) && without_force_s_ > parameters.no_estimate_hold_s;
+    return (is_cutting(state_) && without_force_s_ > parameters.no_estimate_hold_s) ||
+           (is_out_of_cut(state_) && fed_without_force_mm_ > parameters.exit_travel_mm);
 }
 
 template <typename Scalar>

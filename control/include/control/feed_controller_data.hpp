@@ -77,6 +77,7 @@ struct CutEstimateForControl {
     Scalar feed_mm_s{0};          ///< path speed over the window of tangential_N
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
+    bool spindle_stands = false;          ///< its encoder is there and does not count
     bool spindle_loaded_at_rest = false;  ///< the spindle's encoder stands, and its current says that it cuts
 };
 

@@ -77,7 +77,8 @@ void ForceControlTick<Scalar, WideBand>::watch_encoder(std::uint32_t count, Scal
     const Scalar stands_s = encoder_stands_s_ < longest_s ? encoder_stands_s_ + dt_s : longest_s;
     encoder_stands_s_ = count == last_count_ ? stands_s : Scalar(0);
     last_count_ = count;
-    input_.cut.spindle_loaded_at_rest = encoder_stands_s_ > surely_stands_s && spindle_current_A > contact_current_A_;
+    input_.cut.spindle_stands = encoder_stands_s_ > surely_stands_s;
+    input_.cut.spindle_loaded_at_rest = input_.cut.spindle_stands && spindle_current_A > contact_current_A_;
 }
 
 template <typename Scalar, typename WideBand>

@@ -42,6 +42,9 @@ struct LoggedFrame {
 class TickLog final : public firmware::TickListener {
   public:
     void on_tick(const firmware::CanController& controller) override {
+        if (!is_kept) {
+            return;
+        }
         const firmware::TickRecord tick = controller.record();
         std::string line = std::to_string(tick.time_us);
         for (const float value : {tick.tangential_force_N, tick.feed_force_N, tick.radial_immersion,
@@ -51,6 +54,7 @@ class TickLog final : public firmware::TickListener {
         lines.push_back(line + ',' + std::to_string(tick.feed_override.state));
     }
     std::vector<std::string> lines{};
+    bool is_kept = true;
 };
 
 inline firmware::CanControllerSettings controller_settings(const host::MachineBus& bus) {
@@ -127,6 +131,7 @@ class ControllerOnLoopback : public sim::OverrideSource {
     std::vector<LoggedFrame> log{};
     std::uint64_t now_us = 1'700'000'000'000'000;
     bool controller_runs = true;
+    bool keeps_log = true;  ///< of frames
     /// How much later than the SYNC its stamp is. Empty: not at all.
     std::function<std::uint64_t()> sync_stamp_late_us{};
 
@@ -149,7 +154,9 @@ class ControllerOnLoopback : public sim::OverrideSource {
         if (frame.id == 0x080 && sync_stamp_late_us) {
             time_us += sync_stamp_late_us();
         }
-        log.push_back({time_us, frame, is_own});
+        if (keeps_log) {
+            log.push_back({time_us, frame, is_own});
+        }
         if (controller_runs) {
             controller.on_frame(frame, time_us, is_own);
         }

@@ -53,11 +53,11 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
 TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
     RunResult run = synthetic::pocket_run("millforce");
     for (TracePoint& point : run.trace) {
-        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::way_ahead);
+        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::feed_mismatch);
     }
     const std::string data = report_data_json(info, std::span(&run, 1));
-    CHECK(data.find("\"limits\":\"cccc") != std::string::npos);
-    CHECK(data.find("\"law_misfit\",\"way_ahead\"]") != std::string::npos);
+    CHECK(data.find("\"limits\":\"dddd") != std::string::npos);
+    CHECK(data.find("\"way_ahead\",\"feed_mismatch\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {

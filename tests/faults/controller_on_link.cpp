@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faults/controller_on_link.hpp"
+
+#include <iterator>
+#include <span>
+
+#include "firmware/tick_record.hpp"
+
+namespace millforce::faults {
+
+namespace {
+
+constexpr std::uint32_t guard_timeout_us = 100'000;
+
+local_link::SampleMessage message_of(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    local_link::SampleMessage m;
+    m.time_us = sample.time_us;
+    m.spindle_count = sample.spindle_count;
+    m.spindle_index_count = sample.spindle_index_count;
+    m.spindle_index_number = sample.spindle_index_number;
+    m.present = sample.present;
+    m.rapid = program.rapid;
+    m.feed_hold = program.feed_hold;
+    m.spindle_current_A = sample.spindle_current_A;
+    m.axis_current_A = sample.axis_current_A;
+    m.axis_velocity_mm_s = sample.axis_velocity_mm_s;
+    m.programmed_feed_mm_s = program.programmed_feed_mm_s;
+    m.line = program.line;
+    m.distance_to_go_mm = program.distance_to_go_mm;
+    return m;
+}
+
+}  // namespace
+
+const char* name_of(LinkFault fault) {
+    constexpr const char* names[] = {"none",
+                                     "nothing present",
+                                     "30 % of the samples dropped",
+                                     "sample repeated",
+                                     "1 % of the messages altered",
+                                     "1 % of the messages cut",
+                                     "controller hangs"};
+    static_assert(std::size(names) == link_faults);
+    return names[static_cast<std::size_t>(fault)];
+}
+
+hal::FeedOverride ControllerOnLink::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    if (fault_ != LinkFault::samples_repeated) {
+        message_ = message_of(sample, program);
+    }
+    message_.sequence = ++sequence_;
+    if (fault_ == LinkFault::nothing_present) {
+        message_.present = 0;
+    }
+    if (is_answered(message_)) {
+        answered_us_ = sample.time_us;
+    }
+    is_guarded_ = is_guarded_ || sample.time_us - answered_us_ > guard_timeout_us;
+    return {answer_.ratio, answer_.hold || is_guarded_, answer_.state, answer_.fault, answer_.heartbeat};
+}
+
+bool ControllerOnLink::is_answered(const local_link::SampleMessage& message) {
+    const bool is_dropped = fault_ == LinkFault::samples_dropped && is_by_chance(0.3);
+    if (is_guarded_ || is_dropped || fault_ == LinkFault::controller_hangs) {
+        return false;
+    }
+    local_link::SampleBytes bytes = local_link::encode(message);
+    std::size_t length = bytes.size();
+    if (fault_ == LinkFault::message_altered && is_by_chance(0.01)) {
+        const auto place = std::uniform_int_distribution<std::size_t>(0, length - 1)(random_);
+        bytes[place] = static_cast<std::uint8_t>(std::uniform_int_distribution(0, 255)(random_));
+    }
+    if (fault_ == LinkFault::message_cut && is_by_chance(0.01)) {
+        length = std::uniform_int_distribution<std::size_t>(0, length - 1)(random_);
+    }
+    local_link::OverrideBytes answer;
+    const auto error = controller_.on_message(std::span(bytes).first(length), answer);
+    // An invalid message ends the connection.
+    is_guarded_ = error != local_link::MessageError::none || decode(answer, answer_) != local_link::MessageError::none;
+    return !is_guarded_;
+}
+
+void ControllerOnLink::describe(sim::TracePoint& point) const {
+    sim::describe(firmware::tick_record(controller_.tick(), controller_.output(), answered_us_), point);
+}
+
+}  // namespace millforce::faults

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include "faults/campaign.hpp"
+#include "percent.hpp"
+#include "report/trace_csv.hpp"
+
+/// Mills parts while one thing goes wrong, and prints what came of it: fault_campaign --help.
+
+namespace {
+
+using namespace millforce::faults;
+namespace sim = millforce::sim;
+using millforce::test::percent;
+
+struct Options {
+    int runs = 1000;
+    std::uint64_t seed = 1;
+    double sound_share = 0.1;
+    std::vector<std::string> parts{"depth_ramp",         "width_step",         "slot_entry",
+                                   "depth_ramp:spindle", "width_step:spindle", "slot_entry:spindle"};
+    std::vector<std::string> paths{"tick", "can", "link"};
+    std::vector<std::string> faults{};
+    bool lists_violations = false;
+    std::string trace{};
+};
+
+/// A row of the table: one fault on one path, with the parts on which it can happen.
+struct Row {
+    Path path;
+    Fault fault;
+    std::vector<const Part*> parts{};
+    Tally tally{};
+
+    [[nodiscard]] bool is_sound() const { return fault == Fault{SignalFault::none}; }
+};
+
+std::vector<Row> rows_of(const Options& options, const std::vector<Part>& parts) {
+    std::vector<Row> rows;
+    const auto add = [&](Path path, const Fault& fault, const Part& part) {
+        const auto is_it = [&](const Row& row) { return row.path == path && row.fault == fault; };
+        auto row = std::find_if(rows.begin(), rows.end(), is_it);
+        if (row == rows.end()) {
+            row = rows.insert(rows.end(), Row{path, fault});
+        }
+        row->parts.push_back(&part);
+    };
+    for (int k = 0; k < paths; ++k) {
+        const auto path = static_cast<Path>(k);
+        if (std::find(options.paths.begin(), options.paths.end(), name_of(path)) == options.paths.end()) {
+            continue;
+        }
+        for (const Part& part : parts) {
+            for (const Fault& fault : faults_on(path, part)) {
+                const bool is_asked = options.faults.empty() || std::find(options.faults.begin(), options.faults.end(),
+                                                                          name_of(fault)) != options.faults.end();
+                if (is_asked) {
+                    add(path, fault, part);
+                }
+            }
+        }
+    }
+    return rows;
+}
+
+struct Run {
+    std::size_t row = 0;
+    const Part* part = nullptr;
+    std::uint64_t seed = 0;
+};
+
+/// The sound runs first; the others in turn, over all rows and their parts.
+std::vector<Run> runs_of(const Options& options, const std::vector<Row>& rows) {
+    std::vector<std::size_t> sound;
+    std::vector<std::size_t> faulty;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        (rows[k].is_sound() ? sound : faulty).push_back(k);
+    }
+    std::vector<Run> runs;
+    const auto add = [&](const std::vector<std::size_t>& among, int count) {
+        for (int n = 0; n < count && !among.empty(); ++n) {
+            const auto index = static_cast<std::size_t>(n);
+            const std::size_t row = among[index % among.size()];
+            const auto& parts = rows[row].parts;
+            runs.push_back({row, parts[index / among.size() % parts.size()], options.seed + runs.size()});
+        }
+    };
+    const int sound_runs =
+        faulty.empty() ? options.runs : static_cast<int>(options.sound_share * static_cast<double>(options.runs));
+    add(sound, sound_runs);
+    add(faulty, options.runs - static_cast<int>(runs.size()));
+    return runs;
+}
+
+void say(const Row& row, const Run& run, const Outcome& outcome) {
+    Tally one;
+    one.add(outcome);
+    const bool is_false_alarm = row.is_sound() && outcome.reaction.has_reacted;
+    if (one.violations() > 0 || is_false_alarm) {
+        fmt::print(stderr, "{}: {}, {}, {}, seed {}, peak {:.0f} %, teeth broken {}, fault {}\n",
+                   is_false_alarm ? "false alarm" : "violation", name_of(row.path), run.part->name, name_of(row.fault),
+                   run.seed, 100.0 * outcome.run.figures.peak_over_limit, outcome.run.figures.teeth_broken,
+                   outcome.reaction.fault);
+    }
+}
+
+void write_trace(const std::string& name, const sim::RunResult& run) {
+    std::ofstream file(name);
+    file << sim::trace_csv(run);
+}
+
+void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Options& options) {
+    std::mutex lock;
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t k = next++; k < runs.size(); k = next++) {
+            Row& row = rows[runs[k].row];
+            const Outcome outcome = mill_with(*runs[k].part, row.path, row.fault, runs[k].seed);
+            const std::scoped_lock hold(lock);
+            row.tally.add(outcome);
+            if (options.lists_violations) {
+                say(row, runs[k], outcome);
+            }
+            if (!options.trace.empty()) {
+                write_trace(options.trace, outcome.run);
+            }
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
+        threads.emplace_back(work);
+    }
+    work();
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+}
+
+void print(const Row& row) {
+    const Tally& t = row.tally;
+    const bool has_reacted = !t.reactions_s.empty();
+    fmt::print("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {} |\n", name_of(row.fault), name_of(row.path),
+               t.runs, percent(t.broken_parts, t.runs), percent(t.over, t.runs), 100.0 * t.largest_peak,
+               percent(static_cast<int>(t.reactions_s.size()), t.runs),
+               has_reacted ? fmt::format("{:.2f}, {:.2f}", t.median_reaction_s(), t.longest_reaction_s()) : "",
+               percent(t.crawled, t.runs), t.violations());
+}
+
+int run(const Options& options) {
+    std::vector<Part> parts;
+    for (const std::string& name : options.parts) {
+        parts.push_back(part_named(name));
+    }
+    std::vector<Row> rows = rows_of(options, parts);
+    if (rows.empty()) {
+        fmt::print(stderr, "fault_campaign: no such fault on these paths\n");
+        return 2;
+    }
+    mill_all(runs_of(options, rows), rows, options);
+    fmt::print(
+        "| fault | path | runs | tooth broken, % | peak above 110 %, % | largest peak, % | feed held, % | after, s: "
+        "median, longest | crawls, % | violations |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    int violations = 0;
+    int sound_runs = 0;
+    int false_alarms = 0;
+    for (const Row& row : rows) {
+        if (row.tally.runs == 0) {
+            continue;
+        }
+        print(row);
+        violations += row.tally.violations();
+        if (row.is_sound()) {
+            sound_runs += row.tally.runs;
+            false_alarms += static_cast<int>(row.tally.reactions_s.size());
+        }
+    }
+    fmt::print("\n{} violations; {} false alarms in {} sound runs\n", violations, false_alarms, sound_runs);
+    return violations > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Mills parts in closed loop while one thing goes wrong at a drawn moment.");
+    Options options;
+    app.add_option("--runs", options.runs, "in all")->check(CLI::Range(1, 10'000'000))->capture_default_str();
+    app.add_option("--seed", options.seed, "of the first run")->capture_default_str();
+    app.add_option("--sound", options.sound_share, "share of the runs without a fault")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    app.add_option("--part", options.parts,
+                   "scenarios; NAME:spindle is a machine that reads its spindle's current alone");
+    app.add_option("--path", options.paths, "between machine and controller")
+        ->check(CLI::IsMember({"tick", "can", "link"}));
+    app.add_option("--fault", options.faults, "as the table names them");
+    app.add_flag("--list", options.lists_violations, "each run that broke a rule, with its seed");
+    app.add_option("--trace", options.trace, "CSV file of the last run");
+    CLI11_PARSE(app, argc, argv);
+    return run(options);
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faults/faulty_machine.hpp"
+
+#include <algorithm>
+
+namespace millforce::faults {
+
+hal::FeedOverride FaultyMachine::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    dt_s_ = has_first_ ? 1e-6 * static_cast<double>(sample.time_us - last_us_) : 0.0;
+    time_s_ += dt_s_;
+    has_first_ = true;
+    last_us_ = sample.time_us;
+    if (time_s_ < settings_.begins_s) {
+        before_ = sample;
+        const hal::FeedOverride output = controller_.step(sample, program);
+        judge(output);
+        return output;
+    }
+    return step_with_fault(sample, program);
+}
+
+hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    if (!reaction_.has_begun && settings_.begin) {
+        settings_.begin();
+    }
+    reaction_.has_begun = true;
+    const double since_s = time_s_ - settings_.begins_s;
+    hal::DriveSample seen = sample;
+    hal::ProgramStatus told = program;
+    if (settings_.corrupt) {
+        settings_.corrupt(seen, told, before_, since_s);
+    }
+    const hal::FeedOverride output = controller_.step(seen, told);
+    judge(output);
+    judge_rise(output, since_s);
+    if (!reaction_.has_reacted && (output.hold || output.fault != 0)) {
+        reaction_.has_reacted = true;
+        reaction_.after_s = since_s;
+    }
+    return output;
+}
+
+void FaultyMachine::judge(const hal::FeedOverride& output) {
+    constexpr double rounding = 1e-3;  // of an override in a frame
+    const auto ratio = static_cast<double>(output.ratio);
+    const bool is_within = ratio >= 0.0 && ratio <= settings_.override_max + rounding;
+    reaction_.is_beyond_bound = reaction_.is_beyond_bound || !is_within;
+    reaction_.ran_in_fault = reaction_.ran_in_fault || (output.fault != 0 && !output.hold);
+    reaction_.fault = output.fault;
+    reaction_.held_s = output.hold ? reaction_.held_s + dt_s_ : 0.0;
+}
+
+void FaultyMachine::judge_rise(const hal::FeedOverride& output, double since_s) {
+    constexpr double tolerance = 0.01;
+    if (!settings_.leaves_blind || output.hold || since_s < detection_s) {
+        return;
+    }
+    const auto ratio = static_cast<double>(output.ratio);
+    reaction_.rose_blind = reaction_.rose_blind || (blind_ratio_ >= 0.0 && ratio > blind_ratio_ + tolerance);
+    blind_ratio_ = blind_ratio_ < 0.0 ? ratio : std::min(blind_ratio_, ratio);
+}
+
+}  // namespace millforce::faults

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "hal/drive_sample.hpp"
+#include "hal/feed_override.hpp"
+#include "loop/override_source.hpp"
+
+/// A machine on which something goes wrong while a part is milled, and what its controller does about it.
+
+namespace millforce::faults {
+
+/// What the CNC got from the controller once the fault had begun. The controller has reacted where it holds the feed,
+/// or has a fault.
+struct Reaction {
+    bool has_begun = false;  ///< the part was not over before
+    bool has_reacted = false;
+    double after_s = 0.0;
+    std::uint8_t fault = 0;        ///< control::Fault
+    bool is_beyond_bound = false;  ///< at any time: an override that is not a number within [0, override_max]
+    bool ran_in_fault = false;     ///< a fault was latched, and the feed free
+    bool rose_blind = false;       ///< the free override rose later than detection_s after the begin
+    double held_s = 0.0;           ///< how long the feed is held at the end
+};
+
+/// An invalid signal is to be noticed by then.
+inline constexpr double detection_s = 0.5;
+
+/// Stands between the plant and a controller. Time is the samples' own.
+class FaultyMachine : public sim::OverrideSource {
+  public:
+    /// Alters what the controller sees, at each sample from the fault's begin on.
+    using Corrupt = std::function<void(hal::DriveSample& sample, hal::ProgramStatus& program,
+                                       const hal::DriveSample& before, double since_s)>;
+    struct Settings {
+        double begins_s = 0.0;  ///< after the first sample
+        double override_max = 1.0;
+        std::function<void()> begin{};  ///< once, at the fault's begin; may be empty
+        Corrupt corrupt{};              ///< may be empty
+        bool leaves_blind = false;      ///< the fault leaves nothing to go by: the override must not rise
+    };
+
+    FaultyMachine(sim::OverrideSource& controller, Settings settings)
+        : controller_(controller), settings_(std::move(settings)) {}
+
+    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
+    void describe(sim::TracePoint& point) const override { controller_.describe(point); }
+    [[nodiscard]] bool is_ready() const override { return controller_.is_ready(); }
+
+    [[nodiscard]] const Reaction& reaction() const { return reaction_; }
+
+  private:
+    [[nodiscard]] hal::FeedOverride step_with_fault(const hal::DriveSample& sample, const hal::ProgramStatus& program);
+    void judge(const hal::FeedOverride& output);
+    void judge_rise(const hal::FeedOverride& output, double since_s);
+
+    sim::OverrideSource& controller_;
+    Settings settings_;
+    bool has_first_ = false;
+    std::uint32_t last_us_ = 0;
+    double time_s_ = 0.0;
+    double dt_s_ = 0.0;
+    hal::DriveSample before_{};  ///< the last good one
+    double blind_ratio_ = -1.0;  ///< the lowest free override later than detection_s
+    Reaction reaction_{};
+};
+
+}  // namespace millforce::faults
