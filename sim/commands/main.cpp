@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
@@ -48,6 +49,9 @@ int main(int argc, char** argv) {
             return 2;
         }
         return exit_code;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "millforce: out of memory\n");
+        return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "millforce: %s\n", error.what());
         return 2;

@@ -122,3 +122,23 @@ TEST(LiveBus, an_interface_that_none_can_be_and_files_that_cannot_be_written_are
                                      in.name("tool.toml"), "--log", in.name("no_folder/run.jsonl")});
     STRCMP_EQUAL("", not_refused(run, {"no_folder/run.jsonl: No such file or directory"}).c_str());
 }
+
+TEST(LiveBus, an_output_that_is_an_input_or_the_other_output_is_refused_by_whatever_name) {
+    const LiveInputs in;
+    const auto run = [&](std::vector<std::string> outputs) {
+        outputs.insert(outputs.begin(),
+                       {"run", "vcan0", "--machine", in.name("machine.toml"), "--tool", in.name("tool.toml")});
+        return run_millforce(outputs);
+    };
+    const std::string before = in.read("machine.toml");
+    std::filesystem::create_symlink(in.path("machine.toml"), in.path("link.toml"));
+    for (const char* option : {"--log", "--record"}) {
+        for (const char* file : {"machine.toml", "link.toml", "tool.toml"}) {
+            STRCMP_EQUAL("", not_refused(run({option, in.name(file)}), {file, "would be overwritten"}).c_str());
+        }
+    }
+    STRCMP_EQUAL(before.c_str(), in.read("machine.toml").c_str());
+    STRCMP_EQUAL("", not_refused(run({"--log", in.name("a"), "--record", in.name("./a")}),
+                                 {"--log, --record: both are", "expected two files"})
+                         .c_str());
+}

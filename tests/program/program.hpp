@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -21,10 +22,11 @@ extern "C" char** environ;
 
 namespace millforce::test {
 
-/// A running millforce, its standard output and error on pipes. Ended with the object, if nothing else ended it.
+/// A running millforce, its standard output and error on pipes, or the error in a file. Ended with the object, if
+/// nothing else ended it.
 class Program {
   public:
-    explicit Program(const std::vector<std::string>& arguments) {
+    explicit Program(const std::vector<std::string>& arguments, const std::string& error_file = {}) {
         std::array<int, 2> out{};
         std::array<int, 2> error{};
         if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(error.data(), O_CLOEXEC) != 0) {
@@ -41,6 +43,10 @@ class Program {
         ::posix_spawn_file_actions_init(&actions);
         ::posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
         ::posix_spawn_file_actions_adddup2(&actions, error[1], STDERR_FILENO);
+        if (!error_file.empty()) {
+            ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error_file.c_str(),
+                                               O_WRONLY | O_CREAT | O_APPEND, 0666);
+        }
         const int failed = ::posix_spawn(&process_, MILLFORCE_PROGRAM, &actions, nullptr, argv.data(), environ);
         ::posix_spawn_file_actions_destroy(&actions);
         ::close(out[1]);
@@ -60,6 +66,28 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     void interrupt(int signal) const { ::kill(process_, signal); }
+    [[nodiscard]] pid_t process() const { return process_; }
+
+    /// As if who reads its standard error had ended.
+    void close_reader_of_error() {
+        ::close(pipes_[1]);
+        pipes_[1] = -1;
+    }
+    /// It takes 4 kB then, and not 64.
+    void narrow_pipe_of_error() const { ::fcntl(pipes_[1], F_SETPIPE_SZ, 4096); }
+    /// Reads its standard error until this is in it; false: it was not in half a minute.
+    bool says(const std::string& part) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (text_[1].find(part) == std::string::npos && std::chrono::steady_clock::now() < end) {
+            pollfd waiting{pipes_[1], POLLIN, 0};
+            if (::poll(&waiting, 1, 100) > 0) {
+                std::array<char, 4096> buffer{};
+                const ssize_t count = ::read(pipes_[1], buffer.data(), buffer.size());
+                text_[1].append(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+            }
+        }
+        return text_[1].find(part) != std::string::npos;
+    }
 
     /// Reads to the end of both pipes, then takes the status.
     void wait() {

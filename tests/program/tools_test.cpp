@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bridge.hpp"
 #include "csv_rows.hpp"
 #include "inputs.hpp"
 
-#include <sys/socket.h>
-#include <sys/un.h>
-
-#include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <functional>
-#include <span>
-#include <thread>
 
-#include "local_link/messages.hpp"
 #include "program_status/tool_frame.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -40,52 +33,6 @@ const std::string machine_on_bus_without_program_status =
     with(machine_text, "[x]\n", "[x]\nrated_current_A = 12\n") +
     "[bus]\nprogram_status_id = 0\n[bus.x]\nnode_id = 2\n"
     "tpdo1 = [\"0x606C:32\", \"0x6078:16\"]\nvelocity_mm_s_per_unit = 0.001\n";
-
-/// A CNC's bridge: connects when the socket is there.
-class Bridge {
-  public:
-    explicit Bridge(const std::string& path) : socket_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-        const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-        while (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-            if (std::chrono::steady_clock::now() > patience) {
-                throw std::runtime_error("no socket " + path);
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-    }
-    ~Bridge() { ::close(socket_); }
-    Bridge(const Bridge&) = delete;
-    Bridge& operator=(const Bridge&) = delete;
-
-    void send(std::span<const std::uint8_t> bytes) { ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
-    /// Bytes of the answer; 0: the connection was closed.
-    std::size_t receive(local_link::OverrideBytes& answer) {
-        const ssize_t length = ::recv(socket_, answer.data(), answer.size(), 0);
-        return length > 0 ? static_cast<std::size_t>(length) : 0;
-    }
-    local_link::OverrideMessage ask(std::uint32_t tool, float velocity_mm_s) {
-        sample_.present = 0x1F;
-        sample_.time_us += 1000;
-        sample_.spindle_count += 546;
-        sample_.operator_limit = 0.75F;
-        sample_.programmed_feed_mm_s = 20.0F;
-        sample_.axis_velocity_mm_s[0] = velocity_mm_s;
-        sample_.tool = tool;
-        send(encode(sample_));
-        local_link::OverrideBytes bytes{};
-        local_link::OverrideMessage answer;
-        receive(bytes);
-        CHECK(decode(bytes, answer) == local_link::MessageError::none);
-        return answer;
-    }
-
-  private:
-    int socket_;
-    local_link::SampleMessage sample_{};
-};
 
 /// A recording of a spindle in air; tool and velocity of each row as given.
 std::string recording(const std::function<std::string(int row)>& tool, const std::function<double(int row)>& velocity) {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_bench.hpp"
+#include "program/service_manager.hpp"
 
 #include <CppUTest/TestHarness.h>
 
-#include <sys/socket.h>
-#include <sys/un.h>
-
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -19,31 +16,6 @@ namespace {
 bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-
-/// The end of a service manager's notification socket.
-class DatagramSocket {
-  public:
-    explicit DatagramSocket(const std::string& name) : descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        name.copy(address.sun_path, sizeof address.sun_path - 1);
-        const timeval patience{10, 0};
-        ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-        CHECK(::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
-    }
-    ~DatagramSocket() { ::close(descriptor_); }
-    DatagramSocket(const DatagramSocket&) = delete;
-    DatagramSocket& operator=(const DatagramSocket&) = delete;
-
-    [[nodiscard]] std::string receive() const {
-        std::array<char, 100> buffer{};
-        const ssize_t length = ::recv(descriptor_, buffer.data(), buffer.size(), 0);
-        return length > 0 ? std::string(buffer.data(), static_cast<std::size_t>(length)) : "nothing";
-    }
-
-  private:
-    int descriptor_;
-};
 
 constexpr const char* stopped_heartbeat = "77E#04";  // the controller's last frame
 
@@ -243,20 +215,15 @@ TEST(RunOnVcan, a_log_that_cannot_be_written_is_told_by_its_name) {
 
 TEST(RunOnVcan, a_service_manager_hears_that_it_is_ready_alive_and_stopping) {
     const LiveFolder folder;
-    const DatagramSocket manager(folder.file("notify"));
-    ::setenv("NOTIFY_SOCKET", folder.file("notify").c_str(), 1);
+    const test::ServiceManager manager(folder.file("notify"), 1'000'000);
     Words words = folder.run_words();
     words[1] = "nocan0";
     test::Program controller(words);
-    ::unsetenv("NOTIFY_SOCKET");
     STRCMP_EQUAL("READY=1", manager.receive().c_str());
-    STRCMP_EQUAL("WATCHDOG=1", manager.receive().c_str());
-    STRCMP_EQUAL("WATCHDOG=1", manager.receive().c_str());
+    CHECK(manager.hears("STATUS=interface_absent, sync_lost, input_incomplete, program_unknown"));
+    CHECK(manager.hears("WATCHDOG=1"));
+    CHECK(manager.hears("WATCHDOG=1"));
     controller.interrupt(SIGTERM);
     controller.wait();
-    std::string last = manager.receive();
-    while (last == "WATCHDOG=1") {
-        last = manager.receive();
-    }
-    STRCMP_EQUAL("STOPPING=1", last.c_str());
+    CHECK(manager.hears("STOPPING=1"));
 }

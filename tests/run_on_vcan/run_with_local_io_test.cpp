@@ -84,6 +84,30 @@ TEST(RunWithLocalIo, currents_by_a_converter_are_ticks_and_a_voltage_and_their_f
     STRCMP_EQUAL("", replay.error.c_str());
 }
 
+TEST(RunWithLocalIo, sighup_ends_with_the_safe_voltage) {
+    const LocalFolder folder;
+    test::Program controller(folder.run_words());
+    CHECK(folder.logged("\"type\":\"estimate\""));
+    CHECK(folder.is_out(false));
+    controller.interrupt(SIGHUP);
+    controller.wait();
+    LONGS_EQUAL(0, controller.exit_code());
+    STRCMP_EQUAL("0", folder.tree.read("dac/out_voltage0_raw").c_str());
+}
+
+TEST(RunWithLocalIo, a_killed_one_leaves_its_voltage_and_the_next_one_sets_the_safe_one_before_its_first_sample) {
+    const LocalFolder folder;
+    test::Program controller(folder.run_words());
+    CHECK(folder.logged("\"type\":\"estimate\""));
+    CHECK(folder.is_out(false));
+    controller.interrupt(SIGKILL);
+    controller.wait();
+    CHECK(folder.tree.read("dac/out_voltage0_raw") != "0");
+    folder.tree.remove("adc");
+    test::Program next(folder.run_words());
+    CHECK(folder.is_out(true));
+}
+
 TEST(RunWithLocalIo, a_converter_that_is_not_there_is_told_with_its_file_and_no_override_goes_out) {
     const LocalFolder folder;
     folder.tree.remove("adc");

@@ -21,6 +21,8 @@ namespace {
 
 /// Most frames that one call drops: a flood of them must not keep it busy.
 constexpr int most_skipped_per_call = 256;
+/// Frames of so long a time may have the stamps of a clock that was set meanwhile.
+constexpr std::uint64_t clock_look_period_us = 2'000;
 
 template <typename Value>
 bool set_option(int descriptor, int level, int name, const Value& value) {
@@ -70,6 +72,10 @@ CanSocket::~CanSocket() {
 
 void CanSocket::poll(std::uint64_t now_us) {
     polled_us_ = now_us;
+    if (now_us >= next_clock_look_us_) {
+        next_clock_look_us_ = now_us + clock_look_period_us;
+        clock_.look();
+    }
     if (now_us < next_look_us_) {
         return;
     }

@@ -108,8 +108,12 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
         foreign_sync_us_ = time_us;
         return;
     }
-    if (frame.id == settings_.feed_override.id || frame.id == own_heartbeat_id(settings_)) {
-        return;  // they only show that time has passed
+    if (is_own_output(frame)) {
+        if (!is_own) {
+            is_override_foreign_ = true;
+            foreign_override_us_ = time_us;
+        }
+        return;  // of what the tick sees, they only show that time has passed
     }
     program_receiver_.on_frame(frame, time_us);
     tool_receiver_.on_frame(frame, time_us);
@@ -124,6 +128,10 @@ void CanController::add(const hal::DriveSample& beside_bus) {
     }
 }
 
+bool CanController::is_own_output(const hal::CanFrame& frame) const {
+    return frame.id == settings_.feed_override.id || frame.id == own_heartbeat_id(settings_);
+}
+
 bool CanController::has_complete_sample() const {
     return (sample_.present & bus_.complete()) == bus_.complete();
 }
@@ -133,6 +141,7 @@ void CanController::poll(std::uint64_t now_us) {
         sync_.poll(now_us);
     }
     watch_silence(now_us);
+    is_override_foreign_ = is_override_foreign_ && now_us < foreign_override_us_ + shown_for_us;
     sender_.poll(now_us);
     repeat_boot_up(now_us);
     judge(now_us);
@@ -151,7 +160,7 @@ void CanController::watch_silence(std::uint64_t now_us) {
 
 hal::FeedOverride CanController::sent_override() const {
     hal::FeedOverride sent = output_;
-    sent.hold = sent.hold || is_silent_ || is_held_outside_;
+    sent.hold = sent.hold || is_silent_ || is_held_outside_ || is_override_foreign_;
     return sent;
 }
 
@@ -279,6 +288,7 @@ void CanController::judge(std::uint64_t now_us) {
     found.set(Condition::program_silent, source == program_status::ProgramSource::silent);
     found.set(Condition::tool_unknown, has_begun_ && !tick_.is_tool_known());
     found.set(Condition::tool_change_due, tick_.is_change_due());
+    found.set(Condition::override_foreign, is_override_foreign_);
     conditions_ = found;
 }
 

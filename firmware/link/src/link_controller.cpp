@@ -90,7 +90,7 @@ local_link::OverrideMessage LinkController::answer_to(std::uint32_t sequence) co
     m.sequence = sequence;
     m.heartbeat = output_.heartbeat;
     m.ratio = std::min(output_.ratio, largest_override_);
-    m.hold = output_.hold;
+    m.hold = output_.hold || is_held_outside_;
     m.tool_unknown = !tick_.is_tool_known();
     m.state = output_.state;
     m.fault = output_.fault;

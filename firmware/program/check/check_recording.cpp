@@ -79,6 +79,9 @@ void RecordingCheck::Channel::add(bool is_present, float value) {
 
 void RecordingCheck::add(double time_s, const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     const hal::DriveSample usable = usable_sample(sample);
+    first_s_ = samples_ == 0 ? time_s : first_s_;
+    last_s_ = time_s;
+    ++samples_;
     windows_.add(time_s, usable, program);
     encoder_.add(usable);
     channels_[0].add(has(usable, hal::Present::spindle_current), usable.spindle_current_A);
@@ -103,10 +106,24 @@ void RecordingCheck::add_to_spectrum(double time_s, const hal::DriveSample& samp
     blocks_.add(time_s, turned_rev, static_cast<double>(has_force ? sample.force_N[0] : sample.spindle_current_A));
 }
 
+/// A thousandth of the rate that the machine's file states: within a factor of 3.
+Findings RecordingCheck::why_nothing_is_judged() const {
+    constexpr std::size_t fewest_samples = 10;
+    const double rate_hz = static_cast<double>(samples_) / (last_s_ - first_s_);
+    const double of_stated = rate_hz / static_cast<double>(parameters_.machine.cnc.sample_rate_hz);
+    if (samples_ >= fewest_samples && of_stated > 0.33e-3 && of_stated < 3e-3) {
+        return {{Severity::error,
+                 fmt::format("{:.4g} samples per second, and the machine's file says {:g}; is the time in ms?", rate_hz,
+                             parameters_.machine.cnc.sample_rate_hz),
+                 "time_s"}};
+    }
+    return {{Severity::note, "too short, or too few samples per second, to judge anything", "time_s"}};
+}
+
 Findings RecordingCheck::findings(const std::string& name) const {
     std::vector<MotionWindow> windows = windows_.windows();
     if (windows.empty()) {
-        return {{Severity::note, "too short, or too few samples per second, to judge anything", "time_s"}};
+        return why_nothing_is_judged();
     }
     find_air(windows, parameters_, !channels_[0].stands());
     std::array<bool, hal::axis_count> axes_stand{};

@@ -40,9 +40,13 @@ class RecordingCheck {
         bool changed_ = false;
     };
     void add_to_spectrum(double time_s, const hal::DriveSample& sample);
+    [[nodiscard]] Findings why_nothing_is_judged() const;
 
     firmware::Parameters<float> parameters_;
     bool has_index_;
+    std::size_t samples_ = 0;
+    double first_s_ = 0.0;
+    double last_s_ = 0.0;
     MotionWindows windows_;
     EncoderCounts encoder_;
     std::array<Channel, 1 + hal::axis_count> channels_{};

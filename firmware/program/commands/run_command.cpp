@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "parameters/machine_bus.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
@@ -51,6 +53,16 @@ socketcan::CanSocketSettings socket_on(const std::string& interface) {
     return settings;
 }
 
+void check_outputs(const RunOptions& options) {
+    const auto plain = [](const std::string& name) { return std::filesystem::absolute(name).lexically_normal(); };
+    if (!options.log.empty() && !options.record.empty() && plain(options.log) == plain(options.record)) {
+        throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
+    }
+    for (const std::string& output : {options.log, options.record}) {
+        refuse_overwriting(output, {options.machine, options.tools.file});
+    }
+}
+
 void print_summary(const RunOptions& options, const CanDaemon& daemon, const Journal& journal) {
     const socketcan::LinkHealth& link = daemon.link();
     const LatencyHistogram& latency = daemon.sync_to_override();
@@ -85,9 +97,7 @@ int run_on_bus(const RunOptions& options) {
     }
     const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
-    if (!options.log.empty() && options.log == options.record) {
-        throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
-    }
+    check_outputs(options);
     if (tools.source() != nullptr && program_status::tool_frame_id(bus.program.id) == 0) {
         throw InputError(
             fmt::format("--tools: {}: bus.program_status_id = {}, expected 1 to {}: the frame of the tool's "
@@ -128,7 +138,8 @@ void add_run(Command& program) {
     Command command = program.subcommand("run", "Run the live controller on a CAN interface");
     command.footer(
         "Runs until SIGINT, SIGTERM or SIGHUP; then the feed is held, and the heartbeat says 'stopped'. An interface\n"
-        "that is not there, or goes down, is waited for. Conditions are reported on standard error; on a terminal a\n"
+        "that is not there, or goes down, is waited for. SIGUSR1 opens the files of --log and --record again, for\n"
+        "logrotate. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
         "Exit code 1: frames of --record or lines of --log are missing.");

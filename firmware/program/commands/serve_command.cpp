@@ -11,6 +11,7 @@
 #include "commands/machine_commands.hpp"
 #include "control/cut_state.hpp"
 #include "daemon/line_printer.hpp"
+#include "daemon/pause_watch.hpp"
 #include "daemon/service.hpp"
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
@@ -20,6 +21,7 @@
 #include "parameters/tool_set.hpp"
 #include "part_map/map_follower.hpp"
 #include "part_map/part_map_file.hpp"
+#include "socketcan/can_socket.hpp"
 
 namespace millforce::host {
 
@@ -85,8 +87,40 @@ class ToolReporter {
     bool was_change_due_ = false;
 };
 
-void serve_peer(UnixServer& server, firmware::LinkController& controller, const MapFollower* follower,
-                LinePrinter& printer) {
+/// What the loop does at each turn beside the messages: it tells a service manager that it lives, and finds out that it
+/// did not.
+class Turns final : public TurnListener {
+  public:
+    explicit Turns(LinePrinter& printer) : printer_(printer) {}
+
+    void on_turn() override {
+        const std::uint64_t now_us = socketcan::monotonic_us();
+        watchdog_.poll(now_us);
+        if (pause_watch_.look(now_us)) {
+            hold_until_us_ = now_us + drain_us;
+            printer_.print(fmt::format("millforce: was stopped for {:.1f} s: hold, until newer samples come",
+                                       1e-6 * static_cast<double>(pause_watch_.pause_us())));
+        }
+        is_held_ = now_us < hold_until_us_;
+    }
+    /// What comes now may have waited while this process was stopped.
+    [[nodiscard]] bool is_held() const { return is_held_; }
+
+  private:
+    /// Five waits. The CNC's side stops the feed long before.
+    static constexpr std::uint64_t longest_turn_us = 500'000;
+    /// The bridge hands over in this time what it kept: some hundred samples of 20 µs each.
+    static constexpr std::uint64_t drain_us = 100'000;
+
+    ServiceWatchdog watchdog_{};
+    PauseWatch pause_watch_{longest_turn_us};
+    LinePrinter& printer_;
+    std::uint64_t hold_until_us_ = 0;
+    bool is_held_ = false;
+};
+
+void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller,
+                const MapFollower* follower, LinePrinter& printer) {
     FaultReporter faults;
     MapReporter maps;
     ToolReporter tools;
@@ -95,6 +129,7 @@ void serve_peer(UnixServer& server, firmware::LinkController& controller, const 
         if (bytes.empty()) {
             return;
         }
+        controller.hold_from_outside(turns.is_held());
         local_link::OverrideBytes answer{};
         const local_link::MessageError error = controller.on_message(bytes, answer);
         if (error != local_link::MessageError::none) {
@@ -135,23 +170,27 @@ int serve(const ServeOptions& options) {
     const firmware::Parameters<float>& parameters = tools.parameters();
     show_start_check(tools);
     const std::optional<PartMap> map = map_of(options, parameters);
-    ignore_closed_pipes();
-    UnixServer server(options.socket);
     LinePrinter printer(stderr);
+    Turns turns(printer);
+    UnixServer server(options.socket, &turns);
     for (const std::string& note : become_real_time()) {
-        print_line(stderr, fmt::format("millforce: note: {}", note));
+        printer.print(fmt::format("millforce: note: {}", note));
     }
     notify_service_manager("READY=1");
-    print_line(stderr, fmt::format("millforce: {}: waiting", options.socket));
+    printer.print(fmt::format("millforce: {}: waiting", options.socket));
+    notify_service_manager("STATUS=waiting for a CNC");
     while (server.wait_for_peer()) {
+        notify_service_manager("STATUS=connected");
         printer.print("millforce: connected");
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller =
             std::make_unique<firmware::LinkController>(parameters, largest_override, follower.get(), tools.source());
-        serve_peer(server, *controller, follower.get(), printer);
+        serve_peer(server, turns, *controller, follower.get(), printer);
         server.drop_peer();
+        notify_service_manager("STATUS=waiting for a CNC");
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
+    notify_service_manager("STOPPING=1");
     return 0;
 }
 
@@ -164,7 +203,7 @@ void add_serve(Command& program) {
     command.footer(
         "Layout of the messages: drivers/local_link. LinuxCNC connects by millforce-hal (drivers/linuxcnc).\n"
         "With --tools the samples hold the tool's number; without a known tool the override is the operator's.\n"
-        "One connection at a time; each is a new run. Runs until SIGINT or SIGTERM.");
+        "One connection at a time; each is a new run. Runs until SIGINT, SIGTERM or SIGHUP.");
     command.option("socket", options->socket, "Path of the socket to create").required().value_name("SOCKET");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
     add_tools(command, options->tools);

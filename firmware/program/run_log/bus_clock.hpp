@@ -47,8 +47,10 @@ class BusClock {
         constexpr std::uint64_t first_us = 1'000'000;
         return time_.in_lock_step ? first_us + syncs_ * time_.sync_period_us : unix_us / time_.slowness;
     }
-    [[nodiscard]] std::uint64_t of_monotonic(std::uint64_t time_us) const {
-        return of_unix(static_cast<std::uint64_t>(static_cast<std::int64_t>(time_us) + offset_us_));
+    [[nodiscard]] std::uint64_t of_monotonic(std::uint64_t time_us) const { return of_unix(unix_us(time_us)); }
+    /// In a recording: the clock as it would be if it had not been set during the run.
+    [[nodiscard]] std::uint64_t unix_us(std::uint64_t monotonic_us) const {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(monotonic_us) + offset_us_);
     }
     /// How long that lasts on a clock.
     [[nodiscard]] std::uint64_t real_us(std::uint64_t duration_us) const { return duration_us * time_.slowness; }

@@ -190,6 +190,23 @@ TEST(Supervision, a_sync_of_somebody_else_is_told_and_not_followed) {
     UNSIGNED_LONGS_EQUAL(20, machine.controller.ticks() - before);
 }
 
+TEST(Supervision, an_override_or_heartbeat_of_somebody_else_is_told_and_holds_the_feed_for_a_second) {
+    for (const std::uint32_t id : {0x1FEU, 0x77EU}) {
+        Machine machine;
+        CHECK_FALSE(machine.newest.hold);
+        hal::CanFrame foreign;
+        foreign.id = id;
+        foreign.length = 8;
+        machine.controller.on_frame(foreign, machine.now_us, false);
+        machine.run_ms(10);
+        CHECK(machine.has(Condition::override_foreign));
+        CHECK(machine.newest.hold);
+        machine.run_ms(1000);
+        CHECK_FALSE(machine.has(Condition::override_foreign));
+        CHECK_FALSE(machine.newest.hold);
+    }
+}
+
 TEST(Supervision, stop_says_hold_at_once_and_stopped_in_the_heartbeat) {
     Machine machine;
     machine.controller.stop(machine.now_us);

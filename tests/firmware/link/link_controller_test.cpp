@@ -151,6 +151,19 @@ TEST(LinkController, gives_the_same_overrides_whenever_the_samples_come_and_what
     }
 }
 
+TEST(LinkController, a_hold_from_outside_is_in_the_answers_alone) {
+    firmware::LinkController one(a_mill(), 1.0F);
+    firmware::LinkController other(a_mill(), 1.0F);
+    for (int k = 0; k < 100; ++k) {
+        const auto bytes = cnc.next();
+        one.hold_from_outside(k < 50);
+        const auto held = answer(one, bytes);
+        const auto free = answer(other, bytes);
+        CHECK_EQUAL(k < 50 || free.hold, held.hold);
+        DOUBLES_EQUAL(static_cast<double>(free.ratio), static_cast<double>(held.ratio), 0.0);
+    }
+}
+
 TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_it_is_not_known) {
     const firmware::Parameters<float> capped_mill{firmware::capped(a_mill().machine, 1.0F), a_mill().tool};
     std::array<firmware::ReadyTool, 1> memory;

@@ -128,6 +128,7 @@ class CanSocket {
     int interface_index_ = 0;
     std::uint32_t kernel_drops_ = 0;
     std::uint64_t next_look_us_ = 0;
+    std::uint64_t next_clock_look_us_ = 0;
     std::uint64_t polled_us_ = 0;
 };
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "daemon/service.hpp"
-
 namespace millforce::host {
 
 namespace {
@@ -25,6 +23,12 @@ firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
     return settings;
 }
 
+/// In lock-step the loop waits as long as it takes.
+std::uint64_t longest_turn_us(const ToolSet& tools, const BusTime& time) {
+    const float stale_us = tools.parameters().machine.cnc.stale_s * 1e6F;
+    return time.in_lock_step ? UINT64_MAX : time.slowness * static_cast<std::uint64_t>(stale_us);
+}
+
 }  // namespace
 
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
@@ -38,7 +42,8 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
       sync_id_(bus.drives.sync_id),
       node_id_(bus.feed_override.node_id),
       local_drives_(bus),
-      local_outputs_(bus.local) {}
+      local_outputs_(bus.local),
+      pause_watch_(longest_turn_us(tools, settings.time)) {}
 
 socketcan::CanSocketSettings CanDaemon::socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records) {
@@ -82,15 +87,34 @@ void CanDaemon::step() {
     const std::uint64_t before_us = now_us();
     socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
     const std::uint64_t time_us = now_us();
-    socket_.poll(socketcan::monotonic_us());
+    const std::uint64_t turn_us = socketcan::monotonic_us();
+    look_for_pause(turn_us, time_us);
+    socket_.poll(turn_us);
     receive_all();
     controller_.poll(time_us);
     send_all();
     local_outputs_.poll(socketcan::monotonic_us());
     record_ticks();
-    controller_.hold_from_outside(local_outputs_.health().is_failed);
+    hold_where_needed();
     firmware::finish_work(controller_);
     report(time_us);
+    watchdog_.poll(turn_us);
+}
+
+/// After a pause the socket holds the frames of a cut that went on without an override.
+void CanDaemon::look_for_pause(std::uint64_t turn_us, std::uint64_t time_us) {
+    if (pause_watch_.look(turn_us)) {
+        resumed_us_ = time_us;
+        is_paused_ = true;
+        hold_where_needed();
+    }
+}
+
+void CanDaemon::hold_where_needed() {
+    const std::uint32_t sample_after_us = controller_.sample().time_us - static_cast<std::uint32_t>(resumed_us_);
+    const bool is_complete = !controller_.conditions().has(Condition::input_incomplete);
+    is_paused_ = is_paused_ && !(is_complete && static_cast<std::int32_t>(sample_after_us) > 0);
+    controller_.hold_from_outside(local_outputs_.health().is_failed || is_paused_);
 }
 
 void CanDaemon::end(std::uint64_t duration_us) {
@@ -104,8 +128,7 @@ void CanDaemon::end(std::uint64_t duration_us) {
 void CanDaemon::receive_all() {
     socketcan::ReceivedFrame received;
     while (socket_.receive(received)) {
-        const auto unix_us =
-            static_cast<std::uint64_t>(static_cast<std::int64_t>(received.time_us) + socket_.unix_offset_us());
+        const std::uint64_t unix_us = clock_.unix_us(received.time_us);
         journal_.record(received.frame, unix_us);
         clock_.on_frame(received.frame);
         if (received.is_own && override_frame::is_boot_up(received.frame, node_id_)) {
@@ -169,6 +192,7 @@ firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
     found.set(Condition::send_queue_full, link.send_queue_full);
     found.set(Condition::local_input_failed, local_drives_.health().is_failed);
     found.set(Condition::local_output_failed, local_outputs_.health().is_failed);
+    found.set(Condition::process_paused, is_paused_);
     if (const std::uint32_t lost = link.overruns + link.controller_overflows; lost != frames_lost_) {
         frames_lost_ = lost;
         frames_lost_us_ = now_us;
@@ -195,9 +219,6 @@ void CanDaemon::report(std::uint64_t now_us) {
     if (!is_periodic && !is_news) {
         return;
     }
-    if (is_periodic) {
-        notify_service_manager("WATCHDOG=1");
-    }
     has_reported_ = true;
     reported_ = now;
     StatusEntry entry;
@@ -216,6 +237,7 @@ void CanDaemon::report(std::uint64_t now_us) {
     entry.newest = newest_;
     entry.input = local_drives_.health();
     entry.output = local_outputs_.health();
+    entry.pause_us = pause_watch_.pause_us();
     if (is_news) {
         journal_.status(entry);
     }

@@ -7,6 +7,8 @@
 
 #include "daemon/journal.hpp"
 #include "daemon/latency.hpp"
+#include "daemon/pause_watch.hpp"
+#include "daemon/service.hpp"
 #include "firmware_can/can_controller.hpp"
 #include "parameters/machine_bus.hpp"
 #include "run_log/bus_clock.hpp"
@@ -39,6 +41,8 @@ class CanDaemon final : private firmware::TickListener {
   private:
     void on_tick(const firmware::CanController& controller) override;
     void step();
+    void look_for_pause(std::uint64_t turn_us, std::uint64_t time_us);
+    void hold_where_needed();
     void receive_all();
     void read_beside_bus(std::uint64_t unix_us);
     void send_all();
@@ -70,6 +74,10 @@ class CanDaemon final : private firmware::TickListener {
     LocalDrives local_drives_;
     LocalOutputs local_outputs_;
     LatencyHistogram latency_{};
+    ServiceWatchdog watchdog_{};
+    PauseWatch pause_watch_;
+    std::uint64_t resumed_us_ = 0;  ///< bus time of the end of the last pause
+    bool is_paused_ = false;        ///< and no sample has come since
     EstimateEntry newest_{};
     std::uint64_t measured_tick_us_ = 0;
     std::uint64_t next_status_us_ = 0;

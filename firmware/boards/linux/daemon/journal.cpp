@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <new>
 
+#include "daemon/service.hpp"
 #include "files/console.hpp"
-#include "files/input_error.hpp"
 #include "run_log/candump_line.hpp"
 #include "run_log/estimate_line.hpp"
 #include "run_log/local_line.hpp"
@@ -16,22 +16,20 @@
 namespace millforce::host {
 
 namespace {
+
 constexpr auto writing_period = std::chrono::milliseconds(20);
+
+std::unique_ptr<LogFile> opened(const std::string& name, const char* missing) {
+    return name.empty() ? nullptr : std::make_unique<LogFile>(name, missing);
 }
 
-Journal::File Journal::opened(const std::string& name) {
-    if (name.empty()) {
-        return nullptr;
-    }
-    File file(std::fopen(name.c_str(), "we"));
-    if (file == nullptr) {
-        throw InputError(fmt::format("{}: {}, expected a file that can be written", name, std::strerror(errno)));
-    }
-    return file;
-}
+}  // namespace
 
 Journal::Journal(const JournalSettings& settings)
-    : settings_(settings), record_(opened(settings.record_file)), log_(opened(settings.log_file)) {
+    : settings_(settings),
+      record_(opened(settings.record_file, "# {} lines are missing here: the file could not be written\n")),
+      log_(opened(settings.log_file, R"({{"type":"missing","lines":{}}})"
+                                     "\n")) {
     writer_ = std::thread([this] { run(); });
 }
 
@@ -73,9 +71,19 @@ void Journal::status(const StatusEntry& entry) {
 void Journal::run() {
     while (!ended_.load()) {
         std::this_thread::sleep_for(writing_period);
-        write_all();
+        turn();
     }
-    write_all();
+    turn();
+}
+
+/// Without memory the files lack something, and the controller goes on.
+void Journal::turn() {
+    try {
+        write_all();
+        reopen_where_asked();
+    } catch (const std::bad_alloc&) {
+        lost_entries_.fetch_add(1, std::memory_order_relaxed);
+    }
 }
 
 void Journal::write_all() {
@@ -92,14 +100,34 @@ void Journal::write_all() {
 /// Where a disk is full it shows here.
 void Journal::flush_all() {
     for (const File* file : {&record_, &log_}) {
-        if (*file != nullptr && std::fflush(file->get()) != 0) {
-            note_failure(*file);
+        const int error = *file != nullptr ? (*file)->flush() : 0;
+        if (error != 0 && (*file)->failures() == 1) {
+            print_line(stderr, fmt::format("millforce: {}: {}: lines are missing until it can be written",
+                                           (*file)->name(), std::strerror(error)));
         }
     }
 }
 
-void Journal::note_failure(const File& file) {
-    failed_file_ = &file == &record_ ? settings_.record_file : settings_.log_file;
+std::string Journal::failed_file() const {
+    for (const File* file : {&record_, &log_}) {
+        if (*file != nullptr && (*file)->failures() > 0) {
+            return (*file)->name();
+        }
+    }
+    return {};
+}
+
+/// Between two lines: the old file ends with a whole one, the new one begins with one.
+void Journal::reopen_where_asked() {
+    if (!take_reopen_request()) {
+        return;
+    }
+    for (const File* file : {&record_, &log_}) {
+        if (const int error = *file != nullptr ? (*file)->reopen() : 0; error != 0) {
+            print_line(stderr, fmt::format("millforce: {}: {}: the old file is written on", (*file)->name(),
+                                           std::strerror(error)));
+        }
+    }
 }
 
 void Journal::write_record() {
@@ -121,16 +149,17 @@ void Journal::write_record() {
 void Journal::write_status(const StatusEntry& entry) {
     put(log_, json_line(entry));
     if (!entry.is_periodic) {
-        const std::string list = condition_list(entry);
-        print_line(stderr, fmt::format("millforce: {}: {}", settings_.interface, list.empty() ? "all is well" : list));
+        const std::string list = entry.conditions.none() ? "all is well" : condition_list(entry);
+        notify_service_manager(fmt::format("STATUS={}", list).c_str());
+        print_line(stderr, fmt::format("millforce: {}: {}", settings_.interface, list));
     } else if (settings_.status_line) {
         print_line(stdout, fmt::format("{} {}", settings_.interface, status_line(entry)));
     }
 }
 
-void Journal::put(const File& file, const std::string& text) {
-    if (file != nullptr && std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) {
-        note_failure(file);
+void Journal::put(const File& file, const std::string& line) {
+    if (file != nullptr) {
+        file->add(line);
     }
 }
 

@@ -4,12 +4,12 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
 #include <variant>
 
+#include "daemon/log_file.hpp"
 #include "daemon/spsc_ring.hpp"
 #include "daemon/status_lines.hpp"
 #include "run_log/estimate_entry.hpp"
@@ -26,7 +26,8 @@ struct JournalSettings {
 };
 
 /// The files of a run, written by a separate thread: the real-time thread hands over without waiting. Entries that did
-/// not fit are counted, noted in the files where they are missing, and reported at the end.
+/// not fit are counted, noted in the files where they are missing, and reported at the end; so are lines that a full
+/// disk did not take, and standard error says so at once. On SIGUSR1 both files are opened again by their names.
 class Journal {
   public:
     /// Opens the files; throws InputError.
@@ -43,33 +44,29 @@ class Journal {
 
     /// Writes what is left and closes the files.
     void finish();
-    /// Frames and entries that did not fit, or could not be written; after finish().
+    /// Frames and entries that did not fit; after finish().
     [[nodiscard]] std::uint64_t lost() const { return lost_records_ + lost_entries_; }
     [[nodiscard]] std::uint64_t recorded() const { return recorded_; }
     /// The file that could not be written, if one could not; after finish().
-    [[nodiscard]] const std::string& failed_file() const { return failed_file_; }
-    [[nodiscard]] bool has_log() const { return log_ != nullptr; }
+    [[nodiscard]] std::string failed_file() const;
 
   private:
-    struct FileCloser {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    using File = std::unique_ptr<std::FILE, FileCloser>;
+    using File = std::unique_ptr<LogFile>;
     struct RecordEntry {
         std::uint64_t unix_us = 0;
         std::uint64_t lost_before = 0;
         std::variant<hal::CanFrame, hal::DriveSample> what{};
     };
 
-    static File opened(const std::string& name);
     void run();
+    void turn();
     void write_all();
+    void reopen_where_asked();
     void push(const RecordEntry& entry);
     void write_record();
     void write_status(const StatusEntry& entry);
-    void put(const File& file, const std::string& text);
+    static void put(const File& file, const std::string& line);
     void flush_all();
-    void note_failure(const File& file);
 
     JournalSettings settings_;
     File record_;
@@ -81,7 +78,6 @@ class Journal {
     std::atomic<std::uint64_t> lost_entries_{0};
     std::uint64_t reported_lost_ = 0;
     std::uint64_t recorded_ = 0;
-    std::string failed_file_;
     std::atomic<bool> ended_{false};
     std::thread writer_{};
 };

@@ -22,9 +22,27 @@ namespace {
 constexpr int real_time_priority = 60;
 
 std::atomic<bool> stop_asked{false};
+std::atomic<bool> reopen_asked{false};
 
 void ask_to_stop(int) {
     stop_asked.store(true);
+}
+
+void ask_to_reopen(int) {
+    reopen_asked.store(true);
+}
+
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+}
+
+/// The whole number in a variable of the environment; 0: none.
+std::uint64_t number_in(const char* variable) {
+    const char* text = std::getenv(variable);
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
 }
 
 }  // namespace
@@ -50,18 +68,32 @@ void leave_real_time() {
 }
 
 const std::atomic<bool>& stop_on_signal() {
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    sigemptyset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        sigaction(signal, &action, nullptr);
+        handle(signal, ask_to_stop);
     }
-    ignore_closed_pipes();
+    for (const int signal : {SIGPIPE, SIGXFSZ}) {
+        handle(signal, SIG_IGN);
+    }
+    handle(SIGUSR1, ask_to_reopen);
     return stop_asked;
 }
 
-void ignore_closed_pipes() {
-    std::signal(SIGPIPE, SIG_IGN);
+bool take_reopen_request() {
+    return reopen_asked.exchange(false);
+}
+
+ServiceWatchdog::ServiceWatchdog() {
+    const std::uint64_t process = number_in("WATCHDOG_PID");
+    if (process == 0 || process == static_cast<std::uint64_t>(getpid())) {
+        period_us_ = number_in("WATCHDOG_USEC") / 2;
+    }
+}
+
+void ServiceWatchdog::poll(std::uint64_t now_us) {
+    if (period_us_ > 0 && now_us >= next_us_) {
+        next_us_ = now_us + period_us_;
+        notify_service_manager("WATCHDOG=1");
+    }
 }
 
 void notify_service_manager(const char* state) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,27 @@ std::vector<std::string> become_real_time();
 /// Back to the usual scheduler.
 void leave_real_time();
 
-/// From now on SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program, and a closed pipe does not end
-/// it.
+/// From now on SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program. Neither a closed pipe nor a file
+/// at its size limit ends it: who reads the status may go, the controller stays. SIGUSR1 is for take_reopen_request().
 const std::atomic<bool>& stop_on_signal();
 
-/// Who reads the status may go; the controller stays.
-void ignore_closed_pipes();
+/// SIGUSR1 came since the last call: log files were renamed.
+bool take_reopen_request();
 
-/// Notifies a service manager (systemd, Type=notify) if there is one, e.g. "READY=1". Never waits for it.
+/// Notifies a service manager (systemd, Type=notify) if there is one, e.g. "READY=1". Never waits for it. No heap.
 void notify_service_manager(const char* state);
+
+/// Tells a service manager that the loop turns, if it wants to know (WATCHDOG_USEC, WATCHDOG_PID): twice in the time
+/// after which it ends the program.
+class ServiceWatchdog {
+  public:
+    ServiceWatchdog();
+    /// At each turn of the loop, with a monotonic time. No heap, and it never waits.
+    void poll(std::uint64_t now_us);
+
+  private:
+    std::uint64_t period_us_ = 0;
+    std::uint64_t next_us_ = 0;
+};
 
 }  // namespace millforce::host

@@ -102,13 +102,16 @@ std::string file_fault(const iio::Fault& fault, int error) {
     return text + (number != 0 ? fmt::format(" ({})", std::strerror(number)) : "");
 }
 
-/// Whose fault a condition is, in brackets.
+/// Whose fault a condition is, or how long it was, in brackets.
 std::string culprit(const StatusEntry& entry, Condition condition) {
     if (condition == Condition::local_input_failed) {
         return entry.input.what + file_fault(entry.input.fault, 0);
     }
     if (condition == Condition::local_output_failed) {
         return entry.output.what + file_fault(entry.output.fault, entry.output.error);
+    }
+    if (condition == Condition::process_paused) {
+        return fmt::format("{:.1f} s", 1e-6 * static_cast<double>(entry.pause_us));
     }
     std::string drives;
     for (std::size_t place = 0; place < entry.drives.size(); ++place) {

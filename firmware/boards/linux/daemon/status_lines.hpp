@@ -28,6 +28,7 @@ struct StatusEntry {
     EstimateEntry newest{};
     LocalInputHealth input{};
     LocalOutputHealth output{};
+    std::uint64_t pause_us = 0;  ///< the last time that the process was stopped, how long
 };
 
 /// The status as one line of the log of `millforce run`, with the line's end.

@@ -42,7 +42,8 @@ bool is_served(const sockaddr_un& address) {
 
 }  // namespace
 
-UnixServer::UnixServer(std::string path) : path_(std::move(path)), stop_(stop_on_signal()) {
+UnixServer::UnixServer(std::string path, TurnListener* listener)
+    : path_(std::move(path)), turns_(listener), stop_(stop_on_signal()) {
     const sockaddr_un address = address_of(path_);
     struct stat status {};
     if (lstat(path_.c_str(), &status) == 0) {
@@ -78,12 +79,16 @@ void UnixServer::drop_peer() {
     peer_ = -1;
 }
 
-/// In steps: a signal between the check and the wait is seen with the next.
+/// In steps: a signal between the check and the wait is seen with the next. What is done after poll() is known to be
+/// after a pause, if there was one in it.
 bool UnixServer::wait_readable(int descriptor) const {
     constexpr int step_ms = 100;
     pollfd waited[2] = {{descriptor, POLLIN, 0}, {listener_, POLLIN, 0}};
     while (!stop_asked()) {
         const int ready = poll(waited, descriptor == listener_ ? 1 : 2, step_ms);
+        if (turns_ != nullptr) {
+            turns_->on_turn();
+        }
         if (ready > 0 && waited[0].revents != 0) {
             return true;
         }

@@ -10,12 +10,22 @@
 
 namespace millforce::host {
 
+/// Called at least every 0.1 s while a UnixServer waits, and before each message is read.
+class TurnListener {
+  public:
+    virtual void on_turn() = 0;
+
+  protected:
+    ~TurnListener() = default;
+};
+
 /// A Unix socket of type SOCK_SEQPACKET that serves one peer after the other. A message is a whole message or none.
 class UnixServer {
   public:
     /// Listens at the path, readable and writable for the user and the group. A socket left by a dead process is
     /// replaced. Throws InputError if the path is too long or in use, or the socket cannot be created.
-    explicit UnixServer(std::string path);
+    /// `listener` outlives this.
+    explicit UnixServer(std::string path, TurnListener* listener = nullptr);
     ~UnixServer();
     UnixServer(const UnixServer&) = delete;
     UnixServer& operator=(const UnixServer&) = delete;
@@ -30,7 +40,7 @@ class UnixServer {
     /// A peer that does not take the message is dropped: this never waits.
     void send(std::span<const std::uint8_t> bytes);
 
-    /// SIGINT or SIGTERM came since the first server was made.
+    /// SIGINT, SIGTERM or SIGHUP came since the first server was made.
     [[nodiscard]] bool stop_asked() const { return stop_.load(); }
 
   private:
@@ -38,6 +48,7 @@ class UnixServer {
     [[nodiscard]] bool wait_readable(int descriptor) const;
 
     std::string path_;
+    TurnListener* turns_;
     const std::atomic<bool>& stop_;
     int listener_ = -1;
     int peer_ = -1;

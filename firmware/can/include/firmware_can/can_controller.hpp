@@ -39,7 +39,8 @@
 /// The tick begins with the first complete one and sees complete ones only; what lacks something is left out. After
 /// five SYNC periods without a complete one the tick continues without: the feed is not raised then, and after the
 /// CNC's `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the
-/// CNC is silent. A fault is latched until the CNC resets it (program status frame) with all axes at rest.
+/// CNC is silent, and while another node sends this controller's override or heartbeat. A fault is latched until the
+/// CNC resets it (program status frame) with all axes at rest.
 ///
 /// With a ToolSource the CNC reports which tool is in the spindle (tool_frame.hpp), and the tool's parameters change
 /// with it, at rest (tool_tick.hpp).
@@ -130,6 +131,7 @@ class CanController {
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] bool is_any_drive_stopped() const;
     [[nodiscard]] bool has_complete_sample() const;
+    [[nodiscard]] bool is_own_output(const hal::CanFrame& frame) const;
     void judge(std::uint64_t now_us);
 
     CanControllerSettings settings_;
@@ -165,6 +167,8 @@ class CanController {
     Conditions conditions_{};
     std::uint32_t foreign_syncs_ = 0;
     std::uint64_t foreign_sync_us_ = 0;
+    bool is_override_foreign_ = false;
+    std::uint64_t foreign_override_us_ = 0;
 };
 
 }  // namespace millforce::firmware

@@ -32,16 +32,18 @@ enum class Condition : std::uint8_t {
     tool_change_due,  ///< the number changed in motion: the last tool's limits hold until the axes rest
     local_input_failed,   ///< a converter or counter of this computer is absent, unreadable or silent
     local_output_failed,  ///< the override does not reach this computer's converter or lines: it says hold everywhere
+    override_foreign,     ///< another node sends this controller's override or heartbeat: the feed is held
+    process_paused,       ///< this process was stopped for longer than `stale_s`: the feed is held until a newer sample
 };
-inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::local_output_failed) + 1;
+inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::process_paused) + 1;
 
 constexpr const char* name(Condition condition) {
     constexpr const char* names[] = {
-        "interface_absent", "interface_down",     "error_warning",      "error_passive",   "bus_off",
-        "send_queue_full",  "frames_lost",        "sync_lost",          "sync_foreign",    "drive_preparing",
-        "drive_refused",    "drive_lost",         "drive_not_enabled",  "drive_emergency", "drive_units_disagree",
-        "input_incomplete", "input_stale",        "program_unknown",    "program_silent",  "tool_unknown",
-        "tool_change_due",  "local_input_failed", "local_output_failed"};
+        "interface_absent", "interface_down",     "error_warning",       "error_passive",    "bus_off",
+        "send_queue_full",  "frames_lost",        "sync_lost",           "sync_foreign",     "drive_preparing",
+        "drive_refused",    "drive_lost",         "drive_not_enabled",   "drive_emergency",  "drive_units_disagree",
+        "input_incomplete", "input_stale",        "program_unknown",     "program_silent",   "tool_unknown",
+        "tool_change_due",  "local_input_failed", "local_output_failed", "override_foreign", "process_paused"};
     static_assert(sizeof names / sizeof names[0] == condition_count);
     return names[static_cast<std::size_t>(condition) % condition_count];
 }

@@ -40,6 +40,9 @@ class LinkController {
     [[nodiscard]] local_link::MessageError on_message(std::span<const std::uint8_t> bytes,
                                                       local_link::OverrideBytes& answer);
 
+    /// While this is requested, the answers say hold. The tick does not see it.
+    void hold_from_outside(bool is_held) { is_held_outside_ = is_held; }
+
     /// The tick's work beside its steps, in slices, for after the answer was sent. What is left is done before the next
     /// sample.
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
@@ -64,6 +67,7 @@ class LinkController {
     WaySource<float>* way_;
     bool has_time_ = false;
     bool was_reset_ = true;
+    bool is_held_outside_ = false;
     std::uint32_t time_us_ = 0;
 };
 

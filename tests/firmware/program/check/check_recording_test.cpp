@@ -343,6 +343,15 @@ TEST(RecordingCheck, judges_nothing_in_a_recording_that_is_too_short) {
                  lines_for({right.begin(), right.begin() + 50}, parameters).c_str());
 }
 
+TEST(RecordingCheck, finds_a_time_in_ms) {
+    for (RecordedSample& sample : right) {
+        sample.time_s *= 1000.0;
+    }
+    check_says(lines_for(right, parameters),
+               "error: 1 samples per second, and the machine's file says 1000; is the "
+               "time in ms? [time_s]");
+}
+
 TEST_GROUP(OrderSpectrum){/// 100 revolutions of a sine of an order, 20 samples per revolution.
                           static OrderSpectrum of(double order){OrderBlocks blocks;
 for (int k = 0; k < 2000; ++k) {
