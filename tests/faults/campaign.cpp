@@ -43,7 +43,7 @@ Seat seat_on_bus(const sim::Scenario& scenario, const Fault& fault, std::uint64_
 }
 
 Seat seat_on_link(const sim::Scenario& scenario, const Fault& fault, std::uint64_t seed) {
-    auto controller = std::make_unique<ControllerOnLink>(scenario.parameters, seed);
+    auto controller = std::make_unique<ControllerOnLink>(link_controller(scenario.parameters), seed);
     Seat seat;
     if (const auto* of_link = std::get_if<LinkFault>(&fault)) {
         seat.begin = [link = controller.get(), kind = *of_link] { link->begin(kind); };
@@ -117,8 +117,7 @@ Outcome mill(const Part& part, sim::OverrideSource& controller, const std::funct
     Outcome outcome;
     outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
     outcome.reaction = machine.reaction();
-    outcome.crawled =
-        !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
+    outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
     return outcome;
 }
 
@@ -195,8 +194,9 @@ Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t
     return mill(part, *seat.controller, seat.begin, fault, seed);
 }
 
-Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, SignalFault fault, std::uint64_t seed) {
-    return mill(part, controller, {}, fault, seed);
+Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
+                             const std::function<void()>& begin) {
+    return mill(part, controller, begin, fault, seed);
 }
 
 void Tally::add(const Outcome& outcome) {

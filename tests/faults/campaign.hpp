@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -50,8 +51,9 @@ struct Outcome {
     bool crawled = false;  ///< the part took half as long again, without a fault or a hold
 };
 Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed);
-/// On another path, e.g. a controller in another process.
-Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, SignalFault fault, std::uint64_t seed);
+/// On another path, e.g. a controller in another process; `begin` is called where the fault begins.
+Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
+                             const std::function<void()>& begin = {});
 
 /// What the runs of one fault came to.
 struct Tally {

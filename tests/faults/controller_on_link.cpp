@@ -2,9 +2,9 @@
 #include "faults/controller_on_link.hpp"
 
 #include <iterator>
-#include <span>
+#include <memory>
 
-#include "firmware/tick_record.hpp"
+#include "firmware_link/link_controller.hpp"
 
 namespace millforce::faults {
 
@@ -74,14 +74,16 @@ bool ControllerOnLink::is_answered(const local_link::SampleMessage& message) {
         length = std::uniform_int_distribution<std::size_t>(0, length - 1)(random_);
     }
     local_link::OverrideBytes answer;
-    const auto error = controller_.on_message(std::span(bytes).first(length), answer);
-    // An invalid message ends the connection.
-    is_guarded_ = error != local_link::MessageError::none || decode(answer, answer_) != local_link::MessageError::none;
+    const bool goes_on = exchange_(std::span(bytes).first(length), answer);
+    is_guarded_ = !goes_on || decode(answer, answer_) != local_link::MessageError::none;
     return !is_guarded_;
 }
 
-void ControllerOnLink::describe(sim::TracePoint& point) const {
-    sim::describe(firmware::tick_record(controller_.tick(), controller_.output(), answered_us_), point);
+ControllerOnLink::Exchange link_controller(const firmware::Parameters<float>& parameters) {
+    auto controller = std::make_shared<firmware::LinkController>(parameters, parameters.machine.cnc.override_max);
+    return [controller](std::span<const std::uint8_t> message, local_link::OverrideBytes& answer) {
+        return controller->on_message(message, answer) == local_link::MessageError::none;
+    };
 }
 
 }  // namespace millforce::faults

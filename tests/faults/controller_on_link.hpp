@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <random>
+#include <span>
+#include <utility>
 
-#include "firmware_link/link_controller.hpp"
+#include "firmware/parameters.hpp"
 #include "local_link/messages.hpp"
 #include "loop/override_source.hpp"
 
@@ -25,22 +28,24 @@ inline constexpr int link_faults = static_cast<int>(LinkFault::controller_hangs)
 
 const char* name_of(LinkFault fault);
 
-/// Messages to the controller and back, without the socket. The CNC's side does as millforce_guard: without an answer
-/// for 0.1 s, or after a message that ended the connection, it holds the feed, for good.
+/// Messages to a controller and back. The CNC's side does as millforce_guard: without an answer for 0.1 s, or after a
+/// message that ended the connection, it holds the feed, for good.
 class ControllerOnLink : public sim::OverrideSource {
   public:
-    ControllerOnLink(const firmware::Parameters<float>& parameters, std::uint64_t seed)
-        : controller_(parameters, parameters.machine.cnc.override_max), random_(seed) {}
+    /// The bytes of a message to the controller; false: it ends the connection.
+    using Exchange = std::function<bool(std::span<const std::uint8_t> message, local_link::OverrideBytes& answer)>;
+
+    ControllerOnLink(Exchange exchange, std::uint64_t seed) : exchange_(std::move(exchange)), random_(seed) {}
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
-    void describe(sim::TracePoint& point) const override;
+    void describe(sim::TracePoint&) const override {}  // the controller keeps its estimates
     void begin(LinkFault fault) { fault_ = fault; }
 
   private:
     [[nodiscard]] bool is_answered(const local_link::SampleMessage& message);
     [[nodiscard]] bool is_by_chance(double share) { return std::bernoulli_distribution(share)(random_); }
 
-    firmware::LinkController controller_;
+    Exchange exchange_;
     std::mt19937_64 random_;
     LinkFault fault_ = LinkFault::none;
     local_link::SampleMessage message_{};
@@ -49,5 +54,8 @@ class ControllerOnLink : public sim::OverrideSource {
     std::uint32_t sequence_ = 0;
     bool is_guarded_ = false;  ///< the guard holds
 };
+
+/// A LinkController in this process.
+[[nodiscard]] ControllerOnLink::Exchange link_controller(const firmware::Parameters<float>& parameters);
 
 }  // namespace millforce::faults

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -39,6 +40,10 @@ struct Row {
     std::vector<const Part*> parts{};
     Tally tally{};
 
+    /// No signal contradicts it (firmware/program/check/unseen_faults.hpp).
+    [[nodiscard]] bool is_unseen() const {
+        return fault == Fault{SignalFault::spindle_drifts} || fault == Fault{SignalFault::x_drifts};
+    }
     [[nodiscard]] bool is_sound() const { return fault == Fault{SignalFault::none}; }
 };
 
@@ -116,15 +121,26 @@ void write_trace(const std::string& name, const sim::RunResult& run) {
     file << sim::trace_csv(run);
 }
 
+/// On a terminal: how far it is.
+void show_progress(std::size_t done, std::size_t all) {
+    static const bool is_terminal = ::isatty(STDERR_FILENO) != 0;
+    const std::size_t step = std::max<std::size_t>(all / 100, 1);
+    if (is_terminal && done % step == 0) {
+        fmt::print(stderr, "\r{} of {} runs{}", done, all, done == all ? "\n" : "");
+    }
+}
+
 void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Options& options) {
     std::mutex lock;
     std::atomic<std::size_t> next{0};
+    std::size_t done = 0;
     const auto work = [&] {
         for (std::size_t k = next++; k < runs.size(); k = next++) {
             Row& row = rows[runs[k].row];
             const Outcome outcome = mill_with(*runs[k].part, row.path, row.fault, runs[k].seed);
             const std::scoped_lock hold(lock);
             row.tally.add(outcome);
+            show_progress(++done, runs.size());
             if (options.lists_violations) {
                 say(row, runs[k], outcome);
             }
@@ -168,6 +184,7 @@ int run(const Options& options) {
         "| fault | path | runs | tooth broken, % | peak above 110 %, % | largest peak, % | feed held, % | after, s: "
         "median, longest | crawls, % | violations |\n|---|---|---|---|---|---|---|---|---|---|\n");
     int violations = 0;
+    int unseen = 0;
     int sound_runs = 0;
     int false_alarms = 0;
     for (const Row& row : rows) {
@@ -175,14 +192,16 @@ int run(const Options& options) {
             continue;
         }
         print(row);
-        violations += row.tally.violations();
+        (row.is_unseen() ? unseen : violations) += row.tally.violations();
         if (row.is_sound()) {
             sound_runs += row.tally.runs;
             false_alarms += static_cast<int>(row.tally.reactions_s.size());
         }
     }
-    fmt::print("\n{} violations; {} false alarms in {} sound runs\n", violations, false_alarms, sound_runs);
-    return violations > 0 ? 1 : 0;
+    fmt::print("\n{} violations, and {} by currents that drift; {} false alarms in {} sound runs\n", violations, unseen,
+               false_alarms, sound_runs);
+    constexpr int runs_per_false_alarm = 1000;
+    return violations > 0 || false_alarms * runs_per_false_alarm > sound_runs ? 1 : 0;
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace millforce::host {
 
-/// What parameter_notes(), check_parameters() and unseen_faults() say of a machine with each of its tools, one line each. In a folder of
-/// tools, what all of them show stands there once, and the rest after the tool's number.
+/// What parameter_notes(), check_parameters() and unseen_faults() say of a machine with each of its tools, one line
+/// each. In a folder of tools, what all of them show stands there once, and the rest after the tool's number.
 [[nodiscard]] std::vector<std::string> start_check(const ToolSet& tools);
 
 /// Prints start_check() on standard error: for the start of `run` and `serve`.

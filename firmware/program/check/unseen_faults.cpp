@@ -12,7 +12,8 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
         "air, and until then the tooth may carry more than its limit");
     if (has_axes) {
         faults.emplace_back(
-            "the current of an axis that drifts slowly in a straight move along it looks like an immersion that changes; "
+            "the current of an axis that drifts slowly in a straight move along it looks like an immersion that "
+            "changes; "
             "it is found where the forces contradict the law of the cut, or in the next air");
     } else {
         faults.emplace_back(
