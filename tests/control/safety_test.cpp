@@ -322,6 +322,15 @@ TEST(Safety, the_override_falls_to_the_operators_at_its_full_slew) {
     CHECK(output.limit == Limit::operator_limit);
 }
 
+TEST(Safety, an_operators_override_below_the_lowest_is_reported_as_the_operators) {
+    Controller controller;
+    Input input = in_contact();
+    input.operator_override = 0.0F;
+    const Output output = repeat(controller, input, 100);
+    DOUBLES_EQUAL(0.1, static_cast<double>(output.ratio), 1e-6);
+    CHECK(output.limit == Limit::operator_limit);
+}
+
 TEST(Safety, an_operators_override_that_is_no_number_counts_as_the_lowest) {
     for (const float value : {not_a_number, beyond_all, -beyond_all, -3.0F}) {
         Controller controller;

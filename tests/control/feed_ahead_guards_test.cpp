@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "feed_ahead_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <limits>
+
+using namespace millforce::control;
+using namespace millforce::control::bench;
+
+TEST_GROUP(FeedAheadGuards){};
+
+TEST(FeedAheadGuards, in_mapped_air_without_contact_nothing_refutes_the_map) {
+    Ahead ahead = with(wall);
+    (void)cut(ahead, 5.0F, 15.0F, 3.0F);
+    CHECK_FALSE(ahead.is_refuted());
+    (void)ahead.step(estimate_at(15.1F, 100.0F));  // once alone may be noise
+    (void)ahead.step(estimate_at(15.2F, 3.0F));
+    (void)ahead.step(estimate_at(15.3F, 100.0F));
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, where_the_window_reaches_into_air_nothing_agrees_and_the_direction_is_that_of_the_cut) {
+    Ahead ahead = with(wall);
+    for (int k = 0; k < 50; ++k) {
+        CHECK_FALSE(ahead.step(estimate_at(wall_mm + 0.2F, 300.0F)).known);
+    }
+    CHECK_FALSE(ahead.is_refuted());
+    Ahead::Step sideways = estimate_at(wall_mm + 0.2F, 300.0F);
+    sideways.feed_force_N = 0.0F;
+    for (int k = 0; k < 10; ++k) {
+        (void)ahead.step(sideways);
+    }
+    CHECK_TRUE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, no_material_is_taken_for_softer_or_harder_than_any) {
+    const auto is_refuted_after = [](float measured, float then) {
+        Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+        CHECK_TRUE(cut(ahead, 1.0F, 10.0F, measured * 300.0F).known);
+        (void)cut(ahead, 10.1F, 11.0F, then * 300.0F);
+        return ahead.is_refuted();
+    };
+    CHECK_TRUE(is_refuted_after(0.62F, 0.50F));  // 0.6, and 4·5 N of noise
+    CHECK_FALSE(is_refuted_after(0.62F, 0.56F));
+    CHECK_TRUE(is_refuted_after(1.9F, 2.15F));
+    CHECK_FALSE(is_refuted_after(1.9F, 2.05F));
+}
+
+TEST(FeedAheadGuards, close_to_the_end_of_the_map_its_last_stretch_is_expected) {
+    FeedAheadSettings<float> settings = exact();
+    settings.position_tolerance_mm = 1.0F;
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)}, settings);
+    CHECK_TRUE(cut(ahead, 50.0F, 59.9F, 300.0F).known);
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, way_gone_where_the_position_is_not_known_agrees_with_nothing) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    Ahead::Step lost = at(std::numeric_limits<float>::quiet_NaN());
+    lost.travel_mm = 0.4F;
+    for (float s_mm = 1.0F; s_mm < 2.0F; s_mm += step_mm) {
+        (void)ahead.step(lost);
+        CHECK_FALSE(ahead.step(estimate_at(s_mm, 300.0F)).known);
+    }
+}
+
+TEST(FeedAheadGuards, knows_nothing_in_a_step_whose_way_or_blind_feed_is_not_known) {
+    for (float Ahead::Step::*const field : {&Ahead::Step::travel_mm, &Ahead::Step::blind_feed_mm_s}) {
+        for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+            Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+            CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);
+            Ahead::Step now = estimate_at(10.1F, 300.0F);
+            now.*field = value;
+            CHECK_FALSE(ahead.step(now).known);
+            CHECK_TRUE(ahead.step(estimate_at(10.2F, 300.0F)).known);
+        }
+    }
+}
+
+TEST(FeedAheadGuards, the_tooth_s_force_is_the_largest_of_the_window_wherever_it_stands) {
+    FeedAheadSettings<float> settings = exact();
+    settings.position_tolerance_mm = 1.0F;
+    Ahead ahead = with({cut_from(0.0F), cut_from(20.0F, wall_feed_mm_s, 280.0F), air_from(60.0F)}, settings);
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    const WayAhead<float> way = ahead.step(estimate_at(20.3F, 288.0F));
+    DOUBLES_EQUAL(2.0, static_cast<double>(way.tooth_per_tangential), 1e-6);
+}
