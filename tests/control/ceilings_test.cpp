@@ -216,3 +216,35 @@ TEST(Ceilings, where_a_surge_may_come_and_the_immersion_is_not_known_the_feed_is
     check_ratio(ratio_of(p.entry_feed_per_tooth_mm, bound), output);
     CHECK(output.limit == Limit::surge);
 }
+
+TEST(Ceilings, an_old_estimate_moves_no_ceiling_of_a_surge) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    bring_into_cut(controller);
+    const float before = repeat(controller, in_contact(), 20).ratio;
+    Input old = in_contact();
+    old.cut.surge_ratio = 5.0F;
+    old.cut.fresh = false;
+    check_ratio(before, controller.step(old));
+}
+
+TEST(Ceilings, a_cut_is_not_compared_with_the_one_before) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 0.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    repeat(controller, input, 500);
+    CHECK(repeat(controller, in_air(), 100).state == CutState::air);
+    input.cut.section_mm2 = 5.0F;
+    CHECK_FALSE(repeat(controller, input, 5).fading);
+}
+
+TEST(Ceilings, the_lowest_lies_within_the_range_of_the_override) {
+    Input input = in_air();
+    input.operator_override = -1.0F;
+    const Ceilings<float> ceilings;
+    const auto lowest = ceilings.lowest(Parameters{}, input, {CutState::air, false, 0.5F, 1.0F});
+    DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_min), static_cast<double>(lowest.override_ratio), 0.0);
+}

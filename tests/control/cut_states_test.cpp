@@ -22,6 +22,11 @@ TEST(CutStates, takes_a_force_within_its_noise_for_no_contact) {
     CHECK(repeat(controller, noisy, 2).state == CutState::entry);
 }
 
+TEST(CutStates, takes_a_force_that_is_not_valid_for_no_contact) {
+    Controller controller;
+    CHECK(repeat(controller, without_force(in_contact()), 10).state == CutState::air);
+}
+
 TEST(CutStates, takes_one_force_alone_for_no_contact) {
     Controller controller;
     for (int k = 0; k < 100; ++k) {
@@ -180,6 +185,15 @@ TEST(CutStates, a_hold_of_the_operator_does_not_outlast_itself_where_the_spindle
     CHECK(repeat(controller, held, 100).hold);
     held.feed_hold = false;
     CHECK_FALSE(controller.step(held).hold);
+}
+
+TEST(CutStates, a_cut_that_was_given_up_is_not_over_while_the_axes_move) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input blind = without_force(in_contact());
+    CHECK(repeat(controller, blind, 600).state == CutState::hold);
+    blind.cut.spindle_turning = false;
+    CHECK(repeat(controller, blind, 3000).state != CutState::air);
 }
 
 TEST(CutStates, a_hold_of_the_operator_lasts_however_long_spindle_and_axes_stand) {

@@ -177,3 +177,14 @@ TEST(CutTrend, takes_a_low_section_within_its_noise_for_no_step_down) {
     trend.update(10.0F, 0.0F, 0.05F);
     CHECK_FALSE(trend.growing());
 }
+
+TEST(CutTrend, follows_a_fall_at_once_only_where_it_is_a_step) {
+    Trend small = in_a_steady_cut(0.0F);
+    small.update(9.0F, 0.0F, 0.05F);
+    small.update(10.0F, 0.0F, 0.05F);
+    CHECK_FALSE(small.growing());
+    Trend step = in_a_steady_cut(0.0F);
+    step.update(7.9F, 0.0F, 0.05F);
+    step.update(9.0F, 0.0F, 0.05F);
+    CHECK(step.growing());
+}

@@ -120,6 +120,16 @@ TEST(Faults, a_spindle_that_stops_in_cut_while_the_tool_moves_is_a_fault) {
     CHECK(output.hold);
 }
 
+TEST(Faults, an_encoder_that_stands_in_air_while_the_current_shows_a_cut_is_a_stopped_spindle) {
+    Controller controller;
+    Input stopped = in_air();
+    stopped.cut.spindle_turning = false;
+    CHECK(repeat(controller, stopped, 100).fault == Fault::none);
+    stopped.cut.spindle_loaded_at_rest = true;
+    CHECK(repeat(controller, stopped, 49).fault == Fault::none);
+    CHECK(repeat(controller, stopped, 4).fault == Fault::spindle_stopped);
+}
+
 TEST(Faults, a_spindle_that_stops_in_air_or_with_the_tool_at_rest_is_none) {
     Input stopped = without_force(in_air());
     stopped.cut.spindle_turning = false;

@@ -86,3 +86,46 @@ TEST(FeedAheadGuards, the_tooth_s_force_is_the_largest_of_the_window_wherever_it
     const WayAhead<float> way = ahead.step(estimate_at(20.3F, 288.0F));
     DOUBLES_EQUAL(2.0, static_cast<double>(way.tooth_per_tangential), 1e-6);
 }
+
+TEST(FeedAheadGuards, an_old_estimate_is_compared_with_nothing) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);
+    for (float s_mm = 10.1F; s_mm < 13.0F; s_mm += step_mm) {
+        Ahead::Step old = estimate_at(s_mm, 1000.0F);
+        old.fresh = false;
+        CHECK_TRUE(ahead.step(old).known);
+    }
+}
+
+TEST(FeedAheadGuards, an_estimate_without_a_window_expects_the_force_of_its_place) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    Ahead::Step now = estimate_at(10.1F, 300.0F);
+    now.window_mm = 0.0F;
+    DOUBLES_EQUAL(300.0, static_cast<double>(ahead.step(now).tangential_N), 0.5);
+}
+
+TEST(FeedAheadGuards, in_mapped_air_no_direction_is_expected) {
+    Ahead ahead = with(wall);
+    Ahead::Step now = estimate_at(10.0F, 100.0F);
+    now.tangential_sd_N = 50.0F;
+    now.feed_force_N = 90.0F;
+    now.feed_force_sd_N = 1.0F;
+    now.travel_mm = 1.0F;
+    now.window_mm = 1.0F;
+    (void)ahead.step(now);
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, the_material_is_measured_only_where_the_cut_stays_the_same) {
+    Ahead ahead = with({cut_from(0.0F), cut_from(20.0F, wall_feed_mm_s, 200.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    (void)ahead.step(estimate_at(20.2F, 330.0F));
+    DOUBLES_EQUAL(1.0, static_cast<double>(ahead.hardness()), 1e-3);
+}
+
+TEST(FeedAheadGuards, a_force_below_contact_agrees_with_no_cut) {
+    Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 50.0F), air_from(60.0F)});
+    CHECK_FALSE(cut(ahead, 1.0F, 10.0F, 15.0F).known);
+    CHECK_FALSE(ahead.is_refuted());
+}

@@ -281,11 +281,15 @@ TEST(FeedLaw, a_growing_cut_holds_nothing_where_no_surge_can_come) {
     Input input = in_contact();
     input.cut.section_mm2 = 10.0F;
     Controller controller(immediate());
-    settle(controller, input);
+    Output output = settle(controller, input);
+    const float before = output.ratio;
     for (int k = 0; k < 50; ++k) {
         input.cut.section_mm2 *= 1.03F;
-        CHECK(controller.step(input).limit == Limit::force);
+        input.cut.tooth_force_N -= 2.0F;
+        output = follow(controller, input, output, false);
+        CHECK(output.limit == Limit::force);
     }
+    CHECK(output.ratio > 1.2F * before);
 }
 
 TEST(FeedLaw, a_sharp_turn_is_noticed_though_the_speed_of_the_spindle_is_not_known) {
