@@ -129,3 +129,26 @@ TEST(FeedAheadGuards, a_force_below_contact_agrees_with_no_cut) {
     CHECK_FALSE(cut(ahead, 1.0F, 10.0F, 15.0F).known);
     CHECK_FALSE(ahead.is_refuted());
 }
+
+TEST(FeedAheadGuards, below_contact_the_direction_of_the_force_says_nothing) {
+    Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 50.0F), air_from(60.0F)});
+    for (float s_mm = 1.0F; s_mm < 3.0F; s_mm += step_mm) {
+        Ahead::Step now = estimate_at(s_mm, 15.0F);
+        now.feed_force_N = -100.0F;
+        (void)ahead.step(now);
+    }
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, a_stretch_that_is_passed_is_expected_no_more) {
+    Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 400.0F), cut_from(20.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 400.0F);
+    DOUBLES_EQUAL(300.0, static_cast<double>(ahead.step(estimate_at(30.0F, 300.0F)).tangential_N), 0.5);
+}
+
+TEST(FeedAheadGuards, air_is_passed_at_its_feed_whatever_the_material) {
+    Ahead ahead = with({cut_from(0.0F), air_from(20.0F), cut_from(90.0F), air_from(100.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 360.0F);
+    DOUBLES_EQUAL(1.2, static_cast<double>(ahead.hardness()), 1e-3);
+    DOUBLES_EQUAL(static_cast<double>(air_feed_mm_s), static_cast<double>(ahead.step(at(50.0F)).feed_mm_s), 1e-3);
+}

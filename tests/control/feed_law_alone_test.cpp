@@ -108,3 +108,11 @@ TEST(FeedLawAlone, rises_in_air_without_estimates_and_not_in_a_cut_whose_spindle
     backwards.approach(Parameters{}, input, long_step, CutState::in_cut, 0.9F);
     DOUBLES_EQUAL(0.5, static_cast<double>(backwards.override_ratio()), 0.0);
 }
+
+TEST(FeedLawAlone, demands_nothing_out_of_the_cut) {
+    Law law(1.0F);
+    law.follow(Parameters{}, in_contact(), CutState::in_cut);
+    CHECK(law.demand() > Parameters{}.override_max);
+    law.follow(Parameters{}, in_contact(), CutState::air);
+    DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_max), static_cast<double>(law.demand()), 0.0);
+}

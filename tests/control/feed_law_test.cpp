@@ -263,6 +263,10 @@ TEST(FeedLaw, follows_a_turn_s_estimates_and_keeps_the_ceiling_where_they_say_no
     input.cut.turn_cutting_share = not_a_number;
     output = follow(controller, input, output, true);
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+    input.cut.turn_cutting_share = 1.0F;
+    input.cut.tooth_force_N = not_a_number;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
 }
 
 TEST(FeedLaw, a_surge_that_makes_nothing_larger_is_no_ceiling) {
@@ -305,4 +309,27 @@ TEST(FeedLaw, a_sharp_turn_is_noticed_though_the_speed_of_the_spindle_is_not_kno
         CHECK(output.state == CutState::exit);
     }
     CHECK(follow(controller, input, output, true).state == CutState::air);
+}
+
+TEST(FeedLaw, may_return_to_the_feed_before_a_growth_while_it_lasts) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    input.cut.tooth_force_N = 700.0F;
+    Controller controller(p);
+    Output output = settle(controller, input);
+    const float before = output.ratio;
+    const auto grow = [&](float tooth_force_N) {
+        input.cut.tooth_force_N = tooth_force_N;
+        for (int k = 0; k < 10; ++k) {
+            input.cut.section_mm2 *= 1.03F;
+            output = follow(controller, input, output, false);
+        }
+        return output.ratio;
+    };
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(grow(700.0F)), 1e-5);
+    CHECK(grow(900.0F) < 0.9F * before);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(grow(700.0F)), 1e-5);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(grow(400.0F)), 1e-5);
 }

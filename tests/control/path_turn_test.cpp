@@ -154,3 +154,11 @@ TEST(PathTurn, notices_a_corner_with_slow_teeth_and_after_a_velocity_that_is_no_
         CHECK_TRUE(noticed);
     }
 }
+
+TEST(PathTurn, remembers_the_direction_of_a_first_step_that_has_gone_no_way_yet) {
+    Turn turn;
+    Turn::Motion first = motion_at(0.0);
+    first.travel_mm = 0.0F;
+    CHECK_FALSE(turn.update(first));
+    CHECK(turn.update(motion_at(1.5)));
+}

@@ -11,7 +11,7 @@ namespace millforce::soak {
 struct MemoryInUse {
     std::uint64_t allocations = 0;  ///< calls of operator new since the start
     std::size_t heap_bytes = 0;     ///< allocated and not freed
-    std::size_t resident_KiB = 0;  ///< in RAM, of what no file holds: stacks, heap, data
+    std::size_t resident_KiB = 0;   ///< in RAM, of what no file holds: stacks, heap, data
 };
 
 [[nodiscard]] MemoryInUse memory_in_use();

@@ -51,9 +51,7 @@ class Noise {
   public:
     explicit Noise(std::uint32_t seed) : engine_(seed) {}
     /// Even, and so the same with each standard library.
-    double operator()(double largest) {
-        return largest * (static_cast<double>(engine_()) / 2147483648.0 - 1.0);
-    }
+    double operator()(double largest) { return largest * (static_cast<double>(engine_()) / 2147483648.0 - 1.0); }
 
   private:
     std::mt19937 engine_;
@@ -71,9 +69,9 @@ hal::DriveSample signals(const firmware::Parameters<float>& p, const Section& se
     const double feed_N = load * (section.feed_ratio + (section.last_feed_ratio - section.feed_ratio) * along);
     hal::DriveSample sample;
     sample.present = hal::all_present;
-    sample.spindle_current_A = (static_cast<float>(torque_Nm) - p.machine.spindle.K_t2_Nm) /
-                                   p.machine.spindle.K_t1_Nm_per_A +
-                               static_cast<float>(noise(0.05));
+    sample.spindle_current_A =
+        (static_cast<float>(torque_Nm) - p.machine.spindle.K_t2_Nm) / p.machine.spindle.K_t1_Nm_per_A +
+        static_cast<float>(noise(0.05));
     for (std::size_t k = 0; k < hal::axis_count; ++k) {
         const auto& axis = p.machine.axes[k];
         const bool moves = k == section.axis && section.speed_mm_s > 0.0;
@@ -126,8 +124,7 @@ hal::DriveSample RepeatedPart::sample(std::uint64_t part, std::size_t index) con
 
 RepeatedPart::Wraps RepeatedPart::wraps_after(std::uint64_t parts) const {
     const std::uint64_t time_us = range_of_32_bits - before_wrap_us + parts * size() * sample_interval_us;
-    const std::uint64_t count =
-        range_of_32_bits - before_wrap_revolutions * counts_per_rev_ + turned_counts(parts, 0);
+    const std::uint64_t count = range_of_32_bits - before_wrap_revolutions * counts_per_rev_ + turned_counts(parts, 0);
     const std::uint64_t index = first_index_number + turned_counts(parts, 0) / counts_per_rev_;
     return {time_us / range_of_32_bits, count / range_of_32_bits, index / range_of_8_bits};
 }

@@ -8,9 +8,9 @@
 #include "firmware/parameters.hpp"
 #include "hal/drive_sample.hpp"
 
-/// A part that is milled over and over: 30 s of rest, rapids, air and three cuts, recorded once, with the tooth's ripple
-/// and noise on the currents. Only the counters go on from one part to the next, as a machine's do: the signals are the
-/// same bits, so the answers may be compared.
+/// A part that is milled over and over: 30 s of rest, rapids, air and three cuts, recorded once, with the tooth's
+/// ripple and noise on the currents. Only the counters go on from one part to the next, as a machine's do: the signals
+/// are the same bits, so the answers may be compared.
 
 namespace millforce::soak {
 

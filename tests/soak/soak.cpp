@@ -30,12 +30,14 @@ constexpr const char* usage =
     "usage: soak [HOURS]        hours of simulated cutting, 2 to 1000 (100)\n"
     "\n"
     "Mills one part of 30 s over and over, by the tick in float and by the tick in fixed point, each on a thread. The\n"
-    "counters of the machine begin 20 s before they wrap: the time in µs, the encoder's count, the number of the index\n"
+    "counters of the machine begin 20 s before they wrap: the time in µs, the encoder's count, the number of the "
+    "index\n"
     "pulse. The tick in float changes its tool each hour, by numbers up to the largest, and sends its override by the\n"
     "frame whose counter wraps. The signals of the part are recorded: the feed does not follow the override.\n"
     "\n"
     "Exit code: 0 no fault, no frame refused, no memory taken after the first hour, and the last part of each hour\n"
-    "answered as in the first: in float bit for bit, in fixed point within 0.00001 of the override, a tenth of what the\n"
+    "answered as in the first: in float bit for bit, in fixed point within 0.00001 of the override, a tenth of what "
+    "the\n"
     "frame can tell apart; 1 one of these does not hold; 2 bad usage.\n";
 
 /// In fixed point what is learnt in air goes round within the last digits, and does not come to rest on one value.
@@ -125,7 +127,8 @@ bool print(std::string_view name, const Endured& e, const RepeatedPart::Wraps& w
         "{}\n  {} samples, {} of them with an immersion; override {:.3f} to {:.3f} in the cuts\n"
         "  wrapped: time {} times, encoder count {}, index number {}\n"
         "  {} samples with a fault or a hold, {} with a heartbeat out of sequence\n"
-        "  {} answers compared with the first hour's: {} differ, the override by {:.2g} at most, in the last hour by {:.2g}\n",
+        "  {} answers compared with the first hour's: {} differ, the override by {:.2g} at most, in the last hour by "
+        "{:.2g}\n",
         name, e.samples, e.with_immersion, static_cast<double>(e.override_range[0]),
         static_cast<double>(e.override_range[1]), wraps.time, wraps.encoder_count, wraps.index_number, e.faults,
         e.wrong_heartbeat, e.compared, e.different, static_cast<double>(e.largest_override_difference),
@@ -137,9 +140,10 @@ bool print(std::string_view name, const Endured& e, const RepeatedPart::Wraps& w
 }
 
 bool print(const MemoryInUse& first, const MemoryInUse& last) {
-    fmt::print("memory after the first hour and at the end\n  allocations {} and {}, heap {} and {} bytes, resident {} and {} KiB\n",
-               first.allocations, last.allocations, first.heap_bytes, last.heap_bytes, first.resident_KiB,
-               last.resident_KiB);
+    fmt::print(
+        "memory after the first hour and at the end\n  allocations {} and {}, heap {} and {} bytes, resident {} and {} "
+        "KiB\n",
+        first.allocations, last.allocations, first.heap_bytes, last.heap_bytes, first.resident_KiB, last.resident_KiB);
     return first.allocations == last.allocations && first.heap_bytes == last.heap_bytes &&
            first.resident_KiB == last.resident_KiB;
 }
@@ -181,7 +185,8 @@ int run(std::uint64_t hours) {
     holds = float_mill->tool_changes() >= hours && float_mill->frames_refused() == 0 && holds;
     holds = print("fixed point", fixed_endurance.endured(), fixed_part.wraps_after(parts), within_fixed) && holds;
     holds = print(memory[0], memory[1]) && holds;
-    fmt::print("{} h in {:.1f} s: {}\n", hours, took.count(), holds ? "all as in the first hour" : "NOT as in the first hour");
+    fmt::print("{} h in {:.1f} s: {}\n", hours, took.count(),
+               holds ? "all as in the first hour" : "NOT as in the first hour");
     return holds ? 0 : 1;
 }
 
@@ -196,7 +201,8 @@ int main(int argc, char** argv) {
     const char* const end = argc > 1 ? argv[1] + std::strlen(argv[1]) : nullptr;
     const bool is_number = argc < 2 || std::from_chars(argv[1], end, hours).ptr == end;
     if (argc > 2 || !is_number || hours < 2 || hours > 1000) {
-        fmt::print(stderr, "soak: '{}' is no number of hours from 2 to 1000\n{}", argc > 1 ? argv[argc - 1] : "", usage);
+        fmt::print(stderr, "soak: '{}' is no number of hours from 2 to 1000\n{}", argc > 1 ? argv[argc - 1] : "",
+                   usage);
         return 2;
     }
     return run(hours);
