@@ -248,3 +248,34 @@ TEST(Ceilings, the_lowest_lies_within_the_range_of_the_override) {
     const auto lowest = ceilings.lowest(Parameters{}, input, {CutState::air, false, 0.5F, 1.0F});
     DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_min), static_cast<double>(lowest.override_ratio), 0.0);
 }
+
+TEST(Ceilings, behind_a_gap_the_feed_may_rise_to_that_of_an_entry) {
+    Parameters p = immediate();
+    p.entry_travel_mm = 5.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.tooth_force_N = 1300.0F;
+    input.cut.cutting_share = 0.5F;
+    CHECK(repeat(controller, input, 500).ratio < 0.5F);
+    CHECK(repeat(controller, in_air(), 5).state == CutState::exit);
+    input.cut.tooth_force_N = 300.0F;
+    const Output output = repeat(controller, input, 5);
+    CHECK(output.state == CutState::entry);
+    check_ratio(ratio_of(p.entry_feed_per_tooth_mm, input), output);
+}
+
+TEST(Ceilings, the_growth_of_an_entry_holds_nothing_in_the_cut_behind_it) {
+    Parameters p = immediate();
+    p.entry_travel_mm = 1.0F;
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.section_mm2 = 1.0F;
+    Output output;
+    for (int k = 0; k < 100 && output.state != CutState::in_cut; ++k) {
+        input.cut.section_mm2 *= 1.04F;
+        output = controller.step(input);
+    }
+    CHECK(output.state == CutState::in_cut);
+    CHECK(output.limit == Limit::force);
+}

@@ -141,6 +141,16 @@ TEST(Faults, a_spindle_that_stops_in_air_or_with_the_tool_at_rest_is_none) {
     CHECK(repeat(at_rest, stopped, 400).fault == Fault::none);
 }
 
+TEST(Faults, what_the_supervisor_of_the_signals_has_found_latches) {
+    for (const Fault found : {Fault::signal_stuck, Fault::force_vanished, Fault::idle_torque}) {
+        Controller controller;
+        Input input = in_contact();
+        input.implausible = found;
+        CHECK(controller.step(input).fault == found);
+        CHECK(repeat(controller, in_contact(), 10).fault == found);
+    }
+}
+
 TEST(Faults, a_fault_is_not_left_by_a_feed_hold_nor_by_another_fault) {
     Controller controller;
     bring_into_cut(controller);

@@ -152,3 +152,33 @@ TEST(FeedAheadGuards, air_is_passed_at_its_feed_whatever_the_material) {
     DOUBLES_EQUAL(1.2, static_cast<double>(ahead.hardness()), 1e-3);
     DOUBLES_EQUAL(static_cast<double>(air_feed_mm_s), static_cast<double>(ahead.step(at(50.0F)).feed_mm_s), 1e-3);
 }
+
+TEST(FeedAheadGuards, a_harder_material_than_any_is_measured_as_the_hardest) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 2.05F * 300.0F);
+    CHECK_FALSE(ahead.is_refuted());
+    DOUBLES_EQUAL(2.0, static_cast<double>(ahead.hardness()), 1e-4);
+}
+
+TEST(FeedAheadGuards, refuses_a_stretch_whose_share_or_softness_cannot_be) {
+    Ahead ahead = with({cut_from(0.0F)});
+    for (const float share : {0.0F, -0.5F, 1.1F}) {
+        Stretch<float> stretch = cut_from(1.0F);
+        stretch.falling_share = share;
+        CHECK_FALSE(ahead.add(stretch));
+    }
+    for (const float softness : {0.0F, -1.0F}) {
+        Stretch<float> stretch = cut_from(1.0F);
+        stretch.feed_per_softness = softness;
+        CHECK_FALSE(ahead.add(stretch));
+    }
+    CHECK_TRUE(ahead.add(cut_from(1.0F)));
+}
+
+TEST(FeedAheadGuards, a_material_that_is_too_hard_for_a_stretch_stops_the_feed_there) {
+    Stretch<float> edge = cut_from(20.0F);
+    edge.feed_per_softness = 10.0F;
+    Ahead ahead = with({cut_from(0.0F), edge, air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 360.0F);
+    DOUBLES_EQUAL(0.0, static_cast<double>(ahead.step(at(30.0F)).feed_mm_s), 1e-3);
+}

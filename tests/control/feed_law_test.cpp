@@ -264,9 +264,24 @@ TEST(FeedLaw, follows_a_turn_s_estimates_and_keeps_the_ceiling_where_they_say_no
     output = follow(controller, input, output, true);
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
     input.cut.turn_cutting_share = 1.0F;
+    input.cut.turn_ratio = 1.0F;
+    input.cut.fresh = false;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+    input.cut.fresh = true;
     input.cut.tooth_force_N = not_a_number;
     output = follow(controller, input, output, true);
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+}
+
+TEST(FeedLaw, a_sharp_turn_waits_for_no_new_estimate) {
+    Input input = in_contact();
+    input.cut.tooth_force_N = 600.0F;
+    input.cut.turn_ratio = 2.0F;
+    Controller controller(immediate());
+    const Output straight = settle(controller, input);
+    input.cut.fresh = false;
+    CHECK(follow(controller, input, straight, true).limit == Limit::surge);
 }
 
 TEST(FeedLaw, a_surge_that_makes_nothing_larger_is_no_ceiling) {
