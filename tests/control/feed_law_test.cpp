@@ -268,6 +268,7 @@ TEST(FeedLaw, follows_a_turn_s_estimates_and_keeps_the_ceiling_where_they_say_no
     input.cut.fresh = false;
     output = follow(controller, input, output, true);
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+    input.cut.turn_ratio = 2.0F;
     input.cut.fresh = true;
     input.cut.tooth_force_N = not_a_number;
     output = follow(controller, input, output, true);
