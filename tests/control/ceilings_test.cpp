@@ -279,3 +279,12 @@ TEST(Ceilings, the_growth_of_an_entry_holds_nothing_in_the_cut_behind_it) {
     CHECK(output.state == CutState::in_cut);
     CHECK(output.limit == Limit::force);
 }
+
+TEST(Ceilings, a_programmed_feed_without_end_is_not_learnt_as_the_highest) {
+    Controller controller;
+    const float before = repeat(controller, in_air(), 2000).ratio;
+    Input endless = in_air();
+    endless.programmed_feed_mm_s = beyond_all;
+    controller.step(endless);
+    check_ratio(before, repeat(controller, in_air(), 2000));
+}
