@@ -288,3 +288,14 @@ TEST(Ceilings, a_programmed_feed_without_end_is_not_learnt_as_the_highest) {
     controller.step(endless);
     check_ratio(before, repeat(controller, in_air(), 2000));
 }
+
+TEST(Ceilings, an_override_at_its_lowest_says_so_whatever_has_lowered_it) {
+    Controller controller;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 1300.0F;
+    input.cut.cutting_share = 0.1F;
+    bring_into_cut(controller, input);
+    const Output output = repeat(controller, input, 500);
+    check_ratio(Parameters{}.override_min, output);
+    CHECK(output.limit == Limit::override_min);
+}

@@ -162,3 +162,11 @@ TEST(PathTurn, remembers_the_direction_of_a_first_step_that_has_gone_no_way_yet)
     CHECK_FALSE(turn.update(first));
     CHECK(turn.update(motion_at(1.5)));
 }
+
+TEST(PathTurn, follows_a_bend_in_steps_longer_than_its_memory) {
+    Turn turn;
+    constexpr double rapid_mm_s = 1000.0;  // a millimetre in each step
+    for (const double direction_degrees : {0.0, 25.0, 10.0, 25.0, 50.0}) {
+        CHECK_FALSE(turn.update(motion_at(direction_degrees * std::numbers::pi / 180.0, rapid_mm_s, 0.0)));
+    }
+}
