@@ -182,3 +182,10 @@ TEST(FeedAheadGuards, a_material_that_is_too_hard_for_a_stretch_stops_the_feed_t
     (void)cut(ahead, 1.0F, 10.0F, 360.0F);
     DOUBLES_EQUAL(0.0, static_cast<double>(ahead.step(at(30.0F)).feed_mm_s), 1e-3);
 }
+
+TEST(FeedAheadGuards, one_estimate_moves_the_measured_material_by_a_tenth) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    (void)ahead.step(estimate_at(10.1F, 330.0F));
+    DOUBLES_EQUAL(1.01, static_cast<double>(ahead.hardness()), 1e-4);
+}
