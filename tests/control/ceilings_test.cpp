@@ -299,3 +299,19 @@ TEST(Ceilings, an_override_at_its_lowest_says_so_whatever_has_lowered_it) {
     check_ratio(Parameters{}.override_min, output);
     CHECK(output.limit == Limit::override_min);
 }
+
+TEST(Ceilings, a_feed_that_was_not_known_for_a_step_lifts_no_ceiling_of_a_surge) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.surge_ratio = 3.0F;
+    bring_into_cut(controller, input);
+    const Output before = repeat(controller, input, 20);
+    CHECK(before.limit == Limit::surge);
+    input.programmed_feed_mm_s = 0.0F;
+    controller.step(input);
+    input.programmed_feed_mm_s = in_contact().programmed_feed_mm_s;
+    input.cut.fresh = false;
+    check_ratio(before.ratio, controller.step(input));
+}

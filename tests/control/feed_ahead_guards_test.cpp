@@ -45,6 +45,10 @@ TEST(FeedAheadGuards, no_material_is_taken_for_softer_or_harder_than_any) {
     CHECK_FALSE(is_refuted_after(0.62F, 0.56F));
     CHECK_TRUE(is_refuted_after(1.9F, 2.15F));
     CHECK_FALSE(is_refuted_after(1.9F, 2.05F));
+    CHECK_TRUE(is_refuted_after(1.0F, 0.70F));  // once measured, a quarter more or less
+    CHECK_FALSE(is_refuted_after(1.0F, 0.76F));
+    CHECK_TRUE(is_refuted_after(1.0F, 1.36F));
+    CHECK_FALSE(is_refuted_after(1.0F, 1.29F));
 }
 
 TEST(FeedAheadGuards, close_to_the_end_of_the_map_its_last_stretch_is_expected) {

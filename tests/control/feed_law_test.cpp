@@ -285,6 +285,15 @@ TEST(FeedLaw, a_sharp_turn_waits_for_no_new_estimate) {
     CHECK(follow(controller, input, straight, true).limit == Limit::surge);
 }
 
+TEST(FeedLaw, a_sharp_turn_lowers_nothing_where_no_immersion_is_assumed_behind_it) {
+    Parameters p = immediate();
+    p.turn_radial_immersion = 0.0F;
+    Input input = in_contact();
+    input.cut.turn_ratio = 2.0F;
+    Controller controller(p);
+    CHECK(follow(controller, input, settle(controller, input), true).limit == Limit::force);
+}
+
 TEST(FeedLaw, a_surge_that_makes_nothing_larger_is_no_ceiling) {
     Parameters p = immediate();
     p.surge_radial_immersion = 1.0F;
