@@ -315,3 +315,17 @@ TEST(Ceilings, a_feed_that_was_not_known_for_a_step_lifts_no_ceiling_of_a_surge)
     input.cut.fresh = false;
     check_ratio(before.ratio, controller.step(input));
 }
+
+TEST(Ceilings, a_cut_after_air_begins_with_the_feed_of_an_entry_though_the_tool_has_cut_before) {
+    Parameters p = immediate();
+    p.air_feed_per_tooth_mm = 0.08F;
+    p.entry_travel_mm = 5.0F;
+    Controller controller(p);
+    repeat(controller, in_contact(), 500);
+    const Output air = repeat(controller, in_air(), 500);
+    CHECK(air.state == CutState::air);
+    check_ratio(ratio_of(0.08F, in_air()), air);
+    const Output entry = repeat(controller, in_contact(), 5);
+    CHECK(entry.state == CutState::entry);
+    check_ratio(ratio_of(p.entry_feed_per_tooth_mm, in_contact()), entry);
+}
