@@ -141,6 +141,15 @@ TEST(Faults, a_spindle_that_stops_in_air_or_with_the_tool_at_rest_is_none) {
     CHECK(repeat(at_rest, stopped, 400).fault == Fault::none);
 }
 
+TEST(Faults, a_force_on_a_tooth_without_a_valid_force_behind_it_is_no_overload) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input heavy = in_contact();
+    heavy.cut.tooth_force_N = 1351.0F;
+    heavy.cut.force_valid = false;
+    CHECK(repeat(controller, heavy, 100).fault == Fault::none);
+}
+
 TEST(Faults, what_the_supervisor_of_the_signals_has_found_latches) {
     for (const Fault found : {Fault::signal_stuck, Fault::force_vanished, Fault::idle_torque}) {
         Controller controller;
