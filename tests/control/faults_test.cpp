@@ -160,6 +160,18 @@ TEST(Faults, what_the_supervisor_of_the_signals_has_found_latches) {
     }
 }
 
+TEST(Faults, a_fault_lowers_the_override_though_it_is_only_watched) {
+    Parameters p;
+    p.monitor_only = true;
+    Controller controller(p);
+    Input input = in_contact();
+    CHECK(repeat(controller, input, 100).ratio == 1.0F);
+    input.implausible = Fault::signal_stuck;
+    const Output output = repeat(controller, input, 200);
+    CHECK(output.hold);
+    DOUBLES_EQUAL(static_cast<double>(p.override_min), static_cast<double>(output.ratio), 0.0);
+}
+
 TEST(Faults, a_fault_is_not_left_by_a_feed_hold_nor_by_another_fault) {
     Controller controller;
     bring_into_cut(controller);

@@ -193,3 +193,13 @@ TEST(FeedAheadGuards, one_estimate_moves_the_measured_material_by_a_tenth) {
     (void)ahead.step(estimate_at(10.1F, 330.0F));
     DOUBLES_EQUAL(1.01, static_cast<double>(ahead.hardness()), 1e-4);
 }
+
+TEST(FeedAheadGuards, an_estimate_at_a_feed_that_is_not_known_is_compared_with_nothing) {
+    for (const float feed_mm_s : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+        Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+        CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);
+        for (float s_mm = 10.1F; s_mm < 13.0F; s_mm += step_mm) {
+            CHECK_TRUE(ahead.step(estimate_at(s_mm, 300.0F, feed_mm_s)).known);
+        }
+    }
+}
