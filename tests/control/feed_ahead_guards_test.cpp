@@ -203,3 +203,10 @@ TEST(FeedAheadGuards, an_estimate_at_a_feed_that_is_not_known_is_compared_with_n
         }
     }
 }
+
+TEST(FeedAheadGuards, refuses_a_first_stretch_that_begins_nowhere) {
+    for (const float begin_mm : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        Ahead ahead = with({});
+        CHECK_FALSE(ahead.add(cut_from(begin_mm)));
+    }
+}
