@@ -253,3 +253,116 @@ TEST(Ceilings, where_a_surge_may_come_and_the_immersion_is_not_known_the_feed_is
     check_ratio(ratio_of(p.entry_feed_per_tooth_mm, bound), output);
     CHECK(output.limit == Limit::surge);
 }
+
+TEST(Ceilings, an_old_estimate_moves_no_ceiling_of_a_surge) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    bring_into_cut(controller);
+    const float before = repeat(controller, in_contact(), 20).ratio;
+    Input old = in_contact();
+    old.cut.surge_ratio = 5.0F;
+    old.cut.fresh = false;
+    check_ratio(before, controller.step(old));
+}
+
+TEST(Ceilings, a_cut_is_not_compared_with_the_one_before) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 0.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    repeat(controller, input, 500);
+    CHECK(repeat(controller, in_air(), 100).state == CutState::air);
+    input.cut.section_mm2 = 5.0F;
+    CHECK_FALSE(repeat(controller, input, 5).fading);
+}
+
+TEST(Ceilings, the_lowest_lies_within_the_range_of_the_override) {
+    Input input = in_air();
+    input.operator_override = -1.0F;
+    const Ceilings<float> ceilings;
+    const auto lowest = ceilings.lowest(Parameters{}, input, {CutState::air, false, 0.5F, 1.0F});
+    DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_min), static_cast<double>(lowest.override_ratio), 0.0);
+}
+
+TEST(Ceilings, behind_a_gap_the_feed_may_rise_to_that_of_an_entry) {
+    Parameters p = immediate();
+    p.entry_travel_mm = 5.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.tooth_force_N = 1300.0F;
+    input.cut.cutting_share = 0.5F;
+    CHECK(repeat(controller, input, 500).ratio < 0.5F);
+    CHECK(repeat(controller, in_air(), 5).state == CutState::exit);
+    input.cut.tooth_force_N = 300.0F;
+    const Output output = repeat(controller, input, 5);
+    CHECK(output.state == CutState::entry);
+    check_ratio(ratio_of(p.entry_feed_per_tooth_mm, input), output);
+}
+
+TEST(Ceilings, the_growth_of_an_entry_holds_nothing_in_the_cut_behind_it) {
+    Parameters p = immediate();
+    p.entry_travel_mm = 1.0F;
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.section_mm2 = 1.0F;
+    Output output;
+    for (int k = 0; k < 100 && output.state != CutState::in_cut; ++k) {
+        input.cut.section_mm2 *= k < 20 ? 1.0F : 1.04F;
+        output = controller.step(input);
+    }
+    CHECK(output.state == CutState::in_cut);
+    CHECK(output.limit == Limit::force);
+}
+
+TEST(Ceilings, a_programmed_feed_without_end_is_not_learnt_as_the_highest) {
+    Controller controller;
+    const float before = repeat(controller, in_air(), 2000).ratio;
+    Input endless = in_air();
+    endless.programmed_feed_mm_s = beyond_all;
+    controller.step(endless);
+    check_ratio(before, repeat(controller, in_air(), 2000));
+}
+
+TEST(Ceilings, an_override_at_its_lowest_says_so_whatever_has_lowered_it) {
+    Controller controller;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 1300.0F;
+    input.cut.cutting_share = 0.1F;
+    bring_into_cut(controller, input);
+    const Output output = repeat(controller, input, 500);
+    check_ratio(Parameters{}.override_min, output);
+    CHECK(output.limit == Limit::override_min);
+}
+
+TEST(Ceilings, a_feed_that_was_not_known_for_a_step_lifts_no_ceiling_of_a_surge) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.surge_ratio = 3.0F;
+    bring_into_cut(controller, input);
+    const Output before = repeat(controller, input, 20);
+    CHECK(before.limit == Limit::surge);
+    input.programmed_feed_mm_s = 0.0F;
+    controller.step(input);
+    input.programmed_feed_mm_s = in_contact().programmed_feed_mm_s;
+    input.cut.fresh = false;
+    check_ratio(before.ratio, controller.step(input));
+}
+
+TEST(Ceilings, a_cut_after_air_begins_with_the_feed_of_an_entry_though_the_tool_has_cut_before) {
+    Parameters p = immediate();
+    p.air_feed_per_tooth_mm = 0.08F;
+    p.entry_travel_mm = 5.0F;
+    Controller controller(p);
+    repeat(controller, in_contact(), 500);
+    const Output air = repeat(controller, in_air(), 500);
+    CHECK(air.state == CutState::air);
+    check_ratio(ratio_of(0.08F, in_air()), air);
+    const Output entry = repeat(controller, in_contact(), 5);
+    CHECK(entry.state == CutState::entry);
+    check_ratio(ratio_of(p.entry_feed_per_tooth_mm, in_contact()), entry);
+}

@@ -159,3 +159,32 @@ TEST(CutTrend, is_not_moved_by_what_is_no_number) {
     trend.update(1.0F, 0.2F, 0.05F);
     CHECK(trend.fading());
 }
+
+TEST(CutTrend, forgets_all_of_a_cut_that_is_over) {
+    Trend trend = in_a_steady_cut(0.0F);
+    trend.update(13.0F, 0.0F, 0.05F);
+    CHECK(trend.growing());
+    trend.clear();
+    CHECK_FALSE(trend.growing());
+    CHECK_FALSE(trend.fading());
+    trend.update(1.0F, 0.0F, 0.05F);  // the first section of the next cut
+    CHECK_FALSE(trend.fading());
+}
+
+TEST(CutTrend, takes_a_low_section_within_its_noise_for_no_step_down) {
+    Trend trend = in_a_steady_cut(0.0F);
+    trend.update(7.0F, 3.0F, 0.05F);
+    trend.update(10.0F, 0.0F, 0.05F);
+    CHECK_FALSE(trend.growing());
+}
+
+TEST(CutTrend, follows_a_fall_at_once_only_where_it_is_a_step) {
+    Trend small = in_a_steady_cut(0.0F);
+    small.update(9.0F, 0.0F, 0.05F);
+    small.update(10.0F, 0.0F, 0.05F);
+    CHECK_FALSE(small.growing());
+    Trend step = in_a_steady_cut(0.0F);
+    step.update(7.9F, 0.0F, 0.05F);
+    step.update(9.0F, 0.0F, 0.05F);
+    CHECK(step.growing());
+}

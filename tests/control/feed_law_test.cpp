@@ -243,3 +243,118 @@ TEST(FeedLaw, forgets_at_a_sharp_turn_out_of_the_cut_what_was_cut_before) {
     CHECK(output.state == CutState::exit);
     CHECK(follow(controller, input, output, true).state == CutState::air);
 }
+
+TEST(FeedLaw, follows_a_turn_s_estimates_and_keeps_the_ceiling_where_they_say_nothing_of_a_slot) {
+    const Parameters p = immediate();
+    const float allowed_N = p.surge_share * p.tooth_force_limit_N;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 600.0F;
+    input.cut.turn_ratio = 2.0F;
+    Controller controller(p);
+    Output output = follow(controller, input, settle(controller, input), true);
+    input.cut.tooth_force_N = 700.0F;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(1.0, static_cast<double>(force_at(output.ratio, 1400.0F, 1.0F, 0.75F) / allowed_N), 2e-4);
+    const float before = output.ratio;
+    input.cut.turn_ratio = not_a_number;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+    input.cut.turn_ratio = 2.0F;
+    input.cut.turn_cutting_share = not_a_number;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+    input.cut.turn_cutting_share = 1.0F;
+    input.cut.turn_ratio = 1.0F;
+    input.cut.fresh = false;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+    input.cut.turn_ratio = 2.0F;
+    input.cut.fresh = true;
+    input.cut.tooth_force_N = not_a_number;
+    output = follow(controller, input, output, true);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(output.ratio), 0.0);
+}
+
+TEST(FeedLaw, a_sharp_turn_waits_for_no_new_estimate) {
+    Input input = in_contact();
+    input.cut.tooth_force_N = 600.0F;
+    input.cut.turn_ratio = 2.0F;
+    Controller controller(immediate());
+    const Output straight = settle(controller, input);
+    input.cut.fresh = false;
+    CHECK(follow(controller, input, straight, true).limit == Limit::surge);
+}
+
+TEST(FeedLaw, a_sharp_turn_lowers_nothing_where_no_immersion_is_assumed_behind_it) {
+    Parameters p = immediate();
+    p.turn_radial_immersion = 0.0F;
+    Input input = in_contact();
+    input.cut.turn_ratio = 2.0F;
+    Controller controller(p);
+    CHECK(follow(controller, input, settle(controller, input), true).limit == Limit::force);
+}
+
+TEST(FeedLaw, a_surge_that_makes_nothing_larger_is_no_ceiling) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 1100.0F;
+    input.cut.surge_ratio = 1.0F;
+    input.cut.surge_cutting_share = 0.05F;
+    Controller controller(p);
+    bring_into_cut(controller, input);
+    CHECK(controller.step(input).limit == Limit::force);
+}
+
+TEST(FeedLaw, a_growing_cut_holds_nothing_where_no_surge_can_come) {
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    Controller controller(immediate());
+    Output output = settle(controller, input);
+    const float before = output.ratio;
+    for (int k = 0; k < 50; ++k) {
+        input.cut.section_mm2 *= 1.03F;
+        input.cut.tooth_force_N -= 2.0F;
+        output = follow(controller, input, output, false);
+        CHECK(output.limit == Limit::force);
+    }
+    CHECK(output.ratio > 1.2F * before);
+}
+
+TEST(FeedLaw, a_sharp_turn_is_noticed_though_the_speed_of_the_spindle_is_not_known) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 100.0F;
+    Input input = in_contact();
+    Controller controller(p);
+    Output output = settle(controller, input);
+    input.cut.tangential_N = 0.0F;
+    input.cut.spindle_speed_rad_s = 0.0F;
+    for (int k = 0; k < 20; ++k) {
+        output = follow(controller, input, output, false);
+        CHECK(output.state == CutState::exit);
+    }
+    CHECK(follow(controller, input, output, true).state == CutState::air);
+}
+
+TEST(FeedLaw, may_return_to_the_feed_before_a_growth_while_it_lasts) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    input.cut.tooth_force_N = 700.0F;
+    Controller controller(p);
+    Output output = settle(controller, input);
+    const float before = output.ratio;
+    const auto grow = [&](float tooth_force_N) {
+        input.cut.tooth_force_N = tooth_force_N;
+        for (int k = 0; k < 10; ++k) {
+            input.cut.section_mm2 *= 1.03F;
+            output = follow(controller, input, output, false);
+        }
+        return output.ratio;
+    };
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(grow(700.0F)), 1e-5);
+    CHECK(grow(900.0F) < 0.9F * before);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(grow(700.0F)), 1e-5);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(grow(400.0F)), 1e-5);
+}

@@ -118,3 +118,55 @@ TEST(PathTurn, is_not_misled_by_standing_still_or_by_what_is_no_number) {
     CHECK_FALSE(turn.update(motion_at(0.0)));
     CHECK(turn.update(motion_at(2.0)));
 }
+
+TEST(PathTurn, takes_a_velocity_without_travel_for_no_turn) {
+    for (const float path_speed_mm_s : {0.0F, -20.0F, NAN}) {
+        Turn turn;
+        for (int k = 0; k < 100; ++k) {
+            CHECK_FALSE(turn.update(motion_at(0.0)));
+        }
+        Turn::Motion motion = motion_at(1.5, feed_mm_s, 0.0);
+        motion.path_speed_mm_s = path_speed_mm_s;
+        CHECK_FALSE(turn.update(motion));
+    }
+}
+
+TEST(PathTurn, notices_a_corner_with_slow_teeth_and_after_a_velocity_that_is_no_number) {
+    for (const double direction : {0.0, 0.5 * std::numbers::pi}) {
+        const auto slow = [](double direction_rad) {
+            Turn::Motion motion = motion_at(direction_rad);
+            motion.tooth_period_s = 1.0F / 30.0F;
+            return motion;
+        };
+        Turn turn;
+        bool noticed = false;
+        for (int k = 0; k < 200; ++k) {
+            noticed = turn.update(slow(direction)) || noticed;
+        }
+        noticed = turn.update(slow(std::nan(""))) || noticed;
+        for (int k = 0; k < 200; ++k) {
+            noticed = turn.update(slow(direction)) || noticed;
+        }
+        CHECK_FALSE(noticed);
+        for (int k = 0; k < 100; ++k) {
+            noticed = turn.update(slow(direction - 0.5 * std::numbers::pi)) || noticed;
+        }
+        CHECK_TRUE(noticed);
+    }
+}
+
+TEST(PathTurn, remembers_the_direction_of_a_first_step_that_has_gone_no_way_yet) {
+    Turn turn;
+    Turn::Motion first = motion_at(0.0);
+    first.travel_mm = 0.0F;
+    CHECK_FALSE(turn.update(first));
+    CHECK(turn.update(motion_at(1.5)));
+}
+
+TEST(PathTurn, follows_a_bend_in_steps_longer_than_its_memory) {
+    Turn turn;
+    constexpr double rapid_mm_s = 1000.0;  // a millimetre in each step
+    for (const double direction_degrees : {0.0, 25.0, 10.0, 25.0, 50.0}) {
+        CHECK_FALSE(turn.update(motion_at(direction_degrees * std::numbers::pi / 180.0, rapid_mm_s, 0.0)));
+    }
+}

@@ -284,6 +284,24 @@ TEST(Safety, a_step_of_no_length_raises_nothing) {
     CHECK_FALSE(rises_in_a_step_of(0.0F, 1300.0F));
 }
 
+TEST(Safety, a_step_of_a_second_or_more_raises_nothing) {
+    CHECK_TRUE(rises_in_a_step_of(0.9F, 300.0F));
+    CHECK_FALSE(rises_in_a_step_of(1.0F, 300.0F));
+    CHECK_FALSE(rises_in_a_step_of(5.0F, 300.0F));
+}
+
+TEST(Safety, a_feed_that_was_not_known_for_a_step_leaves_no_demand_behind) {
+    Controller controller(quick_entry());
+    Input heavy = in_contact();
+    heavy.cut.tooth_force_N = 960.0F;
+    const float before = repeat(controller, heavy, 500).ratio;
+    heavy.programmed_feed_mm_s = 0.0F;
+    controller.step(heavy);
+    heavy.programmed_feed_mm_s = in_contact().programmed_feed_mm_s;
+    heavy.cut.fresh = false;
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(controller.step(heavy).ratio), 1e-3);
+}
+
 TEST(Safety, a_step_of_unknown_length_raises_nothing) {
     CHECK_FALSE(rises_in_a_step_of(not_a_number, 300.0F));
 }
@@ -319,6 +337,15 @@ TEST(Safety, the_override_falls_to_the_operators_at_its_full_slew) {
     DOUBLES_EQUAL(static_cast<double>(before - 0.04F), static_cast<double>(controller.step(input).ratio), 1e-5);
     const Output output = repeat(controller, input, 40);
     DOUBLES_EQUAL(0.5, static_cast<double>(output.ratio), 1e-6);
+    CHECK(output.limit == Limit::operator_limit);
+}
+
+TEST(Safety, an_operators_override_below_the_lowest_is_reported_as_the_operators) {
+    Controller controller;
+    Input input = in_contact();
+    input.operator_override = 0.0F;
+    const Output output = repeat(controller, input, 100);
+    DOUBLES_EQUAL(0.1, static_cast<double>(output.ratio), 1e-6);
     CHECK(output.limit == Limit::operator_limit);
 }
 

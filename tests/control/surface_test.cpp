@@ -112,3 +112,28 @@ TEST(Surface, ceiling_never_speeds_up_what_runs_without_it_whatever_comes_in) {
         }
     }
 }
+
+TEST(Surface, only_a_new_estimate_moves_the_ceiling) {
+    Controller controller(with_limit());
+    DOUBLES_EQUAL(0.7, settled(controller, light_cut(14.0F)), 1e-5);
+    Input old = light_cut(10.0F);
+    old.cut.fresh = false;
+    DOUBLES_EQUAL(0.7, static_cast<double>(controller.step(old).ratio), 1e-5);
+}
+
+TEST(Surface, without_a_prediction_in_the_fitted_range_the_feed_stays_that_of_the_entry) {
+    const float entry = ratio_of(Parameters{}.entry_feed_per_tooth_mm, in_contact());
+    Controller without(with_limit());
+    CHECK(repeat(without, light_cut(0.0F, false), 20).ratio <= 1.001F * entry);
+    Controller outside(with_limit());
+    CHECK(repeat(outside, light_cut(40.0F, true, false), 20).ratio <= 1.001F * entry);
+}
+
+TEST(Surface, a_ceiling_from_outside_the_fitted_range_is_not_kept_for_later) {
+    Controller controller(with_limit());
+    DOUBLES_EQUAL(0.7, settled(controller, light_cut(14.0F)), 1e-5);
+    controller.step(light_cut(18.0F, true, false));
+    Input within = light_cut(18.0F);
+    within.cut.fresh = false;
+    DOUBLES_EQUAL(0.7, static_cast<double>(controller.step(within).ratio), 1e-5);
+}

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "feed_ahead_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <limits>
+
+using namespace millforce::control;
+using namespace millforce::control::bench;
+
+TEST_GROUP(FeedAheadGuards){};
+
+TEST(FeedAheadGuards, in_mapped_air_without_contact_nothing_refutes_the_map) {
+    Ahead ahead = with(wall);
+    (void)cut(ahead, 5.0F, 15.0F, 3.0F);
+    CHECK_FALSE(ahead.is_refuted());
+    (void)ahead.step(estimate_at(15.1F, 100.0F));  // once alone may be noise
+    (void)ahead.step(estimate_at(15.2F, 3.0F));
+    (void)ahead.step(estimate_at(15.3F, 100.0F));
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, where_the_window_reaches_into_air_nothing_agrees_and_the_direction_is_that_of_the_cut) {
+    Ahead ahead = with(wall);
+    for (int k = 0; k < 50; ++k) {
+        CHECK_FALSE(ahead.step(estimate_at(wall_mm + 0.2F, 300.0F)).known);
+    }
+    CHECK_FALSE(ahead.is_refuted());
+    Ahead::Step sideways = estimate_at(wall_mm + 0.2F, 300.0F);
+    sideways.feed_force_N = 0.0F;
+    for (int k = 0; k < 10; ++k) {
+        (void)ahead.step(sideways);
+    }
+    CHECK_TRUE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, no_material_is_taken_for_softer_or_harder_than_any) {
+    const auto is_refuted_after = [](float measured, float then) {
+        Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+        CHECK_TRUE(cut(ahead, 1.0F, 10.0F, measured * 300.0F).known);
+        (void)cut(ahead, 10.1F, 11.0F, then * 300.0F);
+        return ahead.is_refuted();
+    };
+    CHECK_TRUE(is_refuted_after(0.62F, 0.50F));  // 0.6, and 4·5 N of noise
+    CHECK_FALSE(is_refuted_after(0.62F, 0.56F));
+    CHECK_TRUE(is_refuted_after(1.9F, 2.15F));
+    CHECK_FALSE(is_refuted_after(1.9F, 2.05F));
+    CHECK_TRUE(is_refuted_after(1.0F, 0.70F));  // once measured, a quarter more or less
+    CHECK_FALSE(is_refuted_after(1.0F, 0.76F));
+    CHECK_TRUE(is_refuted_after(1.0F, 1.36F));
+    CHECK_FALSE(is_refuted_after(1.0F, 1.29F));
+}
+
+TEST(FeedAheadGuards, close_to_the_end_of_the_map_its_last_stretch_is_expected) {
+    FeedAheadSettings<float> settings = exact();
+    settings.position_tolerance_mm = 1.0F;
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)}, settings);
+    CHECK_TRUE(cut(ahead, 50.0F, 59.9F, 300.0F).known);
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, way_gone_where_the_position_is_not_known_agrees_with_nothing) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    Ahead::Step lost = at(std::numeric_limits<float>::quiet_NaN());
+    lost.travel_mm = 0.4F;
+    for (float s_mm = 1.0F; s_mm < 2.0F; s_mm += step_mm) {
+        (void)ahead.step(lost);
+        CHECK_FALSE(ahead.step(estimate_at(s_mm, 300.0F)).known);
+    }
+}
+
+TEST(FeedAheadGuards, knows_nothing_in_a_step_whose_way_or_blind_feed_is_not_known) {
+    for (float Ahead::Step::*const field : {&Ahead::Step::travel_mm, &Ahead::Step::blind_feed_mm_s}) {
+        for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+            Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+            CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);
+            Ahead::Step now = estimate_at(10.1F, 300.0F);
+            now.*field = value;
+            CHECK_FALSE(ahead.step(now).known);
+            CHECK_TRUE(ahead.step(estimate_at(10.2F, 300.0F)).known);
+        }
+    }
+}
+
+TEST(FeedAheadGuards, the_tooth_s_force_is_the_largest_of_the_window_wherever_it_stands) {
+    FeedAheadSettings<float> settings = exact();
+    settings.position_tolerance_mm = 1.0F;
+    Ahead ahead = with({cut_from(0.0F), cut_from(20.0F, wall_feed_mm_s, 280.0F), air_from(60.0F)}, settings);
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    const WayAhead<float> way = ahead.step(estimate_at(20.3F, 288.0F));
+    DOUBLES_EQUAL(2.0, static_cast<double>(way.tooth_per_tangential), 1e-6);
+}
+
+TEST(FeedAheadGuards, an_old_estimate_is_compared_with_nothing) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);
+    for (float s_mm = 10.1F; s_mm < 13.0F; s_mm += step_mm) {
+        Ahead::Step old = estimate_at(s_mm, 1000.0F);
+        old.fresh = false;
+        CHECK_TRUE(ahead.step(old).known);
+    }
+}
+
+TEST(FeedAheadGuards, an_estimate_without_a_window_expects_the_force_of_its_place) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    Ahead::Step now = estimate_at(10.1F, 300.0F);
+    now.window_mm = 0.0F;
+    DOUBLES_EQUAL(300.0, static_cast<double>(ahead.step(now).tangential_N), 0.5);
+}
+
+TEST(FeedAheadGuards, in_mapped_air_no_direction_is_expected) {
+    Ahead ahead = with(wall);
+    Ahead::Step now = estimate_at(10.0F, 100.0F);
+    now.tangential_sd_N = 50.0F;
+    now.feed_force_N = 90.0F;
+    now.feed_force_sd_N = 1.0F;
+    now.travel_mm = 1.0F;
+    now.window_mm = 1.0F;
+    (void)ahead.step(now);
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, the_material_is_measured_only_where_the_cut_stays_the_same) {
+    Ahead ahead = with({cut_from(0.0F), cut_from(20.0F, wall_feed_mm_s, 200.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    (void)ahead.step(estimate_at(20.2F, 330.0F));
+    DOUBLES_EQUAL(1.0, static_cast<double>(ahead.hardness()), 1e-3);
+}
+
+TEST(FeedAheadGuards, a_force_below_contact_agrees_with_no_cut) {
+    Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 50.0F), air_from(60.0F)});
+    CHECK_FALSE(cut(ahead, 1.0F, 10.0F, 15.0F).known);
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, below_contact_the_direction_of_the_force_says_nothing) {
+    Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 50.0F), air_from(60.0F)});
+    for (float s_mm = 1.0F; s_mm < 3.0F; s_mm += step_mm) {
+        Ahead::Step now = estimate_at(s_mm, 15.0F);
+        now.feed_force_N = -100.0F;
+        (void)ahead.step(now);
+    }
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, a_stretch_that_is_passed_is_expected_no_more) {
+    Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 400.0F), cut_from(20.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 400.0F);
+    DOUBLES_EQUAL(300.0, static_cast<double>(ahead.step(estimate_at(30.0F, 300.0F)).tangential_N), 0.5);
+}
+
+TEST(FeedAheadGuards, air_is_passed_at_its_feed_whatever_the_material) {
+    Ahead ahead = with({cut_from(0.0F), air_from(20.0F), cut_from(90.0F), air_from(100.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 360.0F);
+    DOUBLES_EQUAL(1.2, static_cast<double>(ahead.hardness()), 1e-3);
+    DOUBLES_EQUAL(static_cast<double>(air_feed_mm_s), static_cast<double>(ahead.step(at(50.0F)).feed_mm_s), 1e-3);
+}
+
+TEST(FeedAheadGuards, a_harder_material_than_any_is_measured_as_the_hardest) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 2.05F * 300.0F);
+    CHECK_FALSE(ahead.is_refuted());
+    DOUBLES_EQUAL(2.0, static_cast<double>(ahead.hardness()), 1e-4);
+}
+
+TEST(FeedAheadGuards, refuses_a_stretch_whose_share_or_softness_cannot_be) {
+    Ahead ahead = with({cut_from(0.0F)});
+    for (const float share : {0.0F, -0.5F, 1.1F}) {
+        Stretch<float> stretch = cut_from(1.0F);
+        stretch.falling_share = share;
+        CHECK_FALSE(ahead.add(stretch));
+    }
+    for (const float softness : {0.0F, -1.0F}) {
+        Stretch<float> stretch = cut_from(1.0F);
+        stretch.feed_per_softness = softness;
+        CHECK_FALSE(ahead.add(stretch));
+    }
+    CHECK_TRUE(ahead.add(cut_from(1.0F)));
+}
+
+TEST(FeedAheadGuards, a_material_that_is_too_hard_for_a_stretch_stops_the_feed_there) {
+    Stretch<float> edge = cut_from(20.0F);
+    edge.feed_per_softness = 10.0F;
+    Ahead ahead = with({cut_from(0.0F), edge, air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 360.0F);
+    DOUBLES_EQUAL(0.0, static_cast<double>(ahead.step(at(30.0F)).feed_mm_s), 1e-3);
+}
+
+TEST(FeedAheadGuards, one_estimate_moves_the_measured_material_by_a_tenth) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    (void)ahead.step(estimate_at(10.1F, 330.0F));
+    DOUBLES_EQUAL(1.01, static_cast<double>(ahead.hardness()), 1e-4);
+}
+
+TEST(FeedAheadGuards, an_estimate_at_a_feed_that_is_not_known_is_compared_with_nothing) {
+    for (const float feed_mm_s : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+        Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+        CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);
+        for (float s_mm = 10.1F; s_mm < 13.0F; s_mm += step_mm) {
+            CHECK_TRUE(ahead.step(estimate_at(s_mm, 300.0F, feed_mm_s)).known);
+        }
+    }
+}
+
+TEST(FeedAheadGuards, refuses_a_first_stretch_that_begins_nowhere) {
+    for (const float begin_mm : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        Ahead ahead = with({});
+        CHECK_FALSE(ahead.add(cut_from(begin_mm)));
+    }
+}

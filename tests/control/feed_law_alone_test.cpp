@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/feed_law.hpp"
+
+#include "feed_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce::control;
+using namespace millforce::control::bench;
+
+TEST_GROUP(FeedLawAlone){};
+
+namespace {
+
+using Law = FeedLaw<float>;
+
+/// A second long, and at 400 rad/s: a whole revolution and more.
+constexpr StepMotion<float> long_step{0.5F, 20.0F, 10.0F, 0.004F, false};
+
+bool applies_with(float CutEstimateForControl<float>::*field, float value) {
+    Input input = in_contact();
+    input.cut.*field = value;
+    return Law::applies_to(input.cut);
+}
+
+/// The demand of a cutter that enters, whose tooth force asks for a tenth of the feed.
+float demand_at_entry(float least_tooth_force_N) {
+    Input input = in_contact();
+    input.cut.tooth_force_N = 5000.0F;
+    input.cut.least_tooth_force_N = least_tooth_force_N;
+    Law law(1.0F);
+    law.follow(Parameters{}, input, CutState::entry);
+    return law.demand();
+}
+
+float demand_for(float force_N, float share = 1.0F) {
+    return Law::override_for(Parameters{}, in_contact(), {Parameters{}.setpoint_share, force_N, share});
+}
+
+}  // namespace
+
+TEST(FeedLawAlone, applies_to_no_estimate_with_a_value_that_cannot_be) {
+    using Cut = CutEstimateForControl<float>;
+    CHECK_TRUE(Law::applies_to(in_contact().cut));
+    CHECK_FALSE(Law::applies_to(without_force(in_contact()).cut));
+    for (float Cut::*const positive : {&Cut::tooth_force_N, &Cut::feed_mm_s, &Cut::feed_exponent}) {
+        for (const float value : {0.0F, -1.0F, not_a_number, beyond_all}) {
+            CHECK_FALSE(applies_with(positive, value));
+        }
+    }
+    for (float Cut::*const finite : {&Cut::cutting_share, &Cut::surge_ratio, &Cut::surge_cutting_share}) {
+        for (const float value : {not_a_number, beyond_all}) {
+            CHECK_FALSE(applies_with(finite, value));
+        }
+    }
+}
+
+TEST(FeedLawAlone, takes_no_demand_from_an_old_estimate_nor_from_one_that_it_does_not_apply_to) {
+    Law law(1.0F);
+    Input input = in_contact();
+    law.follow(Parameters{}, input, CutState::in_cut);
+    const float before = law.demand();
+    input.cut.tooth_force_N = 900.0F;
+    input.cut.fresh = false;
+    law.follow(Parameters{}, input, CutState::in_cut);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(law.demand()), 0.0);
+    input.cut.fresh = true;
+    input.cut.surge_ratio = not_a_number;
+    law.follow(Parameters{}, input, CutState::in_cut);
+    DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(law.demand()), 0.0);
+    input.cut.surge_ratio = 1.0F;
+    law.follow(Parameters{}, input, CutState::in_cut);
+    CHECK(law.demand() < before);
+}
+
+TEST(FeedLawAlone, counts_a_share_of_cutting_below_a_twentieth_as_that) {
+    DOUBLES_EQUAL(static_cast<double>(demand_for(960.0F, 0.05F)), static_cast<double>(demand_for(960.0F, 0.01F)), 0.0);
+    CHECK(demand_for(960.0F, 0.05F) > 1.1F);
+}
+
+TEST(FeedLawAlone, an_entry_is_slowed_below_its_feed_by_a_certain_force_alone) {
+    const double entry = static_cast<double>(ratio_of(Parameters{}.entry_feed_per_tooth_mm, in_contact()));
+    DOUBLES_EQUAL(entry, static_cast<double>(demand_at_entry(0.0F)), 1e-6);
+    DOUBLES_EQUAL(entry, static_cast<double>(demand_at_entry(500.0F)), 1e-6);
+    DOUBLES_EQUAL(static_cast<double>(demand_for(2000.0F)), static_cast<double>(demand_at_entry(2000.0F)), 1e-6);
+    DOUBLES_EQUAL(static_cast<double>(demand_for(5000.0F)), static_cast<double>(demand_at_entry(9000.0F)), 1e-6);
+}
+
+TEST(FeedLawAlone, keeps_within_the_range_of_the_override_whatever_is_wanted) {
+    const Parameters p;
+    Law falling(1.0F);
+    falling.approach(p, in_air(), long_step, CutState::air, -5.0F);
+    DOUBLES_EQUAL(static_cast<double>(p.override_min), static_cast<double>(falling.override_ratio()), 0.0);
+    Law rising(1.0F);
+    rising.approach(p, in_air(), long_step, CutState::air, 50.0F);
+    DOUBLES_EQUAL(static_cast<double>(p.override_max), static_cast<double>(rising.override_ratio()), 0.0);
+}
+
+TEST(FeedLawAlone, rises_in_air_without_estimates_and_not_in_a_cut_whose_spindle_turns_backwards) {
+    Input input = in_air();
+    input.cut.fresh = false;
+    Law in_air_now(0.5F);
+    in_air_now.approach(Parameters{}, input, long_step, CutState::air, 0.9F);
+    DOUBLES_EQUAL(0.9, static_cast<double>(in_air_now.override_ratio()), 1e-6);
+    input = in_contact();
+    input.cut.spindle_speed_rad_s = -400.0F;
+    Law backwards(0.5F);
+    backwards.approach(Parameters{}, input, long_step, CutState::in_cut, 0.9F);
+    DOUBLES_EQUAL(0.5, static_cast<double>(backwards.override_ratio()), 0.0);
+}
+
+TEST(FeedLawAlone, demands_nothing_out_of_the_cut) {
+    Law law(1.0F);
+    law.follow(Parameters{}, in_contact(), CutState::in_cut);
+    CHECK(law.demand() > Parameters{}.override_max);
+    law.follow(Parameters{}, in_contact(), CutState::air);
+    DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_max), static_cast<double>(law.demand()), 0.0);
+}

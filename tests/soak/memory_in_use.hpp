@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// What the process holds of memory.
+
+namespace millforce::soak {
+
+struct MemoryInUse {
+    std::uint64_t allocations = 0;  ///< calls of operator new since the start
+    std::size_t heap_bytes = 0;     ///< allocated and not freed
+    std::size_t resident_KiB = 0;   ///< in RAM, of what no file holds: stacks, heap, data
+};
+
+[[nodiscard]] MemoryInUse memory_in_use();
+
+}  // namespace millforce::soak

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds a mutant with its test executable in a folder of its own, and runs the tests."""
+import json
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+FAILURE = re.compile(r"Failure in (?:IGNORE_)?TEST\((\w+), (\w+)\)")
+
+
+class Subject:
+    """A file to change, the sources that hold its code, and the executable that tests it. `groups`: those of CppUTest
+    that are run first, because they fail fast."""
+
+    def __init__(self, path, sources, executable, groups=()):
+        self.path = path
+        self.sources = sources
+        self.executable = executable
+        self.groups = groups
+
+
+class Build:
+    """The release build's commands, each source on its own: there, sources are joined, and calls from one to the other may
+    be inlined."""
+
+    def __init__(self, root, folder):
+        self.root = root
+        self.folder = folder
+        self.release = root / "build/release"
+        commands = json.loads((self.release / "compile_commands.json").read_text(encoding="utf-8"))
+        self.of_source = {Path(c["file"]): shlex.split(c["command"]) for c in commands}
+        self.links = {}
+
+    def compile_command(self, source, work):
+        """The source, with the changed header of the folder `work` if there is one."""
+        library = source.split("/")[0]
+        joined = self.release / library / f"CMakeFiles/{library}.dir/Unity/unity_0_cxx.cxx"
+        command = self.of_source.get(self.root / source) or self.of_source[joined]
+        kept = [word for word in command if not word.startswith(("-W", "-O"))]
+        kept = kept[:kept.index("-o")] if "-o" in kept else kept
+        return [kept[0], f"-I{work}", *kept[1:], "-w", "-O1"]
+
+    def compile(self, source, output, work):
+        output.parent.mkdir(parents=True, exist_ok=True)
+        command = [*self.compile_command(source, work), "-c", str(self.root / source), "-o", str(output)]
+        return subprocess.run(command, cwd=self.release, capture_output=True, text=True, check=False)
+
+    def unchanged_object(self, source):
+        output = self.folder / "unchanged" / (source + ".o")
+        newest = max(path.stat().st_mtime for path in headers_and_sources(self.root))
+        if not output.exists() or output.stat().st_mtime < newest:
+            made = self.compile(source, output, self.folder / "nothing")
+            if made.returncode != 0:
+                raise SystemExit(f"check-mutations: {source} does not compile:\n{made.stderr}")
+        return output
+
+    def link_command(self, executable):
+        if executable not in self.links:
+            commands = subprocess.run(["ninja", "-t", "commands", executable], cwd=self.release, capture_output=True,
+                                      text=True, check=True).stdout
+            self.links[executable] = shlex.split(commands.strip().splitlines()[-1].removeprefix(": && ").removesuffix(" && :"))
+        return self.links[executable]
+
+    def link(self, subject, changed, output):
+        """All of the library whose file is changed is linked as objects, the changed ones among them. A test's own object
+        takes the place of the release build's."""
+        library = subject.path.split("/")[0]
+        own = [str(path.relative_to(self.root)) for path in sorted((self.root / library / "src").glob("*.cpp"))]
+        objects = [str(changed.get(source) or self.unchanged_object(source)) for source in own]
+        words = self.link_command(f"tests/{subject.executable}")
+        words = [word for word in words if word != f"{library}/lib{library}.a"]
+        for source, changed_object in changed.items():
+            if source.startswith("tests/"):
+                words = [str(changed_object) if word.endswith(source.removeprefix("tests/") + ".o") else word for word in words]
+        words[words.index("-o") + 1] = str(output)
+        return subprocess.run([*words[:1], *objects, *words[1:]], cwd=self.release, capture_output=True, text=True, check=False)
+
+
+def headers_and_sources(root):
+    return [path for library in ("hal", "estimation", "control", "firmware") for folder in ("include", "src")
+            for path in (root / library / folder).glob("**/*.[hc]pp")]
+
+
+def run_tests(executable, groups, limit_s):
+    """The first case that fails, or None."""
+    for selection in ([word for group in groups for word in ("-sg", group)], []):
+        if not selection and groups == ("all",):
+            continue
+        try:
+            ran = subprocess.run([executable, *selection], cwd=executable.parent, capture_output=True, text=True,
+                                 errors="replace", timeout=limit_s, check=False)
+        except subprocess.TimeoutExpired:
+            return "does not end"
+        if ran.returncode != 0:
+            failure = FAILURE.search(ran.stdout)
+            return ".".join(failure.groups()) if failure else f"ends with {ran.returncode}"
+        if not groups:
+            break
+    return None
+
+
+def attempt(build, subject, mutant, work, limit_s=120):
+    """(result, what killed it): "killed", "survived", or "not compiled"."""
+    header = work / Path(*Path(mutant.path).parts[2:])
+    header.parent.mkdir(parents=True, exist_ok=True)
+    header.write_text(mutant.text, encoding="utf-8")
+    changed = {}
+    try:
+        for source in subject.sources:
+            output = work / (source.replace("/", "_") + ".o")
+            if build.compile(source, output, work).returncode != 0:
+                return "not compiled", None
+            changed[source] = output
+        executable = work / subject.executable
+        linked = build.link(subject, changed, executable)
+        if linked.returncode != 0:
+            raise SystemExit(f"check-mutations: {subject.executable} does not link:\n{linked.stderr}")
+        killer = run_tests(executable, subject.groups, limit_s)
+        return ("killed" if killer else "survived"), killer
+    finally:
+        header.unlink()
