@@ -16,6 +16,7 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
+#include "files/text_lines.hpp"
 #include "firmware/crc32.hpp"
 
 namespace millforce::host {
@@ -35,10 +36,7 @@ std::uint32_t checksum(std::string_view text) {
 }
 
 std::string text_of(const std::filesystem::path& program_file) {
-    std::ifstream in(program_file, std::ios::binary);
-    if (!in) {
-        throw InputError(program_file.string() + ": cannot be opened; expected a part program");
-    }
+    std::ifstream in = open_to_read(program_file.string());
     std::ostringstream bytes;
     bytes << in.rdbuf();
     std::string text = bytes.str();
