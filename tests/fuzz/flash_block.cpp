@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parameter block as read from a flash, of one tool or of tools by number. The first byte says how: 0, as the bytes
-// are; else with checksums that are right, as from another program, so that the values behind them are reached.
+// A parameter block as read from a flash, of one tool or of tools by number. The first byte says how: as the bytes are; or
+// with checksums that are right, as from another program, so that the values behind them are reached. From 128 on, a block
+// is saved into a flash that holds this one in both slots.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -143,7 +144,8 @@ void save_over(const Block& block) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::Bytes bytes({data, size});
-    const std::uint8_t way = bytes.u8() % 4U;
+    const std::uint8_t first = bytes.u8();
+    const unsigned way = first % 4U;
     Block block;
     if (way == 0 || way == 1) {
         const fuzz::Input rest = bytes.take(size);
@@ -155,7 +157,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         block = changed(bytes, way == 3);
     }
     check(block);
-    save_over(block);
+    if (first >= 128) {  // the checksums of three blocks take longer than all else
+        save_over(block);
+    }
     const std::string file = fuzz::folder().write("flash.bin", fuzz::text_of(block)).string();
     fuzz::is_taken([&] { (void)host::read_parameter_block(file); });
     return 0;
