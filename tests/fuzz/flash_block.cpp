@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parameter block as read from a flash, of one tool or of tools by number. The first byte says how: as the bytes are; or
-// with checksums that are right, as from another program, so that the values behind them are reached. From 128 on, a block
-// is saved into a flash that holds this one in both slots.
+// A parameter block as read from a flash, of one tool or of tools by number. The first byte says how: as the bytes are;
+// or with checksums that are right, as from another program, so that the values behind them are reached. From 128 on, a
+// block is saved into a flash that holds this one in both slots.
 #include <array>
 #include <cmath>
 #include <cstring>
