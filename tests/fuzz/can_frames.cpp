@@ -84,10 +84,12 @@ hal::CanFrame next_frame(fuzz::Bytes& bytes, std::span<const hal::CanFilter> kno
     return frame;
 }
 
-/// Mostly up to 5 ms; now and then a leap, as of a clock that is set.
-std::uint64_t next_time(fuzz::Bytes& bytes, std::uint64_t now_us) {
+/// Mostly up to 5 ms; once a leap, as of a clock that is set. It costs a thousand ticks: a second leap would teach little.
+std::uint64_t next_time(fuzz::Bytes& bytes, std::uint64_t now_us, bool& has_leapt) {
     const std::uint8_t step = bytes.u8();
-    return step < 255 ? now_us + 20U * step : now_us + bytes.u32();
+    const bool leaps = step == 255 && !has_leapt;
+    has_leapt = has_leapt || leaps;
+    return leaps ? now_us + bytes.u32() : now_us + 20U * step;
 }
 
 void send_all(firmware::CanController& controller, std::uint64_t now_us, float most) {
@@ -114,8 +116,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::array<hal::CanFilter, firmware::CanController::filter_capacity> filters;
     const std::span known = std::span(filters).first(controller.filters(filters));
     std::uint64_t now_us = controllers.now_us;
+    bool has_leapt = false;
     while (bytes.any_left()) {
-        now_us = next_time(bytes, now_us);
+        now_us = next_time(bytes, now_us, has_leapt);
         controller.on_frame(next_frame(bytes, known), now_us, false);
         controller.poll(now_us);
         send_all(controller, now_us, controllers.most);
