@@ -159,7 +159,7 @@ GcodeProgram read_by_either(const std::string& name, const GcodeSettings& settin
     try {
         return read_by_ourselves(name, settings);
     } catch (const host::InputError& ours) {
-        if (!std::filesystem::exists(name) || !has_rs274()) {
+        if (!std::filesystem::is_regular_file(name) || !has_rs274()) {
             throw;
         }
         try {

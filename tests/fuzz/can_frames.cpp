@@ -84,12 +84,16 @@ hal::CanFrame next_frame(fuzz::Bytes& bytes, std::span<const hal::CanFilter> kno
     return frame;
 }
 
-/// Mostly up to 5 ms; once a leap, as of a clock that is set. It costs a thousand ticks: a second leap would teach little.
+/// Mostly less than a SYNC period, up to 5 ms; once a leap, as of a clock that is set. It costs a thousand ticks: a second
+/// one would teach little.
 std::uint64_t next_time(fuzz::Bytes& bytes, std::uint64_t now_us, bool& has_leapt) {
     const std::uint8_t step = bytes.u8();
     const bool leaps = step == 255 && !has_leapt;
     has_leapt = has_leapt || leaps;
-    return leaps ? now_us + bytes.u32() : now_us + 20U * step;
+    if (leaps) {
+        return now_us + bytes.u32();
+    }
+    return now_us + (step < 250 ? 2U * step : 1000U * (step - 249U));
 }
 
 void send_all(firmware::CanController& controller, std::uint64_t now_us, float most) {

@@ -87,12 +87,12 @@ TEST(LiveBus, a_log_that_is_none_is_refused_with_its_place) {
     const LiveInputs in;
     in.write("log.csv", LiveInputs::log() + "(1700000001.0) can0 181#1\n");
     replay_is_refused(in, {}, {"log.csv:902:", "'(1700000001.0) can0 181#1', expected"});
+    in.write("log.csv", LiveInputs::log() + LiveInputs::log("\x1b[1m"));
+    replay_is_refused(in, {}, {"frames of ?[1m, can0; expected one interface, or --interface"});
     in.write("log.csv", LiveInputs::log() + LiveInputs::log("can1"));
     replay_is_refused(in, {}, {"frames of can0, can1; expected one interface, or --interface"});
     replay_is_refused(in, {"--interface", "can2"}, {"'can2' is not in", "expected one of can0, can1"});
     LONGS_EQUAL(0, in.replay({"--interface", "can1"}).exit_code);
-    in.write("log.csv", LiveInputs::log() + LiveInputs::log("\x1b[1m"));
-    replay_is_refused(in, {}, {"frames of ?[1m, can0; expected one interface, or --interface"});
     in.write("log.csv", "(1700000000.0) can0 123#00\n");
     std::filesystem::remove(in.path("out.csv"));
     replay_is_refused(in, {}, {"1 frames and no complete sample; expected SYNC and the PDOs"});

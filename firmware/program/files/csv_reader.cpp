@@ -16,7 +16,6 @@ namespace millforce::host {
 namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 20U;
-constexpr double largest_number = 1e18;  // far beyond a time since 1970 in nanoseconds
 
 std::string_view trimmed(std::string_view text) {
     const auto is_space = [](char letter) { return letter == ' ' || letter == '\t'; };
