@@ -84,8 +84,8 @@ hal::CanFrame next_frame(fuzz::Bytes& bytes, std::span<const hal::CanFilter> kno
     return frame;
 }
 
-/// Mostly less than a SYNC period, up to 5 ms; once a leap, as of a clock that is set. It costs a thousand ticks: a second
-/// one would teach little.
+/// Mostly less than a SYNC period, up to 5 ms; once a leap, as of a clock that is set. It costs a thousand ticks: a
+/// second one would teach little.
 std::uint64_t next_time(fuzz::Bytes& bytes, std::uint64_t now_us, bool& has_leapt) {
     const std::uint8_t step = bytes.u8();
     const bool leaps = step == 255 && !has_leapt;
