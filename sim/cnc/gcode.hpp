@@ -12,6 +12,9 @@ namespace millforce::sim {
 
 inline constexpr double mm_per_inch = 25.4;
 inline constexpr double largest_coordinate_mm = 1e5;  ///< largest in a part program
+inline constexpr double largest_feed_mm_min = 1e6;
+inline constexpr double largest_spindle_speed_rpm = 1e6;
+inline constexpr double longest_dwell_s = 3600.0;
 
 /// Part programs in plain G-code (RS-274, the common subset), read as if hostile. The codes, with what each does, is
 /// ignored for or is refused with: sim/cnc/README.md.

@@ -63,8 +63,6 @@ class Interpreter {
     void drill(const SortedBlock& block, const GcodeWord& subject);
     void go(MoveKind kind, const Eigen::Vector3d& target_mm, const GcodeWord& subject);
 
-    static constexpr double longest_dwell_s = 3600.0;
-
     std::string_view file_name_;
     std::size_t max_moves_;
     std::vector<Move> moves_;

@@ -11,12 +11,7 @@
 
 namespace millforce::sim::gcode {
 
-namespace {
-
-constexpr double largest_feed_mm_min = 1e6;
-constexpr double largest_spindle_speed_rpm = 1e6;
-
-}  // namespace
+namespace {}  // namespace
 
 void Interpreter::run(const GcodeBlock& block) {
     line_ = block.line;

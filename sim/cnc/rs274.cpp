@@ -27,6 +27,8 @@
 #include "cnc/arc_plane.hpp"
 #include "cutting/angle_units.hpp"
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
+#include "files/text_lines.hpp"
 
 namespace millforce::sim {
 
@@ -71,7 +73,7 @@ std::string code_of(std::string_view line) {
 
 /// The canonical commands do not say by which radius a path was shifted.
 void require_no_compensation(const std::string& file) {
-    std::ifstream program(file);
+    std::ifstream program = host::open_to_read(file);
     std::size_t number = 0;
     for (std::string line; std::getline(program, line);) {
         ++number;
@@ -219,9 +221,9 @@ class CanonicalReader {
         if (command.name == "USE_LENGTH_UNITS") {
             mm_per_unit_ = command.arguments == "CANON_UNITS_INCHES" ? mm_per_inch : 1.0;
         } else if (command.name == "SET_FEED_RATE") {
-            feed_mm_s_ = number(command, 0) * mm_per_unit_ / 60.0;
+            set_feed(number(command, 0) * mm_per_unit_);
         } else if (command.name == "SET_SPINDLE_SPEED") {
-            spindle_speed_rad_s_ = number(command, 1) * rad_s_per_rpm;
+            set_spindle_speed(number(command, 1));
         } else if (command.name == "START_SPINDLE_CLOCKWISE") {
             spindle_on_ = true;
         } else if (command.name == "START_SPINDLE_COUNTERCLOCKWISE") {
@@ -254,9 +256,7 @@ class CanonicalReader {
         } else if (command.name == "ARC_FEED") {
             run_arc(command);
         } else if (command.name == "DWELL") {
-            Move move = next_move(MoveKind::dwell, position_mm_);
-            move.dwell_s = number(command, 0);
-            append(move);
+            dwell(number(command, 0));
         } else if (command.name == "STRAIGHT_PROBE" || command.name == "RIGID_TAP" || command.name == "NURBS_FEED" ||
                    command.name == "START_SPEED_FEED_SYNCH") {
             fail(fmt::format("{}, expected lines, arcs and dwells", command.name));
@@ -276,6 +276,29 @@ class CanonicalReader {
         for (const Move& part : moves_from_plane(move, plane_)) {
             go(part);
         }
+    }
+
+    void set_feed(double mm_min) {
+        if (!(std::abs(mm_min) <= largest_feed_mm_min)) {
+            fail(fmt::format("a feed of {} mm/min, expected at most {}", mm_min, largest_feed_mm_min));
+        }
+        feed_mm_s_ = mm_min / 60.0;
+    }
+
+    void set_spindle_speed(double rpm) {
+        if (!(std::abs(rpm) <= largest_spindle_speed_rpm)) {
+            fail(fmt::format("a spindle speed of {} rev/min, expected at most {}", rpm, largest_spindle_speed_rpm));
+        }
+        spindle_speed_rad_s_ = rpm * rad_s_per_rpm;
+    }
+
+    void dwell(double duration_s) {
+        if (!(duration_s >= 0.0 && duration_s <= longest_dwell_s)) {
+            fail(fmt::format("a dwell of {} s, expected one from 0 to {} s", duration_s, longest_dwell_s));
+        }
+        Move move = next_move(MoveKind::dwell, position_mm_);
+        move.dwell_s = duration_s;
+        append(move);
     }
 
     void change_tool(double tool) {
@@ -340,7 +363,8 @@ class CanonicalReader {
         double value = 0.0;
         const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
         if (error != std::errc{} || !std::isfinite(value)) {
-            fail(fmt::format("{}({}), expected a number as argument {}", command.name, command.arguments, place + 1));
+            fail(fmt::format("{}({}), expected a number as argument {}", host::printable(command.name),
+                             host::printable(command.arguments), place + 1));
         }
         return value;
     }

@@ -14,6 +14,7 @@
 #include "cnc/rs274.hpp"
 #include "cutting/angle_units.hpp"
 #include "files/input_error.hpp"
+#include "files/text_lines.hpp"
 
 namespace millforce::sim {
 
@@ -149,10 +150,7 @@ class Loop {
 namespace {
 
 GcodeProgram read_by_ourselves(const std::string& name, const GcodeSettings& settings) {
-    std::ifstream file(name);
-    if (!file) {
-        throw host::InputError(fmt::format("{}: no such file", name));
-    }
+    std::ifstream file = host::open_to_read(name);
     return read_gcode(file, name, settings);
 }
 
@@ -161,7 +159,7 @@ GcodeProgram read_by_either(const std::string& name, const GcodeSettings& settin
     try {
         return read_by_ourselves(name, settings);
     } catch (const host::InputError& ours) {
-        if (!std::filesystem::exists(name) || !has_rs274()) {
+        if (!std::filesystem::is_regular_file(name) || !has_rs274()) {
             throw;
         }
         try {

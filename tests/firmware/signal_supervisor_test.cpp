@@ -212,6 +212,15 @@ TEST(SignalSupervisor, finds_counts_that_disagree_with_the_index_pulse) {
     }
 }
 
+TEST(SignalSupervisor, finds_index_pulses_that_are_half_the_counters_range_apart) {
+    Bench bench(0, [](hal::DriveSample& sample, hal::ProgramStatus&, int) {
+        const std::uint32_t turns = sample.spindle_count / 4096U;
+        sample.spindle_index_number = static_cast<std::uint8_t>(1U + turns);
+        sample.spindle_index_count = turns * 0x8000'0000U;
+    });
+    CHECK(bench.after_ms(190) == Fault::encoder_mismatch);
+}
+
 TEST(SignalSupervisor, finds_a_cut_that_the_axes_carry_and_the_spindle_does_not_show) {
     Bench bench(150, [](hal::DriveSample& sample, hal::ProgramStatus&, int) {
         sample.spindle_current_A = idle_A();

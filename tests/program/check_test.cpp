@@ -66,6 +66,8 @@ TEST(Check, refuses_files_that_cannot_be_read) {
     STRCMP_EQUAL("", not_refused(check({inputs.name("none.csv")}), {"none.csv", "cannot be opened"}).c_str());
     inputs.write("log.csv", "time_s,spindle_angle_rad\n0,0\n");
     STRCMP_EQUAL("", not_refused(check({inputs.name("log.csv")}), {"log.csv", "spindle_current_A"}).c_str());
+    inputs.write("log.csv", "time_s,spindle_angle_rad,spindle_current_A,x_current_A,x_velocity_mm_s\n");
+    STRCMP_EQUAL("", not_refused(check({inputs.name("log.csv")}), {"log.csv: no rows after the header"}).c_str());
     inputs.write("tool.toml", with(tool_text, "teeth = 4", "teeth = 400"));
     STRCMP_EQUAL("", not_refused(check(), {"tool.toml", "teeth"}).c_str());
 }

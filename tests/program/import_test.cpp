@@ -63,7 +63,7 @@ TEST(ImportCommand, refuses_in_one_line_and_writes_nothing) {
     check_refused(import("table.csv", "odrive.toml", {"-o", out}),
                   {"table.csv:5: no column 'axis1.encoder.pos_estimate'", "the line has: Zeit"});
     check_refused(import("candump.log", "candump.toml", {"-o", out}), {"expected --rate HZ"});
-    check_refused(import("none.csv", "table.toml", {"-o", out}), {"none.csv: cannot be opened"});
+    check_refused(import("none.csv", "table.toml", {"-o", out}), {"none.csv: no such file"});
     check_refused(import("table.csv", "none.toml", {"-o", out}), {"none.toml: no such file"});
     check_refused(run_millforce({"import", examples + "sinumerik.xml", "--dry-run"}),
                   {"expected --map; there are /Nck/!SD/nckServoDataActCurr32 [u1, 1]"});

@@ -87,6 +87,8 @@ TEST(LiveBus, a_log_that_is_none_is_refused_with_its_place) {
     const LiveInputs in;
     in.write("log.csv", LiveInputs::log() + "(1700000001.0) can0 181#1\n");
     replay_is_refused(in, {}, {"log.csv:902:", "'(1700000001.0) can0 181#1', expected"});
+    in.write("log.csv", LiveInputs::log() + LiveInputs::log("\x1b[1m"));
+    replay_is_refused(in, {}, {"frames of ?[1m, can0; expected one interface, or --interface"});
     in.write("log.csv", LiveInputs::log() + LiveInputs::log("can1"));
     replay_is_refused(in, {}, {"frames of can0, can1; expected one interface, or --interface"});
     replay_is_refused(in, {"--interface", "can2"}, {"'can2' is not in", "expected one of can0, can1"});

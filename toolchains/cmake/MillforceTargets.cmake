@@ -26,6 +26,9 @@ if(MILLFORCE_SANITIZE)
     add_compile_options(-fsanitize=${sanitizers} -fno-sanitize=vptr,null,object-size -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${sanitizers})
 endif()
+if(MILLFORCE_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 
 add_custom_target(core_rules ALL
     COMMAND ${CMAKE_COMMAND}

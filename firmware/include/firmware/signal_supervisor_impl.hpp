@@ -3,6 +3,7 @@
 
 // Bodies of signal_supervisor.hpp. Only src/signal_supervisor.cpp includes them.
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/feed_controller_data.hpp"
@@ -77,19 +78,21 @@ void SignalSupervisor<Scalar>::watch_clock(Scalar dt_s) {
 template <typename Scalar>
 void SignalSupervisor<Scalar>::watch_index(const hal::DriveSample& sample) {
     constexpr std::uint8_t surely_wrong = 3;
-    constexpr std::int32_t tolerances_per_rev = 8;
+    constexpr std::uint32_t tolerances_per_rev = 8;
     if ((sample.present & hal::mask(hal::Present::spindle_count)) == 0 ||
         sample.spindle_index_number == index_number_) {
         return;
     }
     const bool is_next =
         static_cast<std::uint8_t>(sample.spindle_index_number - index_number_) == 1 && index_number_ != 0;
-    const auto turned = static_cast<std::int32_t>(sample.spindle_index_count - index_count_);
-    const std::int32_t off = (turned < 0 ? -turned : turned) - counts_per_rev_;
-    const std::int32_t tolerance = counts_per_rev_ / tolerances_per_rev;
+    const std::uint32_t forwards = sample.spindle_index_count - index_count_;
+    const std::uint32_t turned = std::min(forwards, 0U - forwards);  // either way round
+    const auto per_rev = static_cast<std::uint32_t>(counts_per_rev_);
+    const std::uint32_t tolerance = per_rev / tolerances_per_rev;
+    const bool is_off = turned > per_rev + tolerance || turned < per_rev - tolerance;
     index_number_ = sample.spindle_index_number;
     index_count_ = sample.spindle_index_count;
-    if (is_so_in_a_row(wrong_indices_, is_next && (off > tolerance || off < -tolerance), surely_wrong)) {
+    if (is_so_in_a_row(wrong_indices_, is_next && is_off, surely_wrong)) {
         find(control::Fault::encoder_mismatch);
     }
 }

@@ -151,9 +151,14 @@ Findings check_recording(const std::filesystem::path& recording, const firmware:
     RecordingReader reader(recording, parameters.machine.encoder_counts_per_rev);
     RecordingCheck check(parameters, reader.has_index());
     Progress progress("reading " + recording.string());
+    bool has_rows = false;
     while (reader.next()) {
+        has_rows = true;
         progress.update(reader.fraction_read());
         check.add(reader.time_s(), reader.sample(), reader.program());
+    }
+    if (!has_rows) {
+        throw InputError(recording.string() + ": no rows after the header, expected a recording");
     }
     return check.findings(recording.string());
 }

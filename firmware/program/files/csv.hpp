@@ -114,6 +114,9 @@ class CsvWriter {
     std::string text_;
 };
 
+/// Beyond it a number is no measurement, and CsvReader refuses it: far more than a time since 1970 in nanoseconds.
+inline constexpr double largest_number = 1e18;
+
 inline constexpr double no_estimate = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace millforce::host

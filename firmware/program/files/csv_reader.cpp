@@ -2,6 +2,7 @@
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
+#include "files/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace millforce::host {
 namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 20U;
-constexpr double largest_number = 1e18;  // far beyond a time since 1970 in nanoseconds
 
 std::string_view trimmed(std::string_view text) {
     const auto is_space = [](char letter) { return letter == ' ' || letter == '\t'; };
@@ -26,26 +26,6 @@ std::string_view trimmed(std::string_view text) {
         text.remove_suffix(1);
     }
     return text;
-}
-
-/// A cell fit for a one-line message: short, and without control characters.
-std::string shown(std::string_view text) {
-    constexpr std::size_t most = 40;
-    std::string result;
-    for (const char letter : text.substr(0, most)) {
-        const auto code = static_cast<unsigned char>(letter);
-        result += code < 0x20 || code == 0x7F ? '?' : letter;
-    }
-    return text.size() > most ? result + "…" : result;
-}
-
-std::string list(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 12;
-    std::string result;
-    for (std::size_t k = 0; k < names.size() && k < most; ++k) {
-        result += (k > 0 ? ", " : "") + shown(names[k]);
-    }
-    return names.size() > most ? result + ", …" : result;
 }
 
 }  // namespace
@@ -95,7 +75,7 @@ void CsvReader::read_header() {
     const std::string& first = names_[0];
     if (std::from_chars(first.data(), first.data() + first.size(), ignored).ptr == first.data() + first.size() &&
         !first.empty()) {
-        fail_line(fmt::format("'{}' is a number; expected a line of column names", shown(first)));
+        fail_line(fmt::format("'{}' is a number; expected a line of column names", printable(first)));
     }
 }
 
@@ -115,8 +95,8 @@ CsvColumn CsvReader::require(std::string_view name, std::string_view reason) con
         return *column;
     }
     const std::string nearest = nearest_name(name, names_);
-    const std::string hint = nearest.empty() ? fmt::format("found only: {}", list(names_))
-                                             : fmt::format("the nearest is '{}'", shown(nearest));
+    const std::string hint = nearest.empty() ? fmt::format("found only: {}", name_list(names_))
+                                             : fmt::format("the nearest is '{}'", printable(nearest));
     throw InputError(
         fmt::format("{}:1: no column '{}'{}{}; {}", file_, name, reason.empty() ? "" : ", ", reason, hint));
 }
@@ -227,15 +207,15 @@ double CsvReader::number(CsvColumn column) const {
         value = std::strtod(std::string(cell).c_str(), nullptr);  // distinguishes underflow from overflow
     } else if (error != std::errc{} || end != cell.data() + cell.size() || signed_twice) {
         fail(column, fmt::format("'{}' is not a number; expected a number with a decimal point, or an empty cell",
-                                 shown(whole)));
+                                 printable(whole)));
     }
     if (!std::isfinite(value)) {
         fail(column,
-             fmt::format("'{}' is not finite; expected a finite number, or an empty cell for none", shown(whole)));
+             fmt::format("'{}' is not finite; expected a finite number, or an empty cell for none", printable(whole)));
     }
     if (std::abs(value) > largest_number) {
         fail(column,
-             fmt::format("'{}' is beyond anything measured; expected at most {:g}", shown(whole), largest_number));
+             fmt::format("'{}' is beyond anything measured; expected at most {:g}", printable(whole), largest_number));
     }
     return value;
 }
@@ -255,13 +235,15 @@ double CsvReader::required_number(CsvColumn column) const {
 double CsvReader::required_number(CsvColumn column, double low, double high) const {
     const double value = required_number(column);
     if (!(value >= low && value <= high)) {
-        fail(column, fmt::format("'{}' is out of range; expected {} to {}", shown(cells_[column.index]), low, high));
+        fail(column,
+             fmt::format("'{}' is out of range; expected {} to {}", printable(cells_[column.index]), low, high));
     }
     return value;
 }
 
 void CsvReader::fail(CsvColumn column, std::string_view message) const {
-    throw InputError(fmt::format("{}:{}: column '{}': {}", file_, line_number_, shown(names_[column.index]), message));
+    throw InputError(
+        fmt::format("{}:{}: column '{}': {}", file_, line_number_, printable(names_[column.index]), message));
 }
 
 void CsvReader::fail_line(std::string_view message) const {

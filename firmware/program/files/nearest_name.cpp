@@ -31,6 +31,11 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
     std::string best;
     std::size_t least = (name.size() + 1) / 2 + 1;
     for (const std::string& candidate : candidates) {
+        const std::size_t longer = std::max(name.size(), candidate.size());
+        const std::size_t shorter = std::min(name.size(), candidate.size());
+        if (longer - shorter >= least) {
+            continue;  // as many letters differ at least; and a name of megabytes costs nothing
+        }
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < least) {
             least = distance;

@@ -11,6 +11,7 @@
 
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
+#include "files/printable.hpp"
 #include "files/toml_limits.hpp"
 
 namespace millforce::host {
@@ -24,7 +25,7 @@ std::string shown(const toml::node& node) {
     std::ostringstream text;
     node.visit([&](const auto& value) {
         if constexpr (toml::is_string<decltype(value)>) {
-            text << '"' << value.get() << '"';
+            text << '"' << printable(value.get()) << '"';
         } else if constexpr (toml::is_table<decltype(value)>) {
             text << "a table";
         } else if constexpr (toml::is_array<decltype(value)>) {
@@ -239,7 +240,7 @@ void TomlFile::Table::reject_unknown_keys() const {
         }
         const std::string nearest = nearest_name(name, known_);
         const std::string hint = nearest.empty() ? "known keys: " + joined(known_) : "did you mean " + nearest + "?";
-        throw InputError(fmt::format("{}: {}: unknown key; {}", place(&node), full(name), hint));
+        throw InputError(fmt::format("{}: {}: unknown key; {}", place(&node), full(printable(name)), hint));
     }
 }
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "candump/log_line.hpp"
+#include "files/text_lines.hpp"
 #include "import/dbc.hpp"
 #include "import/source_reader.hpp"
-#include "import/text_lines.hpp"
 
 namespace millforce::host {
 

@@ -9,6 +9,7 @@
 
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
+#include "files/printable.hpp"
 #include "import/text_cells.hpp"
 
 namespace millforce::host {

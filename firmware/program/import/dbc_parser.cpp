@@ -9,9 +9,10 @@
 #include <tuple>
 
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
+#include "files/text_lines.hpp"
 #include "import/dbc.hpp"
 #include "import/text_cells.hpp"
-#include "import/text_lines.hpp"
 
 namespace millforce::host {
 

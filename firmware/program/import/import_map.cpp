@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
 #include "files/toml_reader.hpp"
 #include "import/text_cells.hpp"
 

@@ -12,6 +12,7 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
 #include "files/progress.hpp"
 #include "import/sinumerik_source.hpp"
 #include "import/source_reader.hpp"

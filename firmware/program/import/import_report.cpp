@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "files/printable.hpp"
 #include "import/import_recording.hpp"
 #include "import/plausibility.hpp"
 #include "import/text_cells.hpp"

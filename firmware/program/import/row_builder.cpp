@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "files/csv.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::host {
@@ -39,11 +40,15 @@ void RowBuilder::add(double time_s, const SourceReader& source) {
         if (is_resampled && std::isnan(raw)) {
             continue;
         }
+        const ColumnMap& column = chains_[k].column();
+        if (std::abs(raw * column.factor) > largest_number) {
+            throw InputError(fmt::format("{}: {}: {} is beyond anything measured; expected at most {:g}",
+                                         source.place(), column.column.name, raw, largest_number));
+        }
         const double last_raw = chains_[k].last_raw();
         if (!chains_[k].add(time_s, raw)) {
             throw InputError(fmt::format("{}: {}: {} after {}, expected values that begin again at wrap = {}",
-                                         source.place(), chains_[k].column().column.name, raw, last_raw,
-                                         chains_[k].column().wrap));
+                                         source.place(), column.column.name, raw, last_raw, column.wrap));
         }
     }
     last_time_s_ = time_s;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
 
 namespace millforce::host {
 

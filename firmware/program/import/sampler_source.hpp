@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "files/text_lines.hpp"
 #include "import/source_reader.hpp"
 #include "import/text_cells.hpp"
-#include "import/text_lines.hpp"
 
 namespace millforce::host {
 

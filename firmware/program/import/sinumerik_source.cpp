@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
 
 namespace millforce::host {
 

@@ -9,12 +9,13 @@
 #include "candump/log_line.hpp"
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
+#include "files/printable.hpp"
+#include "files/text_lines.hpp"
 #include "import/candump_source.hpp"
 #include "import/sampler_source.hpp"
 #include "import/sinumerik_source.hpp"
 #include "import/table_source.hpp"
 #include "import/text_cells.hpp"
-#include "import/text_lines.hpp"
 
 namespace millforce::host {
 

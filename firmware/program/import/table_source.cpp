@@ -9,6 +9,7 @@
 
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
+#include "files/printable.hpp"
 
 namespace millforce::host {
 

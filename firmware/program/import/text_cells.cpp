@@ -55,25 +55,6 @@ std::string_view without_spaces(std::string_view text) {
     return text;
 }
 
-std::string printable(std::string_view text) {
-    constexpr std::size_t most = 60;
-    std::string result;
-    for (const char letter : text.substr(0, most)) {
-        const auto code = static_cast<unsigned char>(letter);
-        result += code < 0x20 || code == 0x7F ? '?' : letter;
-    }
-    return text.size() > most ? result + "…" : result;
-}
-
-std::string name_list(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 12;
-    std::string result;
-    for (std::size_t k = 0; k < names.size() && k < most; ++k) {
-        result += (k > 0 ? ", " : "") + printable(names[k]);
-    }
-    return names.size() > most ? result + ", …" : result;
-}
-
 bool split_cells(std::string_view line, char separator, std::vector<std::string>& cells) {
     if (separator == any_space) {
         line = without_spaces(line);

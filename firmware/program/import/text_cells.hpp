@@ -13,12 +13,6 @@ namespace millforce::host {
 /// Without spaces and tabs at both ends.
 [[nodiscard]] std::string_view without_spaces(std::string_view text);
 
-/// Fit for a one-line message: at most 60 bytes, and no control characters.
-[[nodiscard]] std::string printable(std::string_view text);
-
-/// "a, b, c, …": at most 12 names, each printable.
-[[nodiscard]] std::string name_list(const std::vector<std::string>& names);
-
 /// The separator ' ' stands for any number of spaces and tabs.
 inline constexpr char any_space = ' ';
 

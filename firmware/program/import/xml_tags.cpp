@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
+#include "files/text_lines.hpp"
 #include "import/text_cells.hpp"
-#include "import/text_lines.hpp"
 
 namespace millforce::host {
 

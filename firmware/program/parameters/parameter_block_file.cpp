@@ -10,6 +10,7 @@
 
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
+#include "files/text_lines.hpp"
 #include "files/toml_writer.hpp"
 #include "parameters/parameter_choices.hpp"
 #include "parameters/parameter_table.hpp"
@@ -77,10 +78,7 @@ std::size_t write_tools_block(const std::string& path, const firmware::MachinePa
 }
 
 BlockContents read_parameter_block(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(fmt::format("{}: no such file", path));
-    }
+    std::ifstream file = open_to_read(path);
     std::array<std::uint8_t, most_bytes> block{};
     file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
     const std::span<const std::uint8_t> bytes =

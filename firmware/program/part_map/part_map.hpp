@@ -37,7 +37,8 @@ using PartMap = std::vector<MapPlace>;
 
 /// The map as the controller takes it (control/feed_ahead.hpp): the feed at which a tooth reaches its set point by the
 /// tool's cutting law, and the forces there. Neighbours whose feeds and forces are alike are one stretch, with the
-/// lower feed. No stretch is faster than the machine's largest override allows. Cost: some 1,000 single-tooth forces
+/// lower feed. In air no stretch is faster than the machine's largest override allows, in a cut than twice that: a
+/// softer batch may use some of it, and the controller bounds its override. Cost: some 1,000 single-tooth forces
 /// for each change of the cut.
 [[nodiscard]] std::vector<control::Stretch<float>> stretches_of(const PartMap& map,
                                                                 const firmware::Parameters<float>& parameters);

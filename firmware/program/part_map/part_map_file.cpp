@@ -16,6 +16,7 @@
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
+#include "files/text_lines.hpp"
 #include "firmware/crc32.hpp"
 
 namespace millforce::host {
@@ -35,10 +36,7 @@ std::uint32_t checksum(std::string_view text) {
 }
 
 std::string text_of(const std::filesystem::path& program_file) {
-    std::ifstream in(program_file, std::ios::binary);
-    if (!in) {
-        throw InputError(program_file.string() + ": cannot be opened; expected a part program");
-    }
+    std::ifstream in = open_to_read(program_file.string());
     std::ostringstream bytes;
     bytes << in.rdbuf();
     std::string text = bytes.str();
@@ -132,16 +130,24 @@ class MapReader {
     }
 
   private:
+    /// As exact as a map is: what is read can be written and read again.
+    [[nodiscard]] double number(std::size_t column, double low, double high) const {
+        return rounded(csv_.required_number(columns_[column], low, high));
+    }
+
     void add_row(PartMap& map) {
         constexpr double longest_mm = 1e6;
         MapPlace place;
-        place.path_mm = csv_.required_number(columns_[0], 0.0, longest_mm);
-        place.block_end_mm = csv_.required_number(columns_[1], place.path_mm, longest_mm);
+        place.path_mm = number(0, 0.0, longest_mm);
+        place.block_end_mm = number(1, place.path_mm, longest_mm);
         place.line = static_cast<std::size_t>(csv_.required_number(columns_[2], 0.0, 1e9));
         place.rapid = csv_.required_number(columns_[3], 0.0, 1.0) != 0.0;
-        place.programmed_feed_mm_s = csv_.required_number(columns_[4], 0.0, 1e6) / 60.0;
-        place.spindle_speed_rad_s = csv_.required_number(columns_[5], 0.0, 1e6) * rad_s_per_rpm;
+        place.programmed_feed_mm_s = number(4, 0.0, 1e6) / 60.0;
+        place.spindle_speed_rad_s = number(5, 0.0, 1e6) * rad_s_per_rpm;
         const std::optional<EngagedArc> arc = arc_of_row();
+        if (arc && !(place.programmed_feed_mm_s > 0.0)) {
+            csv_.fail(columns_[4], "no feed in a cut; expected the programmed one");
+        }
         if (!map.empty() && place.path_mm == map.back().path_mm) {
             add_further_arc(map.back(), arc);
             return;
@@ -160,14 +166,14 @@ class MapReader {
             return std::nullopt;
         }
         EngagedArc arc;
-        const double entry_deg = csv_.required_number(columns_[6], 0.0, 180.0);
-        const double exit_deg = csv_.required_number(columns_[7], 0.0, 180.0);
+        const double entry_deg = number(6, 0.0, 180.0);
+        const double exit_deg = number(7, 0.0, 180.0);
         if (!(exit_deg > entry_deg)) {
             csv_.fail(columns_[7], "expected an arc that ends behind its entry");
         }
         arc.entry_rad = entry_deg * rad_per_deg;
         arc.exit_rad = exit_deg * rad_per_deg;
-        arc.axial_depth_mm = csv_.required_number(columns_[8], 0.001, 500.0);
+        arc.axial_depth_mm = number(8, 0.001, 500.0);
         return arc;
     }
 

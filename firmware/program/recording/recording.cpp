@@ -60,6 +60,7 @@ void RecordingWriter::add(const RecordedStep& step) {
     const hal::DriveSample& s = step.sample;
     follow(s);
     const bool has_count = has(s, hal::mask(hal::Present::spindle_count));
+    const bool has_force = has_force_sensor_ && has(s, hal::mask(hal::Present::force_sensor));
     line_ = CsvWriter::cell(static_cast<double>(time_us_) / 1e6);
     cell(angle_rad(count_), has_count);
     cell(s.spindle_current_A, has(s, hal::mask(hal::Present::spindle_current)));
@@ -67,7 +68,7 @@ void RecordingWriter::add(const RecordedStep& step) {
         cell(s.axis_current_A[k], has(s, hal::axis_mask(k)));
     }
     for (std::size_t k = 0; k < hal::axis_count; ++k) {
-        cell(s.axis_velocity_mm_s[k], has(s, hal::axis_mask(k)));
+        cell(s.axis_velocity_mm_s[k], has(s, hal::axis_mask(k)) || (k < s.force_N.size() && has_force));
     }
     cell(step.override_ratio);
     cell(angle_rad(count_ + static_cast<std::int32_t>(s.spindle_index_count - s.spindle_count)),
@@ -75,7 +76,7 @@ void RecordingWriter::add(const RecordedStep& step) {
     cell(step.program.programmed_feed_mm_s);
     line_ += step.program.rapid ? ",1" : ",0";
     for (std::size_t k = 0; has_force_sensor_ && k < s.force_N.size(); ++k) {
-        cell(s.force_N[k], has(s, hal::mask(hal::Present::force_sensor)));
+        cell(s.force_N[k], has_force);
     }
     line_ += '\n';
     file_.stream() << line_;

@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <set>
 
 #include "candump/log_line.hpp"
 #include "cia402/objects.hpp"
 #include "files/input_error.hpp"
+#include "files/printable.hpp"
+#include "files/text_lines.hpp"
 #include "run_log/bus_names.hpp"
 #include "run_log/local_line.hpp"
 
@@ -19,26 +20,20 @@ namespace {
 /// The lines of a log, with errors that name their place.
 class CandumpLines {
   public:
-    explicit CandumpLines(const std::string& file) : file_(file), in_(file, std::ios::binary) {
-        if (!in_) {
-            throw InputError(fmt::format("{}: no such file", file));
-        }
-    }
+    explicit CandumpLines(const std::string& file) : lines_(file) {}
 
     bool next() {
-        if (!std::getline(in_, text_)) {
+        if (!lines_.next()) {
             return false;
         }
-        ++number_;
-        bytes_ += text_.size() + 1;
-        is_local_ = is_local_line(text_);
-        line_ = is_local_ ? candump::LogLine{.kind = candump::LineKind::blank} : candump::read_line(text_);
-        if (is_local_ && !read_local_line(text_, beside_bus_)) {
-            throw InputError(fmt::format("{}:{}: '{}', expected a line as 'millforce run --record' writes it", file_,
-                                         number_, shown(text_)));
+        const std::string& text = lines_.text();
+        is_local_ = is_local_line(text);
+        line_ = is_local_ ? candump::LogLine{.kind = candump::LineKind::blank} : candump::read_line(text);
+        if (is_local_ && !read_local_line(text, beside_bus_)) {
+            lines_.fail(fmt::format("'{}', expected a line as 'millforce run --record' writes it", printable(text)));
         }
         if (line_.kind == candump::LineKind::malformed) {
-            throw InputError(fmt::format("{}:{}:{}: '{}', {}", file_, number_, line_.column, shown(text_),
+            throw InputError(fmt::format("{}:{}: '{}', {}", lines_.place(), line_.column, printable(text),
                                          candump::expectation(line_.error)));
         }
         return true;
@@ -47,34 +42,17 @@ class CandumpLines {
     /// The line is no frame: it holds the values of a source beside the bus.
     [[nodiscard]] bool is_local() const { return is_local_; }
     [[nodiscard]] const hal::DriveSample& beside_bus() const { return beside_bus_; }
-    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] double fraction_read() const { return lines_.fraction_read(); }
 
   private:
-    /// One line of a message, whatever bytes the file holds.
-    static std::string shown(const std::string& text) {
-        std::string out = text.substr(0, 60);
-        for (char& c : out) {
-            c = c >= ' ' && c <= '~' ? c : '?';
-        }
-        return out;
-    }
-
-    std::string file_;
-    std::ifstream in_;
-    std::string text_;
+    TextLines lines_;
     candump::LogLine line_{};
     bool is_local_ = false;
     hal::DriveSample beside_bus_{};
-    std::uint64_t number_ = 0;
-    std::uint64_t bytes_ = 0;
 };
 
-std::string joined_names(const std::set<std::string, std::less<>>& names) {
-    std::string list;
-    for (const std::string& name : names) {
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    return list;
+std::string list_of(const std::set<std::string, std::less<>>& names) {
+    return name_list({names.begin(), names.end()});
 }
 
 }  // namespace
@@ -117,17 +95,16 @@ void CandumpReplay::survey() {
             note_rated_value(line.frame);
         }
     }
-    bytes_ = lines.bytes();
     if (interfaces.empty()) {
         throw InputError(fmt::format("{}: no frames, expected a candump log", settings_.log));
     }
     if (settings_.interface.empty() && interfaces.size() > 1) {
         throw InputError(fmt::format("{}: frames of {}; expected one interface, or --interface", settings_.log,
-                                     joined_names(interfaces)));
+                                     list_of(interfaces)));
     }
     if (!settings_.interface.empty() && !interfaces.contains(settings_.interface)) {
         throw InputError(fmt::format("--interface: '{}' is not in {}; expected one of {}", settings_.interface,
-                                     settings_.log, joined_names(interfaces)));
+                                     settings_.log, list_of(interfaces)));
     }
 }
 
@@ -210,7 +187,7 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
         while (controller_->take_frame(sent)) {
         }
         if (frames_ % 4096 == 0) {
-            progress(static_cast<double>(lines.bytes()) / static_cast<double>(bytes_));
+            progress(lines.fraction_read());
         }
     }
 }

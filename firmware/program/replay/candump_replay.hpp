@@ -53,7 +53,6 @@ class CandumpReplay {
 
     Settings settings_;
     bool has_start_ = false;
-    std::uint64_t bytes_ = 0;
     std::uint64_t frames_ = 0;
     std::uint64_t ticks_ = 0;
     std::uint64_t not_used_ = 0;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "files/input_error.hpp"
+#include "files/text_lines.hpp"
 #include "parameters/machine_bus.hpp"
 #include "parameters/parameter_files.hpp"
 #include "replay/candump_replay.hpp"
@@ -48,10 +49,7 @@ std::string summary_of(const CandumpReplay& replay) {
 }  // namespace
 
 bool is_candump_log(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw InputError(fmt::format("{}: no such file", file));
-    }
+    std::ifstream in = open_to_read(file);
     constexpr std::streamsize longest_look = 4096;
     std::string text(longest_look, '\0');
     in.read(text.data(), longest_look);

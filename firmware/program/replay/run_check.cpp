@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include "files/input_error.hpp"
+#include "files/text_lines.hpp"
 #include "run_log/estimate_line.hpp"
 
 namespace millforce::host {
 
 RunCheck::RunCheck(const std::string& file, const ToolForces& forces)
-    : file_(file), forces_(forces), in_(file, std::ios::binary) {
-    if (!in_) {
-        throw InputError(fmt::format("{}: no such file", file));
-    }
+    : file_(file), forces_(forces), in_(open_to_read(file)) {
     next_expected();
     if (expected_.empty()) {
         throw InputError(fmt::format("{}: no estimates, expected a log of 'millforce run --log'", file));

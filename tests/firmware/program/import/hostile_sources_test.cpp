@@ -83,3 +83,12 @@ TEST(HostileSources, are_imported_or_refused_in_one_line) {
         CHECK(refused < 150);
     }
 }
+
+TEST(HostileSources, a_number_that_nobody_can_measure_is_refused) {
+    const std::string header = "time_s,spindle_angle_rad,spindle_current_A,x_current_A,x_velocity_mm_s,override\n";
+    STRCMP_EQUAL("", bench.error(header + "0,0,3,2,10,1\n0.001,0.4,3,2,10,1\n", "").c_str());
+    STRCMP_EQUAL("source0:2: override: 1e+308 is beyond anything measured; expected at most 1e+18",
+                 bench.error(header + "0,0,3,2,10,1e308\n", "").c_str());
+    STRCMP_EQUAL("source0:2: x_current_A: -1e+308 is beyond anything measured; expected at most 1e+18",
+                 bench.error(header + "0,0,3,-1e308,10,1\n", "").c_str());
+}

@@ -89,6 +89,8 @@ TEST(ParameterBlockFile, what_is_no_block_is_refused_with_the_reason) {
     const std::string path = folder.path("parameters.bin").string();
     const auto refusal = [&path] { return test::message_of<InputError>([&path] { read_parameter_block(path); }); };
     CHECK_TRUE(test::contains(refusal(), "no such file"));
+    const auto folder_refused = test::message_of<InputError>([] { read_parameter_block("/"); });
+    STRCMP_EQUAL("/: is a folder; expected a file", folder_refused.c_str());
     folder.write("parameters.bin", "");
     CHECK_TRUE(test::contains(refusal(), "no block"));
     write_parameter_block(path, read_parameters(machine_file, tool_file));

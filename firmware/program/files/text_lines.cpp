@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "import/text_lines.hpp"
+#include "files/text_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,9 @@ std::ifstream open_to_read(const std::string& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) {
         throw InputError(fmt::format("{}: is a folder; expected a file", file));
+    }
+    if (!std::filesystem::exists(file, error)) {
+        throw InputError(fmt::format("{}: no such file", file));
     }
     std::ifstream in(file, std::ios::binary);
     if (!in) {
