@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "check/check_parameters.hpp"
-#include "check/unseen_faults.hpp"
 #include "files/console.hpp"
 #include "parameters/parameter_notes.hpp"
 
@@ -23,9 +22,6 @@ Lines lines_of(const firmware::Parameters<float>& parameters) {
     }
     for (const Finding& finding : check_parameters(parameters)) {
         lines.push_back(line_of(finding));
-    }
-    for (const std::string& fault : unseen_faults(parameters)) {
-        lines.push_back("not seen: " + fault);
     }
     return lines;
 }

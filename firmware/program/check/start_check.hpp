@@ -8,7 +8,7 @@
 
 namespace millforce::host {
 
-/// What parameter_notes(), check_parameters() and unseen_faults() say of a machine with each of its tools, one line
+/// What parameter_notes() and check_parameters() say of a machine with each of its tools, one line
 /// each. In a folder of tools, what all of them show stands there once, and the rest after the tool's number.
 [[nodiscard]] std::vector<std::string> start_check(const ToolSet& tools);
 

@@ -12,4 +12,7 @@ namespace millforce::host {
 /// one sentence each. tests/README.md has what they led to in simulated parts.
 [[nodiscard]] std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parameters);
 
+/// Prints them on standard error, once `run` or `serve` is ready.
+void show_unseen_faults(const firmware::Parameters<float>& parameters);
+
 }  // namespace millforce::host

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "check/start_check.hpp"
+#include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "daemon/can_daemon.hpp"
@@ -115,6 +116,7 @@ int run_on_bus(const RunOptions& options) {
         }
     }
     notify_service_manager("READY=1");
+    show_unseen_faults(tools.parameters());
     daemon->run(stop);
     notify_service_manager("STOPPING=1");
     journal->finish();

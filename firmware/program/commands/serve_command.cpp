@@ -7,6 +7,7 @@
 #include <string>
 
 #include "check/start_check.hpp"
+#include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "control/cut_state.hpp"
@@ -179,6 +180,7 @@ int serve(const ServeOptions& options) {
     notify_service_manager("READY=1");
     printer.print(fmt::format("millforce: {}: waiting", options.socket));
     notify_service_manager("STATUS=waiting for a CNC");
+    show_unseen_faults(parameters);
     while (server.wait_for_peer()) {
         notify_service_manager("STATUS=connected");
         printer.print("millforce: connected");

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/unseen_faults.hpp"
+
+#include <algorithm>
+
+#include "parameters/parameter_files.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+
+TEST_GROUP(UnseenFaults) {
+    firmware::Parameters<float> parameters = [] {
+        firmware::Parameters<float> all_currents;
+        all_currents.machine = host::read_machine_parameters(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml");
+        return all_currents;
+    }();
+
+    [[nodiscard]] bool names(const char* part) const {
+        const std::vector<std::string> faults = host::unseen_faults(parameters);
+        return std::any_of(faults.begin(), faults.end(),
+                           [part](const std::string& fault) { return fault.find(part) != std::string::npos; });
+    }
+};
+
+TEST(UnseenFaults, of_a_machine_with_all_currents_are_drifts) {
+    CHECK(names("a spindle current that drifts slowly"));
+    CHECK(names("the current of an axis that drifts slowly"));
+    CHECK_FALSE(names("contradicted by no second current"));
+}
+
+TEST(UnseenFaults, of_a_spindle_alone_are_also_its_scale_in_the_cut) {
+    for (auto& axis : parameters.machine.axes) {
+        axis.K_x4_N_per_A = 0.0F;
+    }
+    CHECK_FALSE(names("the current of an axis that drifts slowly"));
+    CHECK(names("contradicted by no second current"));
+}
