@@ -153,13 +153,23 @@ TEST(CutStates, holds_in_air_once_the_tool_was_fed_without_a_force_for_longer_th
     CHECK_FALSE(controller.step(in_air()).hold);
 }
 
-TEST(CutStates, moves_on_without_a_force_in_a_rapid_and_where_the_spindle_stands) {
+TEST(CutStates, counts_the_programmed_feed_as_travel_where_no_velocity_is_known_either) {
+    for (const bool is_unseen : {false, true}) {
+        Controller controller;
+        Input blind = without_force(in_air());
+        blind.path_speed_mm_s = 0.0F;
+        blind.motion_is_unseen = is_unseen;
+        CHECK(repeat(controller, blind, 200).hold == is_unseen);
+    }
+}
+
+TEST(CutStates, moves_on_without_a_force_in_a_rapid_and_where_the_spindle_does_not_mill) {
     for (const bool is_rapid : {false, true}) {
         Controller controller;
         Input blind = without_force(in_air());
         blind.cut.spindle_turning = false;
         blind.rapid = is_rapid;
-        blind.cut.spindle_stands = !is_rapid;
+        blind.cut.spindle_does_not_mill = !is_rapid;
         CHECK_FALSE(repeat(controller, blind, 2000).hold);
     }
 }

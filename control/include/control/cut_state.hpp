@@ -13,7 +13,7 @@ namespace millforce::control {
 enum class CutState : std::uint8_t {
     /// No contact.
     /// Entered: at the start, and from `exit` after the exit travel without contact or at a sharp turn of the path.
-    /// Left: contact → entry; fed for exit_travel_mm without an estimate, and the spindle does not stand → hold.
+    /// Left: contact → entry; fed for exit_travel_mm without an estimate, and the spindle turns forwards → hold.
     air = 0,
 
     /// The cutter enters the workpiece, and its engagement still grows.

@@ -98,9 +98,13 @@ bool CutStates<Scalar>::has_entered(const Parameters& parameters) const {
 template <typename Scalar>
 void CutStates<Scalar>::watch_force(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion) {
     without_force_s_ = input.cut.force_valid ? Scalar(0) : without_force_s_ + motion.dt_s;
-    const bool may_meet_the_workpiece = !input.rapid && !input.cut.spindle_stands;
-    fed_without_force_mm_ =
-        input.cut.force_valid || !may_meet_the_workpiece ? Scalar(0) : fed_without_force_mm_ + motion.travel_mm;
+    const bool may_meet_the_workpiece = !input.rapid && !input.cut.spindle_does_not_mill;
+    if (input.cut.force_valid || !may_meet_the_workpiece) {
+        fed_without_force_mm_ = Scalar(0);
+        return;
+    }
+    const bool moves_as_programmed = input.motion_is_unseen && is_known(input.programmed_feed_mm_s);
+    fed_without_force_mm_ += moves_as_programmed ? input.programmed_feed_mm_s * motion.dt_s : motion.travel_mm;
 }
 
 template <typename Scalar>

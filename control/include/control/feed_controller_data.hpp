@@ -77,7 +77,7 @@ struct CutEstimateForControl {
     Scalar feed_mm_s{0};          ///< path speed over the window of tangential_N
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
-    bool spindle_stands = false;          ///< its encoder is there and does not count
+    bool spindle_does_not_mill = false;   ///< its encoder is there, and stands or counts backwards
     bool spindle_loaded_at_rest = false;  ///< the spindle's encoder stands, and its current says that it cuts
 };
 
@@ -99,7 +99,8 @@ struct ControlInput {
     Scalar velocity_y_mm_s{0};
     Scalar time_since_sample_s{0};
     bool rapid = false;
-    bool plunging = false;  ///< the way goes mainly along the tool's axis
+    bool motion_is_unseen = false;  ///< no velocity is known in this step
+    bool plunging = false;          ///< the way goes mainly along the tool's axis
     bool feed_hold = false;
     Fault implausible = Fault::none;  ///< what the supervisor of the signals found
     CutEstimateForControl<Scalar> cut{};

@@ -152,6 +152,7 @@ class ForceControlTick {
     Scalar since_whole_sample_s_{0};
     std::uint32_t last_count_ = 0;
     Scalar encoder_stands_s_{0};
+    Scalar not_forwards_s_{0};  // the encoder stands or counts backwards
     SettledFeed<Scalar> settled_feed_;
     std::uint32_t heartbeat_ = 0;
 };

@@ -48,6 +48,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
         forget_estimate();
     }
     set_motion(signals.velocity());
+    input_.motion_is_unseen = false;
     input_.dt_s = dt_s;
     settled_feed_.follow(estimator_.estimate().feed_mm_s, dt_s);
     watch_sample(sample, signals, dt_s);
@@ -75,10 +76,13 @@ void ForceControlTick<Scalar, WideBand>::watch_encoder(std::uint32_t count, Scal
     constexpr Scalar surely_stands_s = estimation::literal<Scalar>(0.02L);
     constexpr Scalar longest_s{1};
     const Scalar stands_s = encoder_stands_s_ < longest_s ? encoder_stands_s_ + dt_s : longest_s;
-    encoder_stands_s_ = count == last_count_ ? stands_s : Scalar(0);
+    const auto turned = static_cast<std::int32_t>(count - last_count_);
+    const Scalar not_forwards_s = not_forwards_s_ < longest_s ? not_forwards_s_ + dt_s : longest_s;
+    encoder_stands_s_ = turned == 0 ? stands_s : Scalar(0);
+    not_forwards_s_ = turned > 0 ? Scalar(0) : not_forwards_s;
     last_count_ = count;
-    input_.cut.spindle_stands = encoder_stands_s_ > surely_stands_s;
-    input_.cut.spindle_loaded_at_rest = input_.cut.spindle_stands && spindle_current_A > contact_current_A_;
+    input_.cut.spindle_does_not_mill = not_forwards_s_ > surely_stands_s;
+    input_.cut.spindle_loaded_at_rest = encoder_stands_s_ > surely_stands_s && spindle_current_A > contact_current_A_;
 }
 
 template <typename Scalar, typename WideBand>
@@ -87,6 +91,7 @@ void ForceControlTick<Scalar, WideBand>::take_silence(float silent_s, float dt_s
     input_.surface.valid = false;
     has_time_ = false;
     set_motion({});
+    input_.motion_is_unseen = true;
     input_.dt_s = Scalar(dt_s);
     input_.time_since_sample_s = Scalar(silent_s);
 }
