@@ -129,3 +129,70 @@ TEST(StuckSignal, begins_anew_after_a_pause) {
     signal.pause();
     CHECK_FALSE(signal.is_stuck());
 }
+
+TEST(StuckSignal, takes_as_many_values_after_a_pause_as_before_though_the_first_is_the_last_again) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.add(noisy.next());
+    }
+    signal.add(10.0F);
+    signal.pause();
+    LONGS_EQUAL(1 + 32, values_until_stuck(signal, 10.0F));
+}
+
+TEST(StuckSignal, learns_nothing_across_a_pause) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.pause();
+        signal.add(noisy.next());
+    }
+    CHECK_FALSE(signal.has_learnt());
+}
+
+TEST(StuckSignal, learns_nothing_from_values_that_no_current_has) {
+    StuckSignal signal;
+    for (int k = 0; k < 1000; ++k) {
+        signal.add(1.1e5F + static_cast<float>(k * k % 97));
+    }
+    CHECK_FALSE(signal.has_learnt());
+}
+
+TEST(StuckSignal, judges_by_the_longest_run_and_not_by_the_last) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    float value = 0.0F;
+    for (int k = 0; k < 4000; ++k) {
+        value = k > 2000 || k % 20 == 0 ? noisy.next() : value;
+        signal.add(value);
+    }
+    CHECK(values_until_stuck(signal, value) > 8 * 19);
+}
+
+TEST(StuckSignal, knows_noise_by_one_step_that_is_larger_than_all_others_whenever_it_comes) {
+    for (const int large : {1, 128, 256}) {
+        StuckSignal signal;
+        float value = 0.0F;
+        signal.add(value);
+        for (int step = 1; step <= 256; ++step) {
+            value += step == large ? 5.0F : 1.0F;
+            signal.add(value);
+        }
+        CHECK(signal.has_learnt());
+        LONGS_EQUAL(32, values_until_stuck(signal, value));
+    }
+}
+
+TEST(StuckSignal, stays_stuck_however_long_it_lasts) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.add(noisy.next());
+    }
+    values_until_stuck(signal, 10.0F);
+    for (int k = 0; k < 70'000; ++k) {
+        signal.add(10.0F);
+        CHECK(signal.is_stuck());
+    }
+}
