@@ -372,6 +372,15 @@ TEST(SignalSupervisor, does_not_take_a_missing_spindle_current_for_one_that_stan
     }
 }
 
+TEST(SignalSupervisor, does_not_judge_a_spindle_current_until_a_revolution_has_shown_a_speed) {
+    Currents currents;
+    currents.noisy_spindle(600, CutState::air);
+    currents.supervisor().restart();
+    CHECK(currents.same(100, CutState::air) == Fault::none);
+    currents.turn();
+    CHECK(currents.same(100, CutState::air) == Fault::signal_stuck);
+}
+
 TEST(SignalSupervisor, does_not_judge_a_current_in_air_by_what_a_cut_taught) {
     Currents currents;
     currents.noisy_spindle(1000, CutState::in_cut);
@@ -454,9 +463,22 @@ TEST(SignalSupervisor, finds_a_force_that_vanishes_in_the_cut_alone) {
 TEST(SignalSupervisor, does_not_judge_a_force_until_the_feed_was_steady_for_a_revolution_and_three_teeth) {
     CHECK(of_change(fallen_force(), 6) == Fault::none);
     CHECK(of_change(fallen_force(), 7) == Fault::force_vanished);
+    Estimate slower = fallen_force();
+    slower.tooth_change.feed_is_steady = false;
+    CHECK(of_change(slower) == Fault::none);
     Estimate ramp = fallen_force();
     ramp.axial_speed_mm_s = 0.1F * feed_mm_s;
     CHECK(of_change(ramp) == Fault::none);
+}
+
+TEST(SignalSupervisor, forgets_a_force_that_vanished_where_the_feed_changes_within_a_revolution) {
+    Supervisor supervisor(machine_and_tool());
+    judged(supervisor, one_tooth(), 8, CutState::in_cut);
+    judged(supervisor, fallen_force(), 1, CutState::in_cut);
+    Estimate slower = one_tooth();
+    slower.tooth_change.feed_is_steady = false;
+    judged(supervisor, slower, 1, CutState::in_cut);
+    CHECK(judged(supervisor, one_tooth(), 100, CutState::in_cut) == Fault::none);
 }
 
 TEST(SignalSupervisor, does_not_take_a_force_for_vanished_that_is_not_known_or_was_none) {
@@ -466,6 +488,14 @@ TEST(SignalSupervisor, does_not_take_a_force_for_vanished_that_is_not_known_or_w
     e = fallen_force();
     e.tooth_tangential_N.value = -300.0F;  // and was −100 N before
     CHECK(of_change(e) == Fault::none);
+}
+
+TEST(SignalSupervisor, does_not_take_noise_for_a_force_that_vanishes) {
+    Estimate e = fallen_force();
+    e.tooth_change.tangential_N.variance = 20.0F * 20.0F;  // it fell by 88 N more than a cut's end explains
+    CHECK(of_change(e) == Fault::none);
+    e.tooth_change.tangential_N.variance = 10.0F * 10.0F;
+    CHECK(of_change(e) == Fault::force_vanished);
 }
 
 TEST(SignalSupervisor, finds_a_jump_of_either_axis_in_either_direction_where_it_is_known) {
