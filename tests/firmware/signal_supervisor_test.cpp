@@ -650,10 +650,23 @@ TEST(SignalSupervisor, gives_the_cnc_the_time_to_slow_down_that_its_acceleration
     Supervisor supervisor(p);
     CHECK(judged(supervisor, e, 43, CutState::air, slow) == Fault::none);  // 0.01 s + 0.15 s + 0.5 s
     CHECK(judged(supervisor, e, 2, CutState::air, slow) == Fault::feed_mismatch);
-    p.machine.cnc.acceleration_mm_s2 = 0.0F;  // not known
-    Supervisor of_any_acceleration(p);
-    CHECK(judged(of_any_acceleration, e, 10, CutState::air, slow) == Fault::none);
-    CHECK(judged(of_any_acceleration, e, 2, CutState::air, slow) == Fault::feed_mismatch);
+}
+
+TEST(SignalSupervisor, errs_towards_a_fault_without_a_diameter_or_an_acceleration) {
+    Parameters p = machine_and_tool();  // such parameters are refused elsewhere
+    p.tool.diameter_mm = 0.0F;
+    p.machine.cnc.acceleration_mm_s2 = 0.0F;
+    Supervisor of_feed(p);
+    Estimate e = revolution();
+    e.feed_mm_s = 100.0F;
+    hal::ProgramStatus slow = program();
+    slow.programmed_feed_mm_s = 10.0F;
+    CHECK(judged(of_feed, e, 10, CutState::air, slow) == Fault::none);
+    CHECK(judged(of_feed, e, 2, CutState::air, slow) == Fault::feed_mismatch);
+    Supervisor of_force(p);
+    judged(of_force, one_tooth(), 8, CutState::in_cut);
+    judged(of_force, fallen_force(), 1, CutState::in_cut);
+    CHECK(judged(of_force, one_tooth(), 6, CutState::in_cut) == Fault::force_vanished);
 }
 
 TEST(SignalSupervisor, does_not_judge_the_feed_in_a_rapid_or_where_the_program_s_is_not_known) {
