@@ -361,6 +361,13 @@ TEST(SignalSupervisor, finds_a_spindle_current_that_stands_in_air_and_in_the_cut
     }
 }
 
+TEST(SignalSupervisor, finds_a_spindle_current_that_stands_from_the_first_cut_on) {
+    Currents currents;
+    CHECK(currents.noisy_spindle(600, CutState::air) == Fault::none);
+    CHECK(currents.same(30, CutState::in_cut) == Fault::none);
+    CHECK(currents.same(10, CutState::in_cut) == Fault::signal_stuck);
+}
+
 TEST(SignalSupervisor, does_not_take_a_missing_spindle_current_for_one_that_stands) {
     for (const CutState taught_in : {CutState::air, CutState::in_cut}) {
         for (const CutState state : {CutState::air, CutState::in_cut}) {
@@ -628,8 +635,7 @@ TEST(SignalSupervisor, lets_the_axes_carry_twice_the_torque_and_never_less_than_
 }
 
 TEST(SignalSupervisor, finds_a_feed_force_that_is_lost_in_the_move_in_which_it_was_known) {
-    Estimate lost = revolution();
-    lost.feed_N = {.valid = false, .value = 1000.0F};
+    const Estimate lost = revolution();
     Supervisor never_known(machine_and_tool());
     CHECK(judged(never_known, lost, 20) == Fault::none);
     Supervisor known(machine_and_tool());
