@@ -23,6 +23,7 @@ constexpr std::uintmax_t largest_file_bytes = 16U << 20U;
 
 std::string shown(const toml::node& node) {
     std::ostringstream text;
+    text << std::boolalpha;
     node.visit([&](const auto& value) {
         if constexpr (toml::is_string<decltype(value)>) {
             text << '"' << printable(value.get()) << '"';

@@ -85,6 +85,9 @@ bool is_local_line(std::string_view line) {
 
 bool read_local_line(std::string_view line, hal::DriveSample& sample) {
     sample = {};
+    if (line.ends_with('\r')) {
+        line.remove_suffix(1);
+    }
     std::size_t place = line.find(')');
     if (!is_local_line(line) || place == std::string_view::npos) {
         return false;
@@ -98,7 +101,7 @@ bool read_local_line(std::string_view line, hal::DriveSample& sample) {
         }
         place = end;
     }
-    return place == line.size() || line.substr(place) == "\r";
+    return place == line.size();
 }
 
 }  // namespace millforce::host

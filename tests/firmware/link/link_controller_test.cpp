@@ -2,8 +2,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "firmware/ready_tools.hpp"
+#include "firmware/tick_bench.hpp"
 #include "firmware_link/link_controller.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -44,6 +46,25 @@ local_link::OverrideMessage answer(firmware::LinkController& controller, const l
     CHECK(decode(answered, message) == MessageError::none);
     return message;
 }
+
+local_link::SampleMessage message_of(const hal::DriveSample& sample) {
+    local_link::SampleMessage message;
+    message.time_us = sample.time_us;
+    message.spindle_count = sample.spindle_count;
+    message.present = sample.present;
+    message.spindle_current_A = sample.spindle_current_A;
+    message.axis_current_A = sample.axis_current_A;
+    message.axis_velocity_mm_s = sample.axis_velocity_mm_s;
+    message.programmed_feed_mm_s = test::feed_mm_s;
+    return message;
+}
+
+struct FeedsSeen final : firmware::WaySource<float> {
+    std::vector<float> feeds_mm_s{};
+    void look_ahead(firmware::ForceControlTick<float>&, const hal::ProgramStatus& program) override {
+        feeds_mm_s.push_back(program.programmed_feed_mm_s);
+    }
+};
 
 }  // namespace
 
@@ -92,6 +113,34 @@ TEST(LinkController, tells_a_force_of_which_only_a_bound_is_known_as_no_estimate
     }
     CHECK(m.tangential_N > 100.0F);
     CHECK(std::isnan(m.tooth_force_N));
+}
+
+TEST(LinkController, tells_the_engagement_and_the_tooth_force_that_the_tick_finds_in_a_cut) {
+    firmware::LinkController controller(test::machine_and_tool(), 1.0F);
+    const float in_air_A = test::sample_of(0).axis_current_A[0];
+    local_link::OverrideMessage m;
+    for (int k = 0; k < 1000; ++k) {
+        cnc.message = message_of(test::sample_of(k));
+        float& current_A = cnc.message.axis_current_A[0];
+        current_A = in_air_A + 2.0F * (current_A - in_air_A);  // a narrow cut, whose tooth force is certain
+        m = answer(controller, encode(cnc.message));
+    }
+    const auto engagement = controller.tick().engagement();
+    CHECK(engagement.immersion_valid && engagement.depth_valid);
+    CHECK(m.radial_immersion > 0.0F && m.radial_immersion == engagement.radial_immersion);
+    CHECK(m.radial_immersion_sd > 0.0F && m.radial_immersion_sd == engagement.radial_immersion_sd);
+    CHECK(m.axial_depth_mm > 0.0F && m.axial_depth_mm == engagement.axial_depth_mm);
+    CHECK(m.axial_depth_sd_mm > 0.0F && m.axial_depth_sd_mm == engagement.axial_depth_sd_mm);
+    CHECK(m.tooth_force_N > 0.0F && m.tooth_force_N == controller.tick().estimate().tooth_force_N.value);
+}
+
+TEST(LinkController, asks_what_lies_ahead_once_for_each_sample) {
+    FeedsSeen way;
+    firmware::LinkController controller(a_mill(), 1.0F, &way);
+    answer(controller, cnc.next());
+    cnc.message.programmed_feed_mm_s = 4.0F;
+    answer(controller, cnc.next());
+    CHECK((way.feeds_mm_s == std::vector<float>{10.0F, 4.0F}));
 }
 
 TEST(LinkController, leaves_bytes_that_are_not_sound_unanswered) {

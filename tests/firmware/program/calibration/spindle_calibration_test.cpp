@@ -235,3 +235,49 @@ TEST(SpindleCalibration, names_what_is_missing_in_the_file) {
     CHECK(contains(calibrate("spindle_current_A,spindle_torque_Nm,spindle_speed_rad_s\n1,2,-5\n").error,
                    ":2: column 'spindle_speed_rad_s': '-5' is out of range"));
 }
+
+TEST(SpindleCalibration, names_the_row_of_a_recording_that_does_not_fit) {
+    const std::string header = "time_s,spindle_angle_rad,spindle_current_A,spindle_torque_Nm\n";
+    CHECK(contains(calibrate(header + "0,0,1,1\n0,1,1,1\n").error,
+                   "spindle.csv:3: column 'time_s': 0 s after 0 s; expected time to grow"));
+    CHECK(contains(calibrate(header + "0,0,1,1\n0.01,1,,1\n").error, "spindle.csv:3: column 'spindle_current_A'"));
+    CHECK(contains(calibrate(header + "0,0,1,1\n0.01,1,1,1\n").error,
+                   "2 rows with 'spindle_angle_rad'; expected at least 20"));
+    std::string uneven = header;
+    for (int k = 0; k < 40; ++k) {
+        uneven += std::to_string(0.01 * k + (k == 30 ? 0.004 : 0.0)) + "," + std::to_string(k) + ",1,1\n";
+    }
+    CHECK(contains(calibrate(uneven).error, "column 'time_s': uneven step of"));
+    CHECK(contains(calibrate("spindle_current_A,spindle_torque_Nm\n1,1\n").error, "nor 'spindle_angle_rad'"));
+}
+
+TEST(SpindleCalibration, of_a_recording_leaves_out_where_the_torque_is_not_known) {
+    std::string text = recording({});
+    std::size_t row = 0;
+    std::string with_gaps;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line); ++row) {
+        const bool is_gap = row > 0 && row % 2000 < 400;  // the first rows, too
+        with_gaps += (is_gap ? line.substr(0, line.rfind(',') + 1) : line) + "\n";
+    }
+    const Run run = calibrate(with_gaps);
+    STRCMP_EQUAL("", run.error.c_str());
+    DOUBLES_EQUAL(1.4, run.value("K_t1_Nm_per_A"), 0.02);
+    DOUBLES_EQUAL(0.02, run.value("inertia_kg_m2"), 0.0006);
+}
+
+TEST(SpindleCalibration, of_a_table_takes_the_acceleration_from_its_column) {
+    std::ostringstream text;
+    text << "spindle_speed_rad_s,spindle_torque_Nm,spindle_current_A,spindle_acceleration_rad_s2\n";
+    for (int k = 0; k < 60; ++k) {
+        const double speed = 60.0 + 20.0 * (k % 3);
+        const double torque = 2.0 * (k % 4);
+        const double acceleration = 30.0 * (k % 5 - 2);
+        const double ripple = 0.002 * (k % 7 - 3);
+        text << speed << ',' << torque << ',' << (torque + 0.6 + 0.002 * speed + 0.02 * acceleration) / 1.4 + ripple
+             << ',' << acceleration << '\n';
+    }
+    const Run run = calibrate(text.str());
+    STRCMP_EQUAL("", run.error.c_str());
+    DOUBLES_EQUAL(0.02, run.value("inertia_kg_m2"), 0.001);
+}

@@ -33,6 +33,14 @@ std::string idle_recording(double duration_s, double second_speed_rad_s = 400.0,
     return text;
 }
 
+std::string standing_recording() {
+    std::string text = "time_s,spindle_angle_rad,spindle_current_A\n";
+    for (int k = 0; k < 1000; ++k) {
+        text += fmt::format("{:.1f},1,2\n", 0.1 * k);
+    }
+    return text;
+}
+
 struct WarmUpRun {
     std::string error;
     toml::table toml;
@@ -83,4 +91,21 @@ TEST(WarmUpCalibration, refuses_what_does_not_show_the_curve) {
     refuses_warm_up(idle_recording(700.0, 300.0), "one speed");
     refuses_warm_up(idle_recording(0.5), "ten minutes");
     refuses_warm_up("time_s,spindle_angle_rad\n0,0\n", "spindle_current_A");
+    refuses_warm_up("time_s,spindle_angle_rad,spindle_current_A\n0,0,1\n0,1,1\n",
+                    "0 s after 0 s; expected time to grow");
+    refuses_warm_up(standing_recording(), "the spindle holds 0 rad/s");
+}
+
+TEST(WarmUpCalibration, passes_over_samples_without_an_angle_or_a_current) {
+    std::string text = idle_recording(700.0);
+    for (const char* time : {"\n100.00,", "\n200.00,"}) {
+        const std::size_t row = text.find(time);
+        const std::size_t cell = row + std::string(time).size();
+        text.erase(cell, text.find(',', cell) - cell);
+    }
+    const std::size_t end = text.rfind(',');
+    text.erase(end + 1, text.size() - end - 2);
+    const WarmUpRun run = calibrate_warm_up_of(text);
+    STRCMP_EQUAL("", run.error.c_str());
+    DOUBLES_EQUAL(200.0, run.toml["spindle"]["warm_up_time_s"].value_or(0.0), 40.0);
 }

@@ -173,3 +173,26 @@ TEST(CsvReader, streams_a_large_file_line_by_line) {
     DOUBLES_EQUAL(199'999.0 * 200'000.0 / 2.0, sum, 0.0);
     DOUBLES_EQUAL(1.0, csv.fraction_read(), 0.01);
 }
+
+TEST(CsvReader, refuses_numbers_beyond_anything_measured) {
+    STRCMP_EQUAL("", error_of("a\n1e18\n-1e18\n").c_str());
+    STRCMP_EQUAL(":2: column 'a': '-1.1e18' is beyond anything measured; expected at most 1e+18",
+                 error_of("a\n-1.1e18\n").c_str());
+}
+
+TEST(CsvReader, shows_the_names_of_many_columns_and_of_long_ones_by_their_begin) {
+    std::string names = std::string(5000, 'x') + "\x7F";
+    for (int k = 0; k < 500; ++k) {
+        names += ",column" + std::to_string(k);
+    }
+    const std::string message = error_of(names + "\n", "y");
+    STRCMP_CONTAINS(":1: no column 'y'", message.c_str());
+    CHECK(message.size() < 2000);
+    CHECK(message.find('\x7F') == std::string::npos);
+    CHECK(error_of("a\n" + std::string(5000, 'x') + "\n").size() < 500);
+    CHECK(error_of("a\nx\x7Fx\n").find('\x7F') == std::string::npos);
+}
+
+TEST(CsvReader, of_an_empty_first_name_is_no_number) {
+    STRCMP_EQUAL("", error_of(",a\n1,2\n").c_str());
+}

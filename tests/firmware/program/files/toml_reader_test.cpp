@@ -58,3 +58,46 @@ TEST(TomlReader, refuses_what_nests_deeper_than_parameters_do) {
     STRCMP_EQUAL("t.toml:1: brackets deeper than 16, expected parameters",
                  error_of("a = " + repeated("{a = ", 300'000)).c_str());
 }
+
+TEST(TomlReader, does_not_count_brackets_and_points_in_texts_and_comments) {
+    const std::string brackets(30, '[');
+    STRCMP_CONTAINS("expected a number", error_of("feed = '" + brackets + "'").c_str());
+    STRCMP_CONTAINS("expected a number", error_of("feed = \"\\\"" + brackets + "\"").c_str());
+    STRCMP_CONTAINS("expected a number", error_of("feed = \"\\\\\\\"" + brackets + "\"").c_str());
+    STRCMP_CONTAINS("expected a number", error_of("feed = {a = 1, b = {c = 2}}").c_str());
+    STRCMP_EQUAL("", error_of("feed = 1 # " + brackets + "\n").c_str());
+    STRCMP_EQUAL("t.toml:1: brackets deeper than 16, expected parameters",
+                 error_of("feed = ['\\', " + brackets).c_str());  // a backslash escapes nothing between these quotes
+}
+
+TEST(TomlReader, says_which_kind_of_value_a_key_needs) {
+    const auto refusal = [](const std::string& text, const auto& read) {
+        return message_of<InputError>([&] {
+            TomlFile file = TomlFile::from_text(text, "t.toml");
+            TomlFile::Table root = file.root();
+            read(root);
+        });
+    };
+    using Table = TomlFile::Table;
+    STRCMP_EQUAL("t.toml:1:5: a = 1: expected a text in quotes",
+                 refusal("a = 1", [](Table& t) { static_cast<void>(t.text("a")); }).c_str());
+    STRCMP_CONTAINS("a = 1: expected [[a]] tables",
+                    refusal("a = 1", [](Table& t) { static_cast<void>(t.tables("a")); }).c_str());
+    STRCMP_CONTAINS("a = 1: expected a table [a]",
+                    refusal("a = 1", [](Table& t) { static_cast<void>(t.table("a")); }).c_str());
+    STRCMP_CONTAINS("a = 1: expected true or false",
+                    refusal("a = 1", [](Table& t) { static_cast<void>(t.boolean("a", false)); }).c_str());
+    const std::vector<std::string> choices{"true", "up"};
+    STRCMP_CONTAINS("a: missing, expected one of true, up",
+                    refusal("", [&](Table& t) { static_cast<void>(t.choice("a", choices)); }).c_str());
+    STRCMP_CONTAINS("a = false: expected one of true, up",
+                    refusal("a = false", [&](Table& t) { static_cast<void>(t.choice("a", choices)); }).c_str());
+    STRCMP_EQUAL("", refusal("a = true", [&](Table& t) { UNSIGNED_LONGS_EQUAL(0, t.choice("a", choices)); }).c_str());
+}
+
+TEST(TomlReader, refuses_a_file_of_more_than_16_MiB) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("large.toml", std::string((16U << 20U) + 1, '\n'));
+    STRCMP_CONTAINS("large.toml: larger than 16 MiB, expected a TOML file of parameters",
+                    message_of<InputError>([&] { TomlFile::open(file.string()); }).c_str());
+}

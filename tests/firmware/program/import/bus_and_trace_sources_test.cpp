@@ -90,6 +90,25 @@ TEST(SamplerSource, names_the_nearest_pin) {
     CHECK(contains(bench.error("1 \n", map), "map.toml: source.names: no pin 'x-curent'; the nearest is 'x-current'"));
 }
 
+TEST(SamplerSource, takes_a_pin_by_its_number_or_by_a_name_that_is_there_once) {
+    const auto with_source = [](const char* source) { return with_text(sampler_map, "source = \"i\"", source); };
+    bench.import("1.0 2.5 \n", with_source("source_number = 1"));
+    STRCMP_EQUAL("1", joined(bench.column("x_current_A")).c_str());
+    CHECK(contains(bench.error("1.0 2.5 \n", with_source("source_number = 3")),
+                   "source.names: source_number = 3; there are 2 pins"));
+    CHECK(contains(bench.error("1.0 2.5 \n", with_text(sampler_map, "\"a\"", "\"i\"")),
+                   "source.names: pin 'i' is there twice; expected once, or source_number"));
+    CHECK(
+        contains(bench.error("1.0 2.5 \n", with_text(sampler_map, "names = [\"a\", \"i\"]", "format = \"halsampler\"")),
+                 "map.toml: source.names: missing, expected the names of the sampler's pins"));
+}
+
+TEST(SamplerSource, skips_blank_lines_and_comments_and_takes_no_quotes) {
+    bench.import("# sampled\n\n0 1 \n \n0 2 \n  ", sampler_map);
+    STRCMP_EQUAL("1 2", joined(bench.column("x_current_A")).c_str());
+    CHECK(contains(bench.error("0 \"1 \n", sampler_map), "source0:1: a quote; expected numbers as halsampler prints"));
+}
+
 TEST_GROUP(SinumerikSource) {
     ImportBench bench;
 };
@@ -146,6 +165,61 @@ TEST(SinumerikSource, names_the_place_of_what_does_not_fit) {
     CHECK(contains(bench.error("<html><body>no trace</body></html>", trace_map), "no <dataFrame>"));
     CHECK(contains(bench.error("<!DOCTYPE x [<!ENTITY a \"b\">]><traceData/>", trace_map), "a document type"));
     CHECK(contains(bench.error(trace_of("<rec time=\"&bomb;\"/>"), trace_map), "&bomb; is not known"));
+}
+
+TEST(SinumerikSource, refuses_tags_that_are_no_xml_with_their_line) {
+    const std::string begin = trace_of("<rec time=\"0\" f1=\"1\" f2=\"5\"/>");
+    const auto with_record = [&](const std::string& record) {
+        return bench.error(with_text(begin, "</dataFrame>", record + "</dataFrame>"), trace_map);
+    };
+    CHECK(contains(with_record(std::string("a\0b", 3)), "source0:5: a NUL byte; expected XML in UTF-8"));
+    CHECK(contains(with_record("<rec " + std::string(70'000, 'x') + ">"), "a tag of more than 64 KiB"));
+    CHECK(contains(with_record("<rec time=\"1&amp\"/>"), "'&' without ';' in an attribute"));
+    for (const char* entity : {"&#;", "&#x;", "&#xG;", "&#4z;", "&#99999999999;"}) {
+        CHECK_TEXT(contains(with_record(std::string("<rec time=\"") + entity + "\"/>"), "is not known"), entity);
+    }
+}
+
+TEST(SinumerikSource, ends_quietly_in_a_comment_that_is_cut_off) {
+    const std::string whole = trace_of("<rec time=\"0\" f1=\"1\" f2=\"5\"/>");
+    const auto recording = bench.import(with_text(whole, "</dataFrame>", "<!-- no end"), trace_map);
+    STRCMP_EQUAL("1", joined(bench.column("x_current_A")).c_str());
+    CHECK(contains(recording.files[0].notes.back(), "cut off"));
+}
+
+TEST(SinumerikSource, passes_over_character_data_and_reads_letters_by_their_number) {
+    const std::string trace = trace_of("<![CDATA[ <rec time=\"9\"/> ]]><rec time=\"&#x30;\" f1=\"&#50;\" f2=\"5\"/>");
+    bench.import(trace, trace_map);
+    STRCMP_EQUAL("2", joined(bench.column("x_current_A")).c_str());
+    for (const char* letter : {"&#0;", "&#x20AC;"}) {  // neither is a letter of a number
+        CHECK(contains(bench.error(with_text(trace, "&#50;", letter), trace_map), "f1 = '?' in the tag <rec>"));
+    }
+}
+
+TEST(SinumerikSource, takes_a_signal_by_its_number_and_needs_an_id_of_each) {
+    const std::string trace = trace_of("<rec time=\"0\" f1=\"1\" f2=\"5\"/>");
+    bench.import(trace, "[x_current_A]\nsource_number = 2\n");
+    STRCMP_EQUAL("5", joined(bench.column("x_current_A")).c_str());
+    CHECK(contains(bench.error(trace, "[x_current_A]\nsource_number = 3\n"), "source_number = 3; there are 2 signals"));
+    CHECK(contains(bench.error(with_text(trace, " id=\"f2\"", ""), trace_map), "a <dataSignal> without id"));
+    CHECK(contains(bench.error(with_text(trace, "f1=\"1\"", "f1=\"1,5\""), trace_map), "f1 = '1,5' in the tag <rec>"));
+    std::string signals;
+    for (int k = 0; k < 1000; ++k) {
+        signals += "<dataSignal id=\"s" + std::to_string(k) + "\"/>";
+    }
+    CHECK(contains(bench.error(with_text(trace, "<rec", signals + "<rec"), trace_map), "more than 1000 signals"));
+}
+
+TEST(SinumerikSource, without_an_interval_puts_no_record_in) {
+    std::string trace = trace_of("<rec time=\"0\" f1=\"1\" f2=\"5\"/><rec time=\"0.008\" f1=\"2\"/>");
+    trace = with_text(with_text(trace, "interval=\"0.002\"", ""), "interval=\"0.004\"", "");
+    bench.import(trace, trace_map);
+    STRCMP_EQUAL("1 2", joined(bench.column("x_current_A")).c_str());
+}
+
+TEST(SinumerikSource, refuses_a_signal_among_the_records) {
+    CHECK(contains(bench.error(trace_of("<rec time=\"0\" f1=\"1\"/><dataSignal id=\"f3\"/>"), trace_map),
+                   "a second <dataFrame>"));
 }
 
 TEST(SinumerikSource, has_its_own_time_and_no_other) {
@@ -209,4 +283,18 @@ TEST(CandumpSource, reads_one_interface_of_several) {
     const std::string map = with_text(bus_map, "[source]\n", "[source]\ninterface = \"can1\"\n");
     bench.import("(1.0) can0 181#0A00\n(1.0) can1 181#1400\n", map, {1000.0, 0.02});
     STRCMP_EQUAL("2", joined(bench.column("spindle_current_A")).c_str());
+}
+
+TEST(CandumpSource, needs_the_dbc_file_and_signals_by_name) {
+    const std::string log = "(1.0) can0 181#0A00\n";
+    CHECK(contains(bench.error(log, with_text(bus_map, "dbc = \"bus.dbc\"\n", "")),
+                   "map.toml: source.dbc: missing, expected the name of a DBC file"));
+    CHECK(contains(bench.error(log, with_text(bus_map, "source = \"X.Current\"", "source_number = 2")),
+                   "source_number = 2: a candump log has no columns, expected source = \"MESSAGE.SIGNAL\""));
+}
+
+TEST(CandumpSource, takes_no_value_from_a_remote_frame) {
+    const std::string map = "[source]\ndbc = \"bus.dbc\"\n[x_current_A]\nsource = \"X.Current\"\n";
+    bench.import("(1.000) can0 182#R\n(1.001) can0 182#1400\n", map);
+    STRCMP_EQUAL("2", joined(bench.column("x_current_A")).c_str());
 }

@@ -179,3 +179,12 @@ TEST(Dbc, survives_any_change_of_a_character) {
     }
     CHECK(refused > 500);
 }
+
+TEST(Dbc, reads_64_bits_as_an_integer_of_either_sign_and_as_a_double) {
+    const CanFrame all_ones = frame_of({0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF});
+    DOUBLES_EQUAL(-1.0, decoded("0|64@1- (1,0)", all_ones), 0.0);
+    const std::string of_double = " SG_ S : 0|64@1- (1,0) [0|0] \"\" X\nSIG_VALTYPE_ 496 S : 2;\n";
+    const DbcSignal signal = with_signals(of_double).find("S", "map");
+    DOUBLES_EQUAL(-2.5, signal.decode(frame_of({0, 0, 0, 0, 0, 0, 0x04, 0xC0})), 0.0);
+    CHECK(std::isnan(signal.decode(all_ones)));  // the bits of no number
+}

@@ -67,6 +67,7 @@ TEST(ImportMap, names_the_key_its_place_and_what_was_expected) {
     CHECK(contains(error_of(column + "wrap = 360\n"), "x_current_A.wrap: unknown key"));
     CHECK(contains(error_of(column + "source_number = 2\n"), "expected either source or source_number"));
     CHECK(contains(error_of("[x_current_A]\nunit = \"A\"\n"), "x_current_A.source: missing"));
+    CHECK(contains(error_of("[x_current_A]\nsource = \" \"\n"), "expected the name of a column"));
     CHECK(contains(error_of("[x_curent_A]\nsource = \"i\"\n"), "x_curent_A: unknown key; did you mean x_current_A?"));
     CHECK(contains(error_of("[source]\nformat = \"xls\"\n"),
                    "expected one of csv, odrive, sinumerik, halsampler, candump"));

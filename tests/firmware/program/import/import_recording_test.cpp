@@ -175,6 +175,45 @@ TEST(ImportRecording, refuses_times_that_do_not_grow_and_names_the_line) {
     CHECK(contains(bench.error("t,a,i,v\n0,0,1,1\nnan,1,1,1\n", table_map), "source0:3: time_s: no time"));
 }
 
+TEST(ImportRecording, refuses_samples_without_a_time_or_a_rate) {
+    CHECK(contains(bench.error("i\n1\n", "[x_current_A]\nsource = \"i\"\n"),
+                   "map.toml: time_s: missing, expected [time_s] with source, or with rate_hz"));
+}
+
+TEST(ImportRecording, refuses_a_time_that_does_not_fit_its_wrap) {
+    const std::string map = "[time_s]\nsource = \"t\"\nwrap = 10\n[x_current_A]\nsource = \"i\"\n";
+    CHECK(contains(bench.error("t,i\n0,1\n11,1\n", map),
+                   "source0:3: time_s: 11 after 0, expected values that begin again at wrap = 10"));
+}
+
+TEST(ImportRecording, takes_the_format_asked_for_before_what_the_map_says) {
+    ImportSettings settings;
+    settings.files = {bench.write("a.csv", table_of(3)).string()};
+    settings.map = bench.write("map.toml", table_map + "[source]\nformat = \"csv\"\n").string();
+    settings.format = SourceFormat::sinumerik;
+    CHECK(contains(message_of<InputError>([&] { static_cast<void>(import_recording(settings)); }), "no <dataFrame>"));
+}
+
+TEST(ImportRecording, needs_a_map_for_signals_with_names_of_their_own) {
+    const std::string trace =
+        "<a><dataFrame><dataSignal id=\"f1\" name=\"vel\"/><rec time=\"0\" f1=\"1\"/></dataFrame></a>";
+    CHECK(contains(bench.error(trace, ""), "names of their own; expected --map; there are vel"));
+    CHECK(contains(bench.error("(1.0) can0 181#0A00\n", ""), "names of their own; expected --map"));
+}
+
+TEST(ImportRecording, names_no_more_than_a_few_of_the_columns_that_it_does_not_use) {
+    std::string names = "time_s,x_current_A,same,same,";
+    std::string cells = "0,1,0,0,0";
+    for (int k = 0; k < 200; ++k) {
+        names += ",c" + std::to_string(k);
+        cells += ",0";
+    }
+    const auto recording = bench.import(names + "\n" + cells + "\n", "");
+    STRCMP_EQUAL("same", recording.unused_names[0].c_str());
+    STRCMP_EQUAL("c0", recording.unused_names[1].c_str());
+    CHECK(recording.unused_names.size() < 200);
+}
+
 TEST(ImportRecording, refuses_an_angle_that_does_not_fit_its_wrap) {
     CHECK(contains(bench.error("t,a,i,v\n0,0,1,1\n1,400,1,1\n", table_map),
                    "source0:3: spindle_angle_rad: 400 after 0, expected values that begin again at wrap = 360"));
@@ -227,6 +266,34 @@ TEST(ImportRecording, names_implausible_ranges_with_the_likely_mistake) {
     CHECK(contains(doubt("unit = \"ms\"", "unit = \"ns\""), "1e+09 rows per second: is the unit of time s?"));
     CHECK(contains(doubt("\"v\"", "\"v\"\nderived_from = \"position\"\nsmoothing_s = 0.001"),
                    "x_velocity_mm_s has no value at all: is smoothing_s shorter"));
+}
+
+TEST(ImportRecording, names_the_likely_mistake_of_each_unit) {
+    const std::string table = table_of(200);
+    const auto doubt = [&](const std::string& from, const std::string& to) {
+        return report(table, with_text(table_map, from, to));
+    };
+    CHECK(contains(doubt("\"v\"", "\"v\"\nunit = \"m/s\""), "its unit is \"m/s\": is it m/min or mm/s?"));
+    CHECK(contains(doubt("\"v\"", "\"v\"\nunit = \"m/min\"\nscale = 10"), "is it mm/min or mm/s?"));
+    CHECK(
+        contains(doubt("\"v\"", "\"v\"\nunit = \"in/min\"\nscale = 1000"), "is it right, and what it is divided by?"));
+    CHECK(contains(doubt("\"v\"", "\"t\"\nderived_from = \"position\"\nunit = \"mm\"\nscale = 5"),
+                   "is it mm or counts, and does the position begin again somewhere (wrap)?"));
+    CHECK(contains(doubt("\"i\"", "\"i\"\nunit = \"rated\"\nrated_A = 400"), "is it % or permille?"));
+    CHECK(
+        contains(doubt("\"i\"", "\"i\"\nunit = \"%\"\nrated_A = 400\nscale = 100"), "is it permille, and is rated_A"));
+    CHECK(contains(doubt("\"i\"", "\"i\"\nunit = \"permille\"\nrated_A = 400\nscale = 1000"),
+                   "is it right, and rated_A?"));
+    CHECK(contains(doubt("\"i\"", "\"i\"\n[fx_N]\nsource = \"v\"\nscale = 10000"), "more than 100 kN"));
+    CHECK(contains(doubt("\"i\"", "\"i\"\n[override]\nsource = \"v\""), "override reaches 15, more than 3"));
+    CHECK(contains(doubt("\"a\"", "\"i\""), "spindle_angle_rad does not change: is it another column?"));
+    CHECK(contains(doubt("unit = \"deg\"\nwrap = 360", "derived_from = \"index\"\nthreshold = 900"),
+                   "is the threshold right"));
+}
+
+TEST(ImportRecording, takes_plausible_forces_and_overrides_without_a_word) {
+    const std::string map = table_map + "[fx_N]\nsource = \"v\"\n[override]\nsource = \"v\"\nunit = \"%\"\n";
+    CHECK(!contains(report(table_of(200), map), "implausible"));
 }
 
 TEST_GROUP(RecordingStatistics){};

@@ -108,3 +108,35 @@ TEST(TableSource, without_a_map_takes_the_columns_that_have_our_names) {
     STRCMP_EQUAL("other", joined(recording.unused_names).c_str());
     CHECK(contains(bench.error("time_s,other\n0,1\n", ""), "no column of a recording but time_s; expected --map"));
 }
+
+TEST(TableSource, takes_one_column_by_name_and_another_by_number) {
+    const char* both = "[time_s]\nsource = \"t\"\n[x_current_A]\nsource_number = 3\n";
+    STRCMP_EQUAL("4 5", currents("t,j,j\n0,9,4\n1,9,5\n", both).c_str());
+    CHECK(contains(currents("t,j\n0,9\n1,9\n", both), "source0:1: no column 3; expected a line with at least that"));
+    CHECK(contains(currents("t,j,j\n0,9,4\n1,9,five\n", both), "source0:3: column 3: 'five', expected a number"));
+}
+
+TEST(TableSource, by_number_alone_finds_no_line_where_the_cells_are_no_numbers) {
+    const char* numbers = "[time_s]\nsource_number = 1\n[x_current_A]\nsource_number = 2\n";
+    CHECK(contains(currents("one,two\nthree,four\n", numbers), "no line with numbers in the columns asked for"));
+    CHECK(contains(currents("1\n2\n", numbers), "no column 2"));
+    CHECK(contains(currents("0,\n", numbers), "no column 2"));
+    STRCMP_EQUAL("4 5", currents("// 7,7\n# 8,8\n0,4\n1,5\n", numbers).c_str());
+}
+
+TEST(TableSource, leaves_out_empty_cells_behind_the_last_name) {
+    STRCMP_EQUAL("4 5", currents("t,i,,\n0,4,\n1,5,,,\n").c_str());
+}
+
+TEST(TableSource, skips_no_more_than_twenty_lines_between_the_names_and_the_numbers) {
+    std::string units = "t,i\n";
+    for (int k = 0; k < 25; ++k) {
+        units += "s,A\n";
+    }
+    STRCMP_EQUAL("source0:22: column 'i': 'A', expected a number", currents(units + "0,1\n").c_str());
+}
+
+TEST(TableSource, reads_no_number_of_hundreds_of_digits) {
+    const std::string endless(500, '1');
+    CHECK(contains(currents("t,i\n0,1\n1," + endless + "\n"), "expected a number"));
+}

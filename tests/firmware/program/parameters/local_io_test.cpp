@@ -168,3 +168,27 @@ TEST(LocalIo, reads_flags_as_truth_values_or_their_words_and_counts_as_whole_num
                              .drives[1]
                              .count_modulus);
 }
+
+TEST(LocalIo, that_cannot_be_meant_is_refused_with_its_key) {
+    const std::string no_channel = "[iio]\ndevice = \"adc\"\nbuffer = \"b\"\n";
+    STRCMP_CONTAINS("iio.device = \"adc\": has no channel, expected [iio.spindle]", refusal_of(no_channel).c_str());
+    STRCMP_CONTAINS("iio.x.A_per_V = 0: 0, expected the current per volt",
+                    refusal_of("[iio.x]\ncurrent_channel = \"v\"\nA_per_V = 0\n" + no_channel).c_str());
+    const std::string counter =
+        "[iio.x]\ncurrent_channel = \"v\"\nA_per_V = 1\ncount_file = \"count\"\nmm_per_count = ";
+    STRCMP_CONTAINS("expected the travel per count with count_file", refusal_of(counter + "0\n" + no_channel).c_str());
+    STRCMP_EQUAL("", refusal_of(counter + "0.01\n" + no_channel).c_str());
+
+    const std::string voltage = "[override_voltage]\nchannel = \"voltage0\"\n";
+    STRCMP_CONTAINS("override_voltage.device: is missing, expected both", refusal_of(voltage).c_str());
+    const std::string whole = voltage + "device = \"dac\"\n";
+    STRCMP_EQUAL("", refusal_of(whole).c_str());
+    STRCMP_CONTAINS("expected more than lowest_V", refusal_of(whole + "lowest_V = 5\nhighest_V = 5\n").c_str());
+    STRCMP_CONTAINS("V_per_ratio other than 0", refusal_of(whole + "V_per_ratio = 0\n").c_str());
+    STRCMP_CONTAINS("highest_raw = 7: expected more than lowest_raw",
+                    refusal_of(whole + "lowest_raw = 7\nhighest_raw = 7\n").c_str());
+
+    STRCMP_CONTAINS("feed_hold_line.chip: is missing", refusal_of("[feed_hold_line]\npulse_line = 3\n").c_str());
+    STRCMP_CONTAINS("feed_hold_line.pulse_line = 3: is the release's, expected another",
+                    refusal_of("[feed_hold_line]\nchip = \"c\"\npulse_line = 3\nrelease_line = 3\n").c_str());
+}

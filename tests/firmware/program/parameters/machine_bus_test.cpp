@@ -106,6 +106,11 @@ TEST(MachineBusFile, settings_that_do_not_fit_together_are_told_with_their_table
     CHECK(contains(error_of("velocity_mm_s_per_unit = -0.002", ""), "bus.x: velocity_mm_s_per_unit = 0"));
     CHECK(contains(error_of("sync_id = 0x81", "collect_time_ms = 2"), "bus: collect_time_ms, expected at most"));
     CHECK(contains(error_of("tpdo3_id = 0x3A0", "tpdo3_id = 0x185"), "bus.spindle: a CAN id is used twice"));
+    CHECK(contains(error_of("0x6064:32", "0x6064:48"), "bus.spindle: an object that is read has more than 32 bits"));
+    CHECK(contains(error_of("stale_ms", "heartbeat_period_ms = 500\nheartbeat_timeout_ms = 400\nstale_ms"),
+                   "bus.x: heartbeat_timeout_ms, expected more than heartbeat_period_ms"));
+    CHECK(contains(error_of("tpdo3_every", "largest_count_step = 10\ncount_modulus = 12\ntpdo3_every"),
+                   "bus.spindle: count_modulus or largest_count_step, expected steps of at most half the modulus"));
     CHECK(contains(error_of("role = \"master\"", ""), "bus.x: no rated value, and a listener cannot ask"));
 }
 

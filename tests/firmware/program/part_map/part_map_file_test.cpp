@@ -113,6 +113,28 @@ TEST(PartMapFile, places_at_which_nothing_changes_are_not_written) {
     STRCMP_EQUAL(folder.read("b.map").c_str(), folder.read("a.map").c_str());
 }
 
+TEST(PartMapFile, a_place_at_which_one_thing_changes_is_written_and_so_is_the_last_one) {
+    const auto places_of = [](const auto& change) {
+        PartMapFile file = example();
+        file.map[1].cut.clear();  // as in air the end is like the place before it
+        MapPlace between = file.map[1];
+        between.path_mm = 20.0;
+        change(between);
+        file.map = {file.map[1], between};
+        MapPlace end = between;
+        end.path_mm = 50.0;
+        file.map.push_back(end);
+        const TemporaryFolder folder;
+        write_part_map(folder.path("t.map"), file);
+        return read_part_map(folder.path("t.map")).map.size();
+    };
+    LONGS_EQUAL(2, places_of([](MapPlace&) {}));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.line = 6; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.rapid = true; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.programmed_feed_mm_s = 26.0; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.spindle_speed_rad_s = 400.0; }));
+}
+
 TEST(PartMapFile, another_file_or_version_is_refused) {
     STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("path_mm,line\n1,2\n").c_str());
     STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("# millforce part map 2\npath_mm\n1\n").c_str());
@@ -121,6 +143,11 @@ TEST(PartMapFile, another_file_or_version_is_refused) {
     std::string broken = head;
     broken.replace(broken.find("0b77e2d4"), 8, "0b77e2dg");
     STRCMP_CONTAINS("no line '# tool NAME crc32 HEX'", error_of(broken).c_str());
+    for (const char* origin : {"tool mill", "tool crc32 xyz", "tool mill crc32 123456789"}) {
+        broken = head;
+        broken.replace(broken.find("tool mill crc32 0b77e2d4"), 24, origin);
+        STRCMP_CONTAINS("no line '# tool NAME crc32 HEX'", error_of(broken).c_str());
+    }
 }
 
 TEST(PartMapFile, rows_that_cannot_be_are_refused_with_their_line) {
@@ -138,6 +165,10 @@ TEST(PartMapFile, rows_that_cannot_be_are_refused_with_their_line) {
     STRCMP_CONTAINS(":5: column 'exit_deg'", error_of_rows("5,9,1,0,60,1000,10.0001,10.0002,1\n").c_str());
     STRCMP_CONTAINS(":5: column 'block_end_mm'", error_of_rows("5,4,1,0,60,1000,,,\\n").c_str());
     STRCMP_CONTAINS(":5: column 'path_mm'", error_of_rows("nan,9,1,0,60,1000,,,\n").c_str());
+    STRCMP_CONTAINS(":6: column 'entry_deg': a second row",
+                    error_of_rows("5,9,1,0,60,1000,10,50,1\n5,9,1,0,60,1000,,,\n").c_str());
+    STRCMP_CONTAINS(":6: column 'entry_deg': a second row",
+                    error_of_rows("5,9,1,0,60,1000,,,\n5,9,1,0,60,1000,40,90,1\n").c_str());
     STRCMP_CONTAINS(":6: column 'entry_deg': a second row for this place",
                     error_of_rows("5,9,1,0,60,1000,10,50,1\n5,9,1,0,60,1000,40,90,1\n").c_str());
 }

@@ -55,7 +55,25 @@ TEST(LocalLine, gives_back_every_bit_of_what_is_known_and_nothing_else) {
     }
 }
 
+TEST(LocalLine, tells_where_the_index_was_once_there_was_one) {
+    hal::DriveSample sample;
+    sample.present = hal::mask(hal::Present::spindle_count);
+    sample.spindle_index_count = 4'000'000'000U;
+    CHECK(local_line(sample, 0).find("index") == std::string::npos);
+    sample.spindle_index_number = 255;
+    const std::string line = local_line(sample, 0);
+    const hal::DriveSample again = read(line.substr(0, line.size() - 1) + "\r");
+    UNSIGNED_LONGS_EQUAL(4'000'000'000U, again.spindle_index_count);
+    UNSIGNED_LONGS_EQUAL(255, again.spindle_index_number);
+    CHECK(is_refused("#local (1.0) spindle_index_number=256"));
+}
+
 TEST(LocalLine, that_nobody_wrote_so_is_refused) {
+    CHECK(is_refused("# 3 frames are missing here"));
+    CHECK(is_refused("#local (1.0)\rx"));
+    CHECK(is_refused("#local (1.0)x"));
+    CHECK(is_refused("#local (1.0) x_velocity_mm_s=inf"));
+    CHECK(is_refused("#local (1.0) spindle_current_A=A"));
     CHECK_FALSE(is_local_line("# 3 frames are missing here"));
     CHECK(is_local_line("#local (1.0) spindle_count=1"));
     CHECK(is_refused("#local (1.0 spindle_count=1"));

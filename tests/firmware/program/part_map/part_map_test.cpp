@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part_map/part_map.hpp"
+#include "firmware/tick_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce::host;
+using namespace millforce::test;
+
+namespace {
+
+MapPlace air_at(double path_mm) {
+    MapPlace place;
+    place.path_mm = path_mm;
+    place.block_end_mm = 100.0;
+    place.programmed_feed_mm_s = 20.0;
+    place.spindle_speed_rad_s = 400.0;
+    return place;
+}
+
+MapPlace cut_at(double path_mm, double axial_depth_mm) {
+    MapPlace place = air_at(path_mm);
+    place.cut = {{0.0, 1.0, axial_depth_mm}};
+    return place;
+}
+
+}  // namespace
+
+TEST_GROUP(PartMap) {
+    Parameters parameters = machine_and_tool();
+};
+
+TEST(PartMap, places_are_the_same_cut_where_feed_speed_and_arcs_are_alike) {
+    const MapPlace one = cut_at(1.0, 2.0);
+    CHECK(is_same_cut(one, cut_at(5.0, 2.005)));
+    CHECK_FALSE(is_same_cut(one, cut_at(1.0, 2.02)));
+    CHECK_FALSE(is_same_cut(one, air_at(1.0)));
+    MapPlace other = one;
+    other.rapid = true;
+    CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.programmed_feed_mm_s = 21.0;
+    CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.spindle_speed_rad_s = 401.0;
+    CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.cut[0].entry_rad = 0.01;
+    CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.cut[0].exit_rad = 1.01;
+    CHECK_FALSE(is_same_cut(one, other));
+}
+
+TEST(PartMap, of_nothing_has_no_stretch) {
+    CHECK(stretches_of({}, parameters).empty());
+}
+
+TEST(PartMap, in_air_goes_at_the_highest_override_and_in_a_rapid_as_programmed) {
+    MapPlace rapid = air_at(0.0);
+    rapid.rapid = true;
+    parameters.machine.cnc.override_max = 1.5F;
+    const auto stretches = stretches_of({rapid, air_at(10.0), air_at(30.0)}, parameters);
+    LONGS_EQUAL(3, stretches.size());
+    DOUBLES_EQUAL(20.0, static_cast<double>(stretches[0].feed_mm_s), 1e-4);
+    DOUBLES_EQUAL(30.0, static_cast<double>(stretches[1].feed_mm_s), 1e-4);
+    DOUBLES_EQUAL(0.0, static_cast<double>(stretches[1].tangential_N), 0.0);
+    DOUBLES_EQUAL(30.0, static_cast<double>(stretches[2].begin_mm), 1e-4);  // the program's end
+}
+
+TEST(PartMap, has_no_force_where_the_spindle_stands) {
+    MapPlace standing = cut_at(0.0, 2.0);
+    standing.spindle_speed_rad_s = 0.0;
+    const auto stretches = stretches_of({standing}, parameters);
+    LONGS_EQUAL(1, stretches.size());
+    DOUBLES_EQUAL(0.0, static_cast<double>(stretches[0].tangential_N), 0.0);
+}
+
+TEST(PartMap, joins_places_of_one_cut_and_begins_a_stretch_with_another) {
+    const auto one = stretches_of({cut_at(0.0, 2.0), cut_at(5.0, 2.0), cut_at(10.0, 2.0)}, parameters);
+    LONGS_EQUAL(2, one.size());  // it and its end
+    CHECK(one[0].tangential_N > 0.0F);
+    const auto two = stretches_of({cut_at(0.0, 2.0), cut_at(5.0, 4.0)}, parameters);
+    LONGS_EQUAL(2, two.size());
+    CHECK(two[1].feed_mm_s < two[0].feed_mm_s);  // twice as deep
+}
+
+TEST(PartMap, of_two_places_at_one_point_of_the_path_keeps_the_first) {
+    const auto stretches = stretches_of({cut_at(0.0, 2.0), cut_at(0.0, 4.0), cut_at(9.0, 4.0)}, parameters);
+    DOUBLES_EQUAL(0.0, static_cast<double>(stretches[0].begin_mm), 0.0);
+    CHECK(stretches.size() < 2 || stretches[1].begin_mm > 0.0F);
+    DOUBLES_EQUAL(static_cast<double>(stretches_of({cut_at(0.0, 2.0)}, parameters)[0].tangential_N),
+                  static_cast<double>(stretches[0].tangential_N), 1e-3);
+}
