@@ -196,3 +196,15 @@ TEST(StuckSignal, stays_stuck_however_long_it_lasts) {
         CHECK(signal.is_stuck());
     }
 }
+
+TEST(StuckSignal, begins_anew_where_the_signal_had_no_reason_to_vary) {
+    StuckSignal signal;
+    NoisySignal noisy(0.1F);
+    for (int k = 0; k < 1000; ++k) {
+        signal.follow(noisy.next(), true);
+    }
+    for (int k = 0; k < 60; ++k) {
+        signal.follow(10.0F, k != 30);
+        CHECK_FALSE(signal.is_stuck());
+    }
+}
