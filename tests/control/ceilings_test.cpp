@@ -144,6 +144,18 @@ TEST(Ceilings, a_rapid_gives_1) {
     }
 }
 
+TEST(Ceilings, in_air_without_a_force_the_override_falls_to_its_minimum_unless_the_spindle_does_not_mill) {
+    for (const bool mills : {true, false}) {
+        Controller controller;
+        const float in_sight = repeat(controller, in_air(), 2000).ratio;
+        Input blind = without_force(in_air());
+        blind.cut.spindle_does_not_mill = !mills;
+        const Output output = repeat(controller, blind, 50);  // 1 of the 2 mm that are fed before the hold
+        check_ratio(mills ? Parameters{}.override_min : in_sight, output);
+        CHECK(output.state == CutState::air);
+    }
+}
+
 TEST(Ceilings, contact_that_begins_in_a_rapid_ends_its_freedom) {
     Controller controller;
     Input input = in_air();

@@ -159,6 +159,11 @@ template <typename Scalar>
 Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
                                                  const Situation& situation) const {
     Ceiling<Scalar> lowest{parameters.override_max, Limit::override_max};
+    const bool is_fed_blind =
+        is_out_of_cut(situation.state) && !input.cut.force_valid && !input.cut.spindle_does_not_mill;
+    if (is_fed_blind) {
+        lowest.lower_to(parameters.override_min, Limit::no_estimate);
+    }
     if (!feed_and_speed_are_known(input)) {
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
         return lowest;
