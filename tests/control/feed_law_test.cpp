@@ -189,6 +189,22 @@ Output settle(Controller& controller, Input& input) {
     return output;
 }
 
+/// `spindle_speed_rad_s`: out of the cut.
+void check_that_a_turn_ends_the_exit(float spindle_speed_rad_s) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 100.0F;
+    Input input = in_contact();
+    Controller controller(p);
+    Output output = settle(controller, input);
+    input.cut.tangential_N = 0.0F;
+    input.cut.spindle_speed_rad_s = spindle_speed_rad_s;
+    for (int k = 0; k < 20; ++k) {
+        output = follow(controller, input, output, false);
+        CHECK(output.state == CutState::exit);
+    }
+    CHECK(follow(controller, input, output, true).state == CutState::air);
+}
+
 }  // namespace
 
 TEST(FeedLaw, takes_the_feed_that_a_slot_would_allow_after_a_sharp_turn) {
@@ -231,17 +247,7 @@ TEST(FeedLaw, does_not_raise_the_feed_while_the_cut_fades) {
 }
 
 TEST(FeedLaw, forgets_at_a_sharp_turn_out_of_the_cut_what_was_cut_before) {
-    Parameters p = immediate();
-    p.exit_travel_mm = 100.0F;
-    Input input = in_contact();
-    Controller controller(p);
-    Output output = settle(controller, input);
-    input.cut.tangential_N = 0.0F;
-    for (int k = 0; k < 20; ++k) {
-        output = follow(controller, input, output, false);
-    }
-    CHECK(output.state == CutState::exit);
-    CHECK(follow(controller, input, output, true).state == CutState::air);
+    check_that_a_turn_ends_the_exit(in_contact().cut.spindle_speed_rad_s);
 }
 
 TEST(FeedLaw, follows_a_turn_s_estimates_and_keeps_the_ceiling_where_they_say_nothing_of_a_slot) {
@@ -322,18 +328,7 @@ TEST(FeedLaw, a_growing_cut_holds_nothing_where_no_surge_can_come) {
 }
 
 TEST(FeedLaw, a_sharp_turn_is_noticed_though_the_speed_of_the_spindle_is_not_known) {
-    Parameters p = immediate();
-    p.exit_travel_mm = 100.0F;
-    Input input = in_contact();
-    Controller controller(p);
-    Output output = settle(controller, input);
-    input.cut.tangential_N = 0.0F;
-    input.cut.spindle_speed_rad_s = 0.0F;
-    for (int k = 0; k < 20; ++k) {
-        output = follow(controller, input, output, false);
-        CHECK(output.state == CutState::exit);
-    }
-    CHECK(follow(controller, input, output, true).state == CutState::air);
+    check_that_a_turn_ends_the_exit(0.0F);
 }
 
 TEST(FeedLaw, may_return_to_the_feed_before_a_growth_while_it_lasts) {

@@ -77,10 +77,6 @@ FaultyMachine::Corrupt corruption(const Part& part, const Fault& fault, std::uin
                double since_s) mutable { corruption.corrupt(sample, program, before, since_s); };
 }
 
-double longest_run_s(const Part& part) {
-    return part.duration_s > 0.0 ? 1.5 * part.duration_s : sim::SimulationSettings{}.longest_run_s;
-}
-
 bool is_in_message_alone(SignalFault fault) {
     switch (fault) {
         case SignalFault::not_a_number:
@@ -96,29 +92,6 @@ bool is_in_message_alone(SignalFault fault) {
 
 bool is_of_x(SignalFault fault) {
     return fault >= SignalFault::x_tenfold && fault <= SignalFault::x_and_y_swapped;
-}
-
-Outcome mill(const Part& part, sim::OverrideSource& controller, const std::function<void()>& begin, const Fault& fault,
-             std::uint64_t seed) {
-    constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
-    std::mt19937_64 random(seed);
-    sim::Scenario scenario = part.scenario;
-    scenario.seed = seed;
-    scenario.deviation = sim::drawn_deviation(scenario, seed);
-    FaultyMachine machine(controller,
-                          {.begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random),
-                           .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
-                           .begin = begin,
-                           .corrupt = corruption(part, fault, seed),
-                           .leaves_blind = leaves_blind(fault)});
-    sim::SimulationSettings stopped_early;
-    stopped_early.longest_run_s = longest_run_s(part);
-    stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };
-    Outcome outcome;
-    outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
-    outcome.reaction = machine.reaction();
-    outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
-    return outcome;
 }
 
 template <typename Kind>
@@ -189,14 +162,32 @@ std::vector<Fault> faults_on(Path path, const Part& part) {
     return faults;
 }
 
-Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed) {
-    const Seat seat = seat_on(path, part, fault, seed);
-    return mill(part, *seat.controller, seat.begin, fault, seed);
-}
-
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
                              const std::function<void()>& begin) {
-    return mill(part, controller, begin, fault, seed);
+    constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
+    std::mt19937_64 random(seed);
+    sim::Scenario scenario = part.scenario;
+    scenario.seed = seed;
+    scenario.deviation = sim::drawn_deviation(scenario, seed);
+    FaultyMachine machine(controller,
+                          {.begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random),
+                           .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
+                           .begin = begin,
+                           .corrupt = corruption(part, fault, seed),
+                           .leaves_blind = leaves_blind(fault)});
+    sim::SimulationSettings stopped_early;
+    stopped_early.longest_run_s = 1.5 * part.duration_s;
+    stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };
+    Outcome outcome;
+    outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
+    outcome.reaction = machine.reaction();
+    outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
+    return outcome;
+}
+
+Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed) {
+    const Seat seat = seat_on(path, part, fault, seed);
+    return mill_with_controller(part, *seat.controller, fault, seed, seat.begin);
 }
 
 void Tally::add(const Outcome& outcome) {
@@ -207,7 +198,6 @@ void Tally::add(const Outcome& outcome) {
     const sim::RunFigures& figures = outcome.run.figures;
     broken_parts += figures.teeth_broken > 0 ? 1 : 0;
     over += figures.peak_over_limit > sim::largest_peak_over_limit ? 1 : 0;
-    faults += outcome.reaction.fault != 0 ? 1 : 0;
     beyond_bound += outcome.reaction.is_beyond_bound ? 1 : 0;
     ran_in_fault += outcome.reaction.ran_in_fault ? 1 : 0;
     rose_blind += outcome.reaction.rose_blind ? 1 : 0;

@@ -60,7 +60,6 @@ struct Tally {
     int runs = 0;          ///< in which the fault began before the part's end
     int broken_parts = 0;  ///< a tooth broke
     int over = 0;          ///< peak more than 10 % beyond the limit
-    int faults = 0;        ///< latched at the end
     int beyond_bound = 0;  ///< an override outside its bounds
     int ran_in_fault = 0;
     int rose_blind = 0;

@@ -5,30 +5,13 @@
 #include <memory>
 
 #include "firmware_link/link_controller.hpp"
+#include "sample_message.hpp"
 
 namespace millforce::faults {
 
 namespace {
 
 constexpr std::uint32_t guard_timeout_us = 100'000;
-
-local_link::SampleMessage message_of(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    local_link::SampleMessage m;
-    m.time_us = sample.time_us;
-    m.spindle_count = sample.spindle_count;
-    m.spindle_index_count = sample.spindle_index_count;
-    m.spindle_index_number = sample.spindle_index_number;
-    m.present = sample.present;
-    m.rapid = program.rapid;
-    m.feed_hold = program.feed_hold;
-    m.spindle_current_A = sample.spindle_current_A;
-    m.axis_current_A = sample.axis_current_A;
-    m.axis_velocity_mm_s = sample.axis_velocity_mm_s;
-    m.programmed_feed_mm_s = program.programmed_feed_mm_s;
-    m.line = program.line;
-    m.distance_to_go_mm = program.distance_to_go_mm;
-    return m;
-}
 
 }  // namespace
 
@@ -46,7 +29,7 @@ const char* name_of(LinkFault fault) {
 
 hal::FeedOverride ControllerOnLink::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
     if (fault_ != LinkFault::samples_repeated) {
-        message_ = message_of(sample, program);
+        message_ = test::message_of(sample, program);
     }
     message_.sequence = ++sequence_;
     if (fault_ == LinkFault::nothing_present) {

@@ -22,10 +22,10 @@ class NoisySignal {
 };
 
 /// How many equal values it takes from now on; 10 000: never.
-int values_until_stuck(StuckSignal& signal, float value) {
+int values_until_stuck(StuckSignal& signal, float value, void (StuckSignal::*see)(float) = &StuckSignal::add) {
     int count = 0;
     while (!signal.is_stuck() && count < 10'000) {
-        signal.add(value);
+        (signal.*see)(value);
         ++count;
     }
     return count;
@@ -53,11 +53,7 @@ TEST(StuckSignal, is_judged_by_what_it_learnt_before_where_it_only_watches) {
         signal.add(noisy.next());
     }
     signal.pause();
-    const float frozen = noisy.next();
-    int count = 0;
-    for (; count < 1000 && !signal.is_stuck(); ++count) {
-        signal.watch(frozen);
-    }
+    const int count = values_until_stuck(signal, noisy.next(), &StuckSignal::watch);
     CHECK(count > 30 && count < 40);
 }
 

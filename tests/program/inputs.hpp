@@ -82,6 +82,16 @@ K_re_N_mm = 28
 
 inline const std::string scenario_text = straight_cut(4000, 1200, 8, 26);
 
+/// Two drives of a [bus] to which the controller listens.
+inline const std::string spindle_and_x_on_bus = R"([bus.spindle]
+node_id = 1
+tpdo1 = ["0x6064:32", "0x6078:16"]
+[bus.x]
+node_id = 2
+tpdo1 = ["0x606C:32", "0x6078:16"]
+velocity_mm_s_per_unit = 0.001
+)";
+
 /// A folder with machine.toml, tool.toml and scenario.toml.
 class Inputs : public TemporaryFolder {
   public:

@@ -7,15 +7,7 @@ using namespace millforce::test;
 
 namespace {
 
-const std::string bus_text = R"([bus]
-[bus.spindle]
-node_id = 1
-tpdo1 = ["0x6064:32", "0x6078:16"]
-[bus.x]
-node_id = 2
-tpdo1 = ["0x606C:32", "0x6078:16"]
-velocity_mm_s_per_unit = 0.001
-)";
+const std::string bus_text = "[bus]\n" + spindle_and_x_on_bus;
 
 /// machine.toml with a listener's bus, and log.csv as a candump log of a spindle at 4000 rpm with x at 20 mm/s.
 class LiveInputs : public Inputs {

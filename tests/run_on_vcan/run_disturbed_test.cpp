@@ -29,17 +29,7 @@ bool is_override(const std::string& frame) {
     return frame.starts_with("1FE#");
 }
 
-const std::string listeners_bus = R"([bus]
-sync_period_ms = 20.0
-collect_time_ms = 20.0
-[bus.spindle]
-node_id = 1
-tpdo1 = ["0x6064:32", "0x6078:16"]
-[bus.x]
-node_id = 2
-tpdo1 = ["0x606C:32", "0x6078:16"]
-velocity_mm_s_per_unit = 0.001
-)";
+const std::string listeners_bus = "[bus]\nsync_period_ms = 20.0\ncollect_time_ms = 20.0\n" + test::spindle_and_x_on_bus;
 
 /// A CNC's SYNC with the answers of its drives: a spindle at 400 rpm, x at 20 mm/s, idle currents.
 void send_samples_for_ever() {

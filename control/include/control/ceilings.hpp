@@ -26,8 +26,7 @@
 ///              turn and fading, which guard a tool that does not see. The force, which is measured, stays.
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   blind      override_min out of the cut without F_at, unless the spindle stands or turns backwards: the tool may
-///   meet the
-///              workpiece unnoticed (limit no_estimate)
+///              meet the workpiece unnoticed (limit no_estimate)
 ///   program    a rapid goes at 1: the program says that nothing is in the way. Not where contact begins in it
 ///              (state entry), nor, on a CNC that tells a rapid's F, at an F of the blocks: then all ceilings hold.
 ///   operator   the operator's override below 1; NaN or infinite counts as 0

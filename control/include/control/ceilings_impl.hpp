@@ -9,15 +9,6 @@
 
 namespace millforce::control {
 
-/// The axes are faster than programmed feed and largest override make them: the axes still brake, or F is wrong.
-template <typename Scalar>
-static bool is_faster_than_F_allows(const FeedControllerParameters<Scalar>& parameters,
-                                    const ControlInput<Scalar>& input) {
-    constexpr Scalar tolerance = Scalar(1.25F);
-    constexpr Scalar tolerance_mm_s = Scalar(1);
-    return input.path_speed_mm_s > tolerance * parameters.override_max * input.programmed_feed_mm_s + tolerance_mm_s;
-}
-
 template <typename Scalar>
 static bool predicts_a_ceiling(const SurfaceForControl<Scalar>& surface) {
     return surface.valid && is_known(surface.feed_ceiling_mm_s);
@@ -171,7 +162,9 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, c
     if (input.way.known) {
         lowest.lower_to(input.way.feed_mm_s / input.programmed_feed_mm_s, Limit::way_ahead);
     }
-    if (is_faster_than_F_allows(parameters, input)) {
+    constexpr Scalar surely_too_fast = Scalar(1.25F);
+    if (is_faster_than_programmed(input.path_speed_mm_s, input.programmed_feed_mm_s, parameters.override_max,
+                                  surely_too_fast)) {
         lowest.lower_to(situation.override_ratio, Limit::feed_mismatch);
     }
     lower_by_state(lowest, parameters, input, situation);

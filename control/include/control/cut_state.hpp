@@ -85,7 +85,7 @@ enum class Limit : std::uint8_t {
     entry_feed = 5,
     surge = 6,  ///< an engagement may come that the controller could not follow
     operator_limit = 7,
-    no_estimate = 8,  ///< held where it was, since there is no estimate
+    no_estimate = 8,  ///< there is no estimate: held where it was, out of the cut at its minimum
     feed_per_tooth = 9,
     roughness = 10,      ///< the upper bound of the predicted R_a is at its limit
     law_misfit = 11,     ///< held where it was: the forces contradict each other, or the law of the cut

@@ -149,6 +149,15 @@ template <typename Scalar>
     return is_known(input.programmed_feed_mm_s) && is_known(input.cut.spindle_speed_rad_s);
 }
 
+/// The axes are faster than `ratio` times what programmed feed and largest override allow: they still brake, or one of
+/// the feeds is told wrongly.
+template <typename Scalar>
+[[nodiscard]] bool is_faster_than_programmed(Scalar feed_mm_s, Scalar programmed_feed_mm_s, Scalar override_max,
+                                             Scalar ratio) {
+    constexpr Scalar tolerance_mm_s = Scalar(1);
+    return feed_mm_s > ratio * override_max * programmed_feed_mm_s + tolerance_mm_s;
+}
+
 /// The override at which the teeth take `feed_per_tooth_mm` each: f_z z n/F. Needs feed_and_speed_are_known.
 template <typename Scalar>
 [[nodiscard]] Scalar override_of_feed_per_tooth(Scalar feed_per_tooth_mm, Scalar teeth,

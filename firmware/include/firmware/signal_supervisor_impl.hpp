@@ -267,10 +267,10 @@ template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramStatus& program) {
     constexpr Scalar patience_s = estimation::literal<Scalar>(0.15L);
     constexpr Scalar largest_ratio = Scalar(1.5F);
-    constexpr Scalar tolerance_mm_s = Scalar(1);
     const Scalar F_mm_s = Scalar(program.programmed_feed_mm_s);
     const bool is_known = F_mm_s > Scalar(0) && !program.rapid;
-    const bool is_too_fast = is_known && e.feed_mm_s > largest_ratio * override_max_ * F_mm_s + tolerance_mm_s;
+    const bool is_too_fast =
+        is_known && control::is_faster_than_programmed(e.feed_mm_s, F_mm_s, override_max_, largest_ratio);
     if (!is_too_fast) {
         too_fast_s_ = Scalar(0);
         return;

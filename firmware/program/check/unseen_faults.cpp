@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/unseen_faults.hpp"
 
-#include "files/console.hpp"
-
 namespace millforce::host {
 
 std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parameters) {
@@ -26,12 +24,6 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
         "a programmed feed that is told too high, and velocities that are told too low, only slow the machine down; "
         "nothing reports them");
     return faults;
-}
-
-void show_unseen_faults(const firmware::Parameters<float>& parameters) {
-    for (const std::string& fault : unseen_faults(parameters)) {
-        print_line(stderr, "millforce: not seen here: " + fault);
-    }
 }
 
 }  // namespace millforce::host

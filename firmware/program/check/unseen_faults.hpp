@@ -9,10 +9,8 @@
 namespace millforce::host {
 
 /// Faults that no other signal of a machine with these parameters contradicts, and what bounds the feed all the same:
-/// one sentence each. tests/README.md has what they led to in simulated parts.
+/// one sentence each, to be shown once `run` or `serve` is ready. tests/README.md has what they led to in simulated
+/// parts.
 [[nodiscard]] std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parameters);
-
-/// Prints them on standard error, once `run` or `serve` is ready.
-void show_unseen_faults(const firmware::Parameters<float>& parameters);
 
 }  // namespace millforce::host

@@ -110,13 +110,15 @@ int run_on_bus(const RunOptions& options) {
         JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, ToolForces(tools)});
     const auto daemon =
         std::make_unique<CanDaemon>(interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time});
+    for (const std::string& fault : unseen_faults(tools.parameters())) {
+        print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
+    }
     if (!options.pace.lock_step) {  // it never waits: it would leave a recorder no processor
         for (const std::string& note : become_real_time()) {
             print_line(stderr, fmt::format("millforce: note: {}", note));
         }
     }
     notify_service_manager("READY=1");
-    show_unseen_faults(tools.parameters());
     daemon->run(stop);
     notify_service_manager("STOPPING=1");
     journal->finish();

@@ -180,7 +180,9 @@ int serve(const ServeOptions& options) {
     notify_service_manager("READY=1");
     printer.print(fmt::format("millforce: {}: waiting", options.socket));
     notify_service_manager("STATUS=waiting for a CNC");
-    show_unseen_faults(parameters);
+    for (const std::string& fault : unseen_faults(parameters)) {
+        printer.print(fmt::format("millforce: not seen here: {}", fault));
+    }
     while (server.wait_for_peer()) {
         notify_service_manager("STATUS=connected");
         printer.print("millforce: connected");

@@ -7,6 +7,7 @@
 #include "firmware/ready_tools.hpp"
 #include "firmware/tick_bench.hpp"
 #include "firmware_link/link_controller.hpp"
+#include "sample_message.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -44,18 +45,6 @@ local_link::OverrideMessage answer(firmware::LinkController& controller, const l
     CHECK(controller.on_message(bytes, answered) == MessageError::none);
     local_link::OverrideMessage message;
     CHECK(decode(answered, message) == MessageError::none);
-    return message;
-}
-
-local_link::SampleMessage message_of(const hal::DriveSample& sample) {
-    local_link::SampleMessage message;
-    message.time_us = sample.time_us;
-    message.spindle_count = sample.spindle_count;
-    message.present = sample.present;
-    message.spindle_current_A = sample.spindle_current_A;
-    message.axis_current_A = sample.axis_current_A;
-    message.axis_velocity_mm_s = sample.axis_velocity_mm_s;
-    message.programmed_feed_mm_s = test::feed_mm_s;
     return message;
 }
 
@@ -120,7 +109,7 @@ TEST(LinkController, tells_the_engagement_and_the_tooth_force_that_the_tick_find
     const float in_air_A = test::sample_of(0).axis_current_A[0];
     local_link::OverrideMessage m;
     for (int k = 0; k < 1000; ++k) {
-        cnc.message = message_of(test::sample_of(k));
+        cnc.message = test::message_of(test::sample_of(k), test::program());
         float& current_A = cnc.message.axis_current_A[0];
         current_A = in_air_A + 2.0F * (current_A - in_air_A);  // a narrow cut, whose tooth force is certain
         m = answer(controller, encode(cnc.message));
