@@ -226,7 +226,7 @@ TEST(RunDisturbed, messages_that_nobody_takes_cost_no_override_and_no_farewell) 
 
 TEST(RunDisturbed, logs_that_are_renamed_go_on_in_new_files_after_sigusr1_without_a_line_lost) {
     start();
-    CHECK(estimates_go_on(20));
+    CHECK(estimates_go_on(40));
     for (const char* file : {"run.jsonl", "run.log"}) {
         std::filesystem::rename(folder.file(file), folder.file(std::string(file) + ".1"));
     }
@@ -234,7 +234,7 @@ TEST(RunDisturbed, logs_that_are_renamed_go_on_in_new_files_after_sigusr1_withou
         return size_of(folder.file("run.log.1")) > size + 1000;  // still the old one
     }));
     controller->interrupt(SIGUSR1);
-    CHECK(estimates_go_on(20));
+    CHECK(estimates_go_on(40));
     end();
     for (const char* file : {"run.jsonl", "run.log"}) {
         const std::string old = folder.text(std::string(file) + ".1");
