@@ -75,7 +75,7 @@ void Interpreter::set_modes(const SortedBlock& block) {
     if (const GcodeWord* word = block.address('F')) {
         const double feed_mm_min = word->value * mm_per_unit_;
         if (!(feed_mm_min > 0.0 && feed_mm_min <= largest_feed_mm_min)) {
-            fail(*word, "a feed above 0 and at most 1000000 mm/min");
+            fail(*word, fmt::format("a feed above 0 and at most {} mm/min", largest_feed_mm_min));
         }
         feed_mm_s_ = feed_mm_min / 60.0;
     }

@@ -85,9 +85,9 @@ TEST(GcodeErrors, cutting_without_feed_or_spindle) {
                  refusal_of("F60 G1 X1\nM2").c_str());
     STRCMP_EQUAL("part.ngc:2:1: found 'X2', expected a turning spindle (M3 and S above 0) before a feed move",
                  refusal_of("F60 M3 S60 G1 X1\nX2 M5\nM2").c_str());
-    check_refusal("F0", "part.ngc:2:1: found 'F0', expected a feed above 0 and at most 1000000 mm/min");
-    check_refusal("F-5", "part.ngc:2:1: found 'F-5', expected a feed above 0 and at most 1000000 mm/min");
-    check_refusal("F1000001", "part.ngc:2:1: found 'F1000001', expected a feed above 0 and at most 1000000 mm/min");
+    check_refusal("F0", "part.ngc:2:1: found 'F0', expected a feed above 0 and at most 10000000 mm/min");
+    check_refusal("F-5", "part.ngc:2:1: found 'F-5', expected a feed above 0 and at most 10000000 mm/min");
+    check_refusal("F10000001", "part.ngc:2:1: found 'F10000001', expected a feed above 0 and at most 10000000 mm/min");
     check_refusal("S-1", "part.ngc:2:1: found 'S-1', expected a spindle speed from 0 to 1000000 rev/min");
 }
 
