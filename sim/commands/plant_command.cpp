@@ -8,9 +8,9 @@
 
 #include "commands/command_line.hpp"
 #include "commands/plant_commands.hpp"
-#include "commands/results_folder.hpp"
 #include "commands/scenario_info.hpp"
 #include "daemon/unix_socket.hpp"
+#include "files/results_folder.hpp"
 #include "linuxcnc/linuxcnc_plant.hpp"
 #include "loop/bounds.hpp"
 #include "report/report.hpp"

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "report/page_assets.hpp"
+#include "report/page_parts.hpp"
 #include "report/page_template.hpp"
 #include "report/report_assets.hpp"
 #include "report/report_data.hpp"
@@ -17,39 +18,19 @@ namespace millforce::sim {
 
 namespace {
 
-/// Times that are compared are written alike: in minutes where the longest of them is.
-std::string readable_time(double time_s, double longest_s) {
-    if (!std::isfinite(time_s)) {
-        return "–";
-    }
-    if (!(longest_s >= 120.0)) {
-        return fmt::format("{:.1f} s", time_s);
-    }
-    const double minutes = std::floor(std::round(time_s) / 60.0);
-    return fmt::format("{:.0f} min {:.0f} s", minutes, std::round(time_s) - 60.0 * minutes);
-}
-
-std::string fact(std::string_view name, std::string_view value) {
-    return value.empty() ? std::string{}
-                         : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, host::html_escaped(value));
-}
-
 std::string facts_html(const ScenarioInfo& info) {
     const double speed_rpm = spindle_speed_rpm(info);
-    std::string out = fact("Tool", info.tool) + fact("Material", info.material);
-    out += fact("Force limit of one tooth", fmt::format("{:.0f} N", info.tooth_force_limit_N));
+    std::string out = host::fact_html("Tool", info.tool) + host::fact_html("Material", info.material);
+    out += host::fact_html("Force limit of one tooth", fmt::format("{:.0f} N", info.tooth_force_limit_N));
     if (speed_rpm > 0.0) {
-        out += fact("Spindle", fmt::format("{:.0f} rpm", speed_rpm));
+        out += host::fact_html("Spindle", fmt::format("{:.0f} rpm", speed_rpm));
     }
     if (info.constant_feed_mm_s > 0.0) {
-        out += fact("Constant feed, safe everywhere", fmt::format("{:.0f} mm/min", 60.0 * info.constant_feed_mm_s));
+        out += host::fact_html("Constant feed, safe everywhere",
+                               fmt::format("{:.0f} mm/min", 60.0 * info.constant_feed_mm_s));
     }
-    out += fact("Seed", fmt::to_string(info.seed));
+    out += host::fact_html("Seed", fmt::to_string(info.seed));
     return out;
-}
-
-std::string stat(std::string_view style, std::string_view value, std::string_view meaning) {
-    return fmt::format("<div class=\"stat {}\"><strong>{}</strong><span>{}</span></div>\n", style, value, meaning);
 }
 
 bool limit_held(const RunFigures& figures) {
@@ -63,19 +44,20 @@ std::string headline_html(std::span<const RunResult> runs) {
     const std::optional<double> saved = time_saved_percent(runs.front(), runs);
     const double constant_s = constant == nullptr ? 0.0 : constant->figures.time_s;
     const double longest_s = saved ? std::max(figures.time_s, constant_s) : figures.time_s;
-    const std::string time = readable_time(figures.time_s, longest_s);
+    const std::string time = host::readable_time(figures.time_s, longest_s);
     std::string out;
     if (saved) {
-        out +=
-            stat(limit_held(figures) && *saved >= 0.0 ? "hero held" : "hero", fmt::format("{:.1f} %", std::abs(*saved)),
-                 *saved < 0.0 ? "more machining time than a constant feed that is safe everywhere"
-                              : "less machining time than a constant feed that is safe everywhere");
-        out += stat("", time, fmt::format("instead of {}", readable_time(constant_s, longest_s)));
+        out += host::stat_html(limit_held(figures) && *saved >= 0.0 ? "hero held" : "hero",
+                               fmt::format("{:.1f} %", std::abs(*saved)),
+                               *saved < 0.0 ? "more machining time than a constant feed that is safe everywhere"
+                                            : "less machining time than a constant feed that is safe everywhere");
+        out += host::stat_html("", time, fmt::format("instead of {}", host::readable_time(constant_s, longest_s)));
     } else {
-        out += stat("hero", time, figures.finished ? "machining time" : "until the run stopped");
+        out += host::stat_html("hero", time, figures.finished ? "machining time" : "until the run stopped");
     }
-    out += stat(limit_held(figures) ? "held" : "over", fmt::format("{:.0f} %", 100.0 * figures.peak_over_limit),
-                "of its limit: the largest force on one tooth");
+    out +=
+        host::stat_html(limit_held(figures) ? "held" : "over", fmt::format("{:.0f} %", 100.0 * figures.peak_over_limit),
+                        "of its limit: the largest force on one tooth");
     return out;
 }
 
@@ -115,7 +97,8 @@ std::string cell_text(const std::string& cell) {
 }
 
 std::string figures_table_html(std::span<const RunResult> runs) {
-    std::string out = "<table class=\"figures\">\n<thead><tr><th scope=\"col\">Figure</th>";
+    std::string out = fmt::format(
+        "<table class=\"figures\" style=\"--values: {}\">\n<thead><tr><th scope=\"col\">Figure</th>", runs.size());
     for (const RunResult& run : runs) {
         out += fmt::format("<th scope=\"col\">{}</th>", host::html_escaped(run.controller));
     }
