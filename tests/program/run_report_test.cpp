@@ -36,7 +36,9 @@ TEST_GROUP(RunReport) {
     std::unique_ptr<Program> serve{};
     std::unique_ptr<Bridge> cnc{};
 
-    [[nodiscard]] std::string page() const { return text_of(inputs.path("page") / "report.html"); }
+    [[nodiscard]] std::string page() const {
+        return text_of(inputs.path("page") / "report.html");
+    }
     void record() {
         const Ended ended =
             run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("results")});
@@ -80,9 +82,8 @@ TEST(RunReport, changes_neither_the_table_of_a_replay_nor_where_it_goes) {
     record();
     LONGS_EQUAL(0, inputs.replay().exit_code);
     const std::string table = inputs.read("out.csv");
-    const Ended ended =
-        run_millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"), "--tool",
-                       inputs.name("tool.toml"), "--report", inputs.name("page")});
+    const Ended ended = run_millforce({"replay", inputs.name("log.csv"), "--machine", inputs.name("machine.toml"),
+                                       "--tool", inputs.name("tool.toml"), "--report", inputs.name("page")});
     STRCMP_EQUAL(table.c_str(), ended.out.c_str());
 }
 

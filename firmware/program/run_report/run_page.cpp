@@ -207,7 +207,7 @@ std::string events_html(const RunHistory& history) {
     }
     std::string out = "<ol class=\"events\">\n";
     for (const RunEvent& event : events) {
-        out += fmt::format("<li{}><span class=\"when\">{:.2f} s</span> {}</li>\n",
+        out += fmt::format("<li{}><span class=\"when\">{:.2f} s</span><span>{}</span></li>\n",
                            event.is_fault ? " class=\"fault\"" : "", event.time_s, html_escaped(event.text));
     }
     out += "</ol>\n";

@@ -48,7 +48,9 @@ TEST_GROUP(RunPage) {
             history.add(0.001 * k, k <= 1000 ? in_air() : k <= 2000 ? entering(1.1F) : in_cut(0.87F), 0);
         }
     }
-    [[nodiscard]] std::string page() const { return run_page_html(history, origin); }
+    [[nodiscard]] std::string page() const {
+        return run_page_html(history, origin);
+    }
 };
 
 TEST(RunPage, says_in_words_how_long_the_tool_cut_how_high_the_load_was_and_what_held_the_feed) {
@@ -107,7 +109,8 @@ TEST(RunPage, asks_the_network_for_nothing_and_leaves_no_placeholder) {
     mill();
     const std::string html = page();
     CHECK(has(html, "default-src 'none'"));
-    for (const char* request : {" src=", "<link", "@import", "url(http", "sourceMappingURL", "fetch(", "{{title}}", "{{data}}"}) {
+    for (const char* request :
+         {" src=", "<link", "@import", "url(http", "sourceMappingURL", "fetch(", "{{title}}", "{{data}}"}) {
         CHECK_TEXT(!has(html, request), request);
     }
 }
