@@ -51,17 +51,17 @@ TEST(RunHistory, gives_each_ceiling_the_time_for_which_it_held_and_all_of_it_to_
         history.add(0.001 * k, k <= 400 ? in_air() : in_cut(0.9F, k <= 900 ? Limit::force : Limit::surge), 0);
     }
     const RunTotals& totals = history.totals();
-    DOUBLES_EQUAL(0.4, totals.held_s[place(Limit::air_feed)], 1e-9);
-    DOUBLES_EQUAL(0.0, totals.held_in_cut_s[place(Limit::air_feed)], 1e-9);
-    DOUBLES_EQUAL(0.5, totals.held_in_cut_s[place(Limit::force)], 1e-9);
-    DOUBLES_EQUAL(0.1, totals.held_in_cut_s[place(Limit::surge)], 1e-9);
+    DOUBLES_EQUAL(0.4, totals.ceilings.of(Limit::air_feed), 1e-9);
+    DOUBLES_EQUAL(0.0, totals.ceilings.in_cut(Limit::air_feed), 1e-9);
+    DOUBLES_EQUAL(0.5, totals.ceilings.in_cut(Limit::force), 1e-9);
+    DOUBLES_EQUAL(0.1, totals.ceilings.in_cut(Limit::surge), 1e-9);
     double all_s = 0.0;
-    for (const double held_s : totals.held_s) {
+    for (const double held_s : totals.ceilings.held_s) {
         all_s += held_s;
     }
     DOUBLES_EQUAL(totals.length_s, all_s, 1e-9);
-    DOUBLES_EQUAL(0.6, totals.cut_s, 1e-9);
-    DOUBLES_EQUAL(0.5, totals.override_s / totals.cut_s, 1e-6);
+    DOUBLES_EQUAL(0.6, totals.ceilings.cut_s, 1e-9);
+    DOUBLES_EQUAL(0.5, totals.override_s / totals.ceilings.cut_s, 1e-6);
     double binned_s = 0.0;
     for (const RunBin& bin : history.bins()) {
         binned_s += static_cast<double>(bin.held_s[place(Limit::force)]);
@@ -75,7 +75,7 @@ TEST(RunHistory, blames_no_ceiling_for_time_without_ticks_and_shows_a_gap) {
     history.add(15.0, in_cut(0.5F), 0);
     DOUBLES_EQUAL(5.0, history.totals().length_s, 1e-9);
     DOUBLES_EQUAL(4.9, history.totals().missing_s, 1e-9);
-    DOUBLES_EQUAL(0.1, history.totals().cut_s, 1e-9);
+    DOUBLES_EQUAL(0.1, history.totals().ceilings.cut_s, 1e-9);
     const auto middle = static_cast<std::size_t>(2.5 / history.bin_width_s());
     CHECK(history.bins()[middle].is_empty);
     CHECK(history.bins()[middle].radial_immersion.is_empty());
