@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "report/page_assets.hpp"
@@ -119,22 +121,43 @@ host::CeilingTimes ceiling_times(const RunResult& run) {
     return times;
 }
 
-/// Which ceiling cost most, where a constant feed was faster.
+/// Override of a constant feed; 0: not known.
+double constant_override(const RunResult& run) {
+    const auto fed = std::find_if(run.trace.begin(), run.trace.end(),
+                                  [](const TracePoint& point) { return !point.rapid && point.override_ratio > 0.0; });
+    return fed == run.trace.end() ? 0.0 : fed->override_ratio;
+}
+
+/// How much longer each ceiling made the run than the constant feed would have been, where it was slower than that.
+std::array<double, control::limit_count> lost_times_s(const RunResult& run, double constant_ratio) {
+    std::array<double, control::limit_count> lost_s{};
+    double last_s = 0.0;
+    for (const TracePoint& point : run.trace) {
+        const double step_s = point.time_s - last_s;
+        last_s = point.time_s;
+        const double constant_mm_s = constant_ratio * point.programmed_feed_mm_s;
+        if (!point.rapid && point.feed_mm_s < constant_mm_s) {
+            lost_s[point.limit % control::limit_count] += step_s * (1.0 - point.feed_mm_s / constant_mm_s);
+        }
+    }
+    return lost_s;
+}
+
+/// Which ceiling cost most, where the constant feed was faster.
 std::string reason_html(std::span<const RunResult> runs) {
     if (time_saved_percent(runs.front(), runs).value_or(0.0) >= 0.0) {
         return {};
     }
-    const host::CeilingTimes times = ceiling_times(runs.front());
-    std::vector<control::Limit> ceilings = times.longest_first();
-    std::erase(ceilings, control::Limit::none);
-    if (ceilings.empty()) {
+    const auto lost_s = lost_times_s(runs.front(), constant_override(*run_named(constant_feed, runs)));
+    const auto worst = std::max_element(lost_s.begin(), lost_s.end());
+    const double all_s = std::accumulate(lost_s.begin(), lost_s.end(), 0.0);
+    if (!(all_s > 0.0)) {
         return {};
     }
-    const control::Limit worst =
-        *std::max_element(ceilings.begin(), ceilings.end(), [&](auto a, auto b) { return times.of(a) < times.of(b); });
-    const host::CeilingWords& words = host::words_of(worst);
-    return fmt::format("<strong>Why it took longer:</strong> for {} of the time the ceiling on the feed was “{}”. {} ",
-                       host::readable_share(host::share_of(times.of(worst), times.all_s)), words.label, words.meaning);
+    const host::CeilingWords& words = host::words_of(static_cast<control::Limit>(worst - lost_s.begin()));
+    return fmt::format(
+        "<strong>Why it took longer:</strong> {} of the lost time passed while the ceiling on the feed was “{}”. {} ",
+        host::readable_share(*worst / all_s), words.label, words.meaning);
 }
 
 std::string verdict_html(std::span<const RunResult> runs) {
@@ -172,11 +195,21 @@ std::string cell_text(const std::string& cell) {
     return cell == "-" ? "–" : host::html_escaped(cell);
 }
 
+/// May break after an underscore.
+std::string column_name_html(const std::string& controller) {
+    std::string name = host::html_escaped(controller);
+    for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
+        name.insert(at + 1, "<wbr>");
+    }
+    return name;
+}
+
 std::string figures_table_html(std::span<const RunResult> runs) {
     std::string out = fmt::format(
-        "<table class=\"figures\" style=\"--values: {}\">\n<thead><tr><th scope=\"col\">Figure</th>", runs.size());
+        "<table class=\"figures side-by-side\" style=\"--values: {}\">\n<thead><tr><th scope=\"col\">Figure</th>",
+        runs.size());
     for (const RunResult& run : runs) {
-        out += fmt::format("<th scope=\"col\">{}</th>", host::html_escaped(run.controller));
+        out += fmt::format("<th scope=\"col\">{}</th>", column_name_html(run.controller));
     }
     out += "<th scope=\"col\" class=\"explanation\">What it is</th></tr></thead>\n<tbody>\n";
     for (const FigureRow& row : figure_rows(runs)) {
