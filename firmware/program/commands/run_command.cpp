@@ -127,6 +127,7 @@ int run_on_bus(const RunOptions& options) {
     notify_service_manager("READY=1");
     daemon->run(stop);
     notify_service_manager("STOPPING=1");
+    notify_service_manager(time_for_the_report);
     leave_real_time();
     journal->finish();
     print_summary(options, *daemon, *journal);

@@ -238,6 +238,7 @@ int serve(const ServeOptions& options) {
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
     notify_service_manager("STOPPING=1");
+    notify_service_manager(time_for_the_report);
     leave_real_time();
     page.finish();
     return finish_report(report.get(), stderr) ? 0 : 1;
