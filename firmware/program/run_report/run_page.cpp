@@ -81,6 +81,15 @@ std::string verdict_html(const RunHistory& history, const RunOrigin& origin) {
                 : "");
 }
 
+/// Single estimates scatter: one above the limit is not yet a tooth above it.
+const char* style_of_load(const RunTotals& totals, float share) {
+    constexpr double scatter_share = 0.01;
+    if (!(share > 1.0F)) {
+        return "hero held";
+    }
+    return totals.peak.over_limit_s > scatter_share * totals.ceilings.cut_s ? "hero over" : "hero";
+}
+
 std::string stats_html(const RunTotals& totals, const RunOrigin& origin) {
     if (!(totals.ceilings.cut_s > 0.0)) {
         return {};
@@ -88,7 +97,7 @@ std::string stats_html(const RunTotals& totals, const RunOrigin& origin) {
     const bool is_known = !std::isnan(totals.peak.share);
     const float share = is_known ? totals.peak.share : totals.bound.share;
     const double mean_override = share_of(totals.override_s, totals.ceilings.cut_s);
-    return stat_html(share > 1.0F ? "hero over" : "hero held", std::isnan(share) ? "–" : percent(share),
+    return stat_html(style_of_load(totals, share), std::isnan(share) ? "–" : percent(share),
                      is_known ? "of its limit: the largest load on one tooth, as estimated from the currents"
                               : "of its limit at most: the largest load on one tooth, by the currents") +
            stat_html("", fmt::format("{:.0f} %", 100.0 * mean_override),
