@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "report/page_assets.hpp"
 #include "report/page_parts.hpp"
@@ -148,6 +149,16 @@ std::string estimate_words(const RunTotals& totals) {
                        readable_share(share_of(totals.with_depth_s, totals.ceilings.cut_s)));
 }
 
+/// Alike in all of a list: in a long run as hours, minutes and seconds.
+std::string time_of_event(double time_s, double length_s) {
+    constexpr double long_s = 600.0;
+    if (length_s < long_s) {
+        return fmt::format("{:.2f} s", time_s);
+    }
+    const auto seconds = static_cast<std::int64_t>(time_s);
+    return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
 std::string events_html(const RunHistory& history) {
     const std::vector<RunEvent> events = history.events();
     if (events.empty()) {
@@ -155,8 +166,9 @@ std::string events_html(const RunHistory& history) {
     }
     std::string out = "<ol class=\"events\">\n";
     for (const RunEvent& event : events) {
-        out += fmt::format("<li{}><span class=\"when\">{:.2f} s</span><span>{}</span></li>\n",
-                           event.is_fault ? " class=\"fault\"" : "", event.time_s, html_escaped(event.text));
+        out += fmt::format("<li{}><span class=\"when\">{}</span><span>{}</span></li>\n",
+                           event.is_fault ? " class=\"fault\"" : "",
+                           time_of_event(event.time_s, history.totals().length_s), html_escaped(event.text));
     }
     out += "</ol>\n";
     return history.events_left_out() == 0

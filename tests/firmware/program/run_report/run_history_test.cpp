@@ -2,9 +2,11 @@
 #include "run_report/run_history.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "history_bench.hpp"
+#include "temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -92,6 +94,22 @@ TEST(RunHistory, tells_a_load_from_the_most_that_it_can_have_been) {
     DOUBLES_EQUAL(0.1, totals.bound.over_limit_s, 1e-9);
     CHECK(history.bins().front().tooth_force_N.is_empty());
     CHECK_FALSE(history.bins().front().tooth_force_bound_N.is_empty());
+}
+
+TEST(RunHistory, compares_a_load_with_the_limit_of_the_tool_that_cut) {
+    const millforce::test::TemporaryFolder folder;
+    const std::filesystem::path tools = std::filesystem::path(MILLFORCE_SOURCE_DIR) / "sim/scenarios/tools";
+    std::filesystem::copy(tools / "endmill_10mm.toml", folder.path("T5.toml"));   // 700 N
+    std::filesystem::copy(tools / "facemill_40mm.toml", folder.path("T7.toml"));  // 600 N
+    RunHistory of_tools(ToolSet({}, {"", folder.path("").string()}));
+    for (const std::uint32_t number : {0U, 5U, 7U}) {
+        of_tools.add(0.1 * number, in_cut(0.6F), number);  // 420 N
+    }
+    DOUBLES_EQUAL(420.0 / 600.0, of_tools.totals().peak.share, 1e-6);
+    CHECK(of_tools.bins().front().tooth_force_limit_N.is_empty());  // the tool is not known
+    const auto events = of_tools.events();
+    UNSIGNED_LONGS_EQUAL(3, events.size());
+    STRCMP_EQUAL("Tool 7.", events[2].text.c_str());
 }
 
 TEST(RunHistory, has_no_immersion_and_no_band_where_there_was_no_estimate) {

@@ -136,6 +136,16 @@ TEST(RunPage, of_a_run_without_a_sample_or_without_a_cut_says_so) {
     CHECK(has(page(), "In 0.4 s no cut was seen."));
 }
 
+TEST(RunPage, of_a_long_run_gives_times_in_hours_minutes_and_seconds) {
+    for (int k = 0; k <= 40'000; ++k) {
+        history.add(0.2 * k, k == 19'000 ? in_cut(0.5F) : in_air(), 0);
+    }
+    history.note(3725.0, "Something.");
+    const std::string html = page();
+    CHECK(has(html, "<span class=\"when\">1:02:05</span><span>Something.</span>"));
+    CHECK(has(html, "<dd>2 h 13 min</dd>"));
+}
+
 TEST(RunPage, of_a_replay_says_that_the_override_did_not_act) {
     mill();
     CHECK_FALSE(has(page(), "This is a replay"));
