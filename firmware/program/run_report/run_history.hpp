@@ -65,21 +65,28 @@ struct RunPeak {
     void add(float new_share, double at_s);
 };
 
+/// Mean over the time for which there was a value.
+struct RunMean {
+    double integral = 0.0;
+    double known_s = 0.0;
+
+    void add(float value, double step_s);
+    [[nodiscard]] double mean() const { return integral / known_s; }
+};
+
 /// Figures of the whole run.
 struct RunTotals {
     std::uint64_t ticks = 0;
     double length_s = 0.0;   ///< from the first tick to the last
     double missing_s = 0.0;  ///< of it without ticks: gaps longer than `longest_step_s`
     CeilingTimes ceilings;
-    double with_immersion_s = 0.0;  ///< this and the next two: in the cut
-    double with_depth_s = 0.0;
-    double override_s = 0.0;  ///< integral of the override
-    double hold_s = 0.0;      ///< feed held, in any state
+    RunMean radial_immersion;  ///< this and the next two: in the cut
+    RunMean axial_depth_mm;
+    RunMean override_ratio;
+    double hold_s = 0.0;  ///< feed held, in any state
     std::array<double, control::state_count> in_state_s{};
     RunPeak peak;   ///< where the immersion was known
     RunPeak bound;  ///< where it was not: the most that it can have been
-    ValueRange radial_immersion;
-    ValueRange axial_depth_mm;
 };
 
 struct RunEvent {

@@ -88,7 +88,9 @@ const char* style_of_load(const RunTotals& totals, float share) {
     if (!(share > 1.0F)) {
         return "hero held";
     }
-    return totals.peak.over_limit_s > scatter_share * totals.ceilings.cut_s ? "hero over" : "hero";
+    const bool has_fault = totals.in_state_s[static_cast<std::size_t>(CutState::fault)] > 0.0;
+    const bool stays_above = totals.peak.over_limit_s > scatter_share * totals.ceilings.cut_s;
+    return has_fault || stays_above ? "hero over" : "hero";
 }
 
 std::string stats_html(const RunTotals& totals, const RunOrigin& origin) {
@@ -97,11 +99,10 @@ std::string stats_html(const RunTotals& totals, const RunOrigin& origin) {
     }
     const bool is_known = !std::isnan(totals.peak.share);
     const float share = is_known ? totals.peak.share : totals.bound.share;
-    const double mean_override = share_of(totals.override_s, totals.ceilings.cut_s);
     return stat_html(style_of_load(totals, share), std::isnan(share) ? "–" : percent(share),
                      is_known ? "of its limit: the largest load on one tooth, as estimated from the currents"
                               : "of its limit at most: the largest load on one tooth, by the currents") +
-           stat_html("", fmt::format("{:.0f} %", 100.0 * mean_override),
+           stat_html("", fmt::format("{:.0f} %", 100.0 * totals.override_ratio.mean()),
                      origin.is_replay
                          ? "of the programmed feed: what the controller would have sent in the cut, on average"
                          : "of the programmed feed: the override in the cut, on average") +
@@ -115,6 +116,7 @@ std::string facts_html(const RunHistory& history, const RunOrigin& origin) {
         out += fact_html(name, value);
     }
     out += fact_html("Length", readable_time(totals.length_s));
+    out += fact_html("Feed held for", readable_time(totals.hold_s));
     out += fact_html("Samples", fmt::to_string(totals.ticks));
     out += fact_html("Time without samples", totals.missing_s > 0.0 ? readable_time(totals.missing_s) : "");
     return out + fact_html("Samples missing on this page", history.lost() > 0 ? fmt::to_string(history.lost()) : "");
@@ -140,13 +142,13 @@ std::string states_html(const RunTotals& totals) {
     return out + "</tbody>\n</table>\n";
 }
 
-std::string estimate_words(const RunTotals& totals) {
-    if (!(totals.ceilings.cut_s > 0.0)) {
-        return "There was no cut to estimate.";
+/// `unit`: with the blank before it.
+std::string mean_words(const RunMean& mean, const RunTotals& totals, const char* unit) {
+    if (!(mean.known_s > 0.0)) {
+        return "In this run it was never known.";
     }
-    return fmt::format("There was an immersion in {} of the cut and a depth in {}.",
-                       readable_share(share_of(totals.with_immersion_s, totals.ceilings.cut_s)),
-                       readable_share(share_of(totals.with_depth_s, totals.ceilings.cut_s)));
+    return fmt::format("In this run it was known in {} of the cut, and was {:.2f}{} on average.",
+                       readable_share(share_of(mean.known_s, totals.ceilings.cut_s)), mean.mean(), unit);
 }
 
 /// Alike in all of a list: in a long run as hours, minutes and seconds.
@@ -186,7 +188,8 @@ std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
     const std::string verdict = verdict_html(history, origin);
     const std::string ceilings = ceilings_html(totals.ceilings);
     const std::string states = states_html(totals);
-    const std::string estimates = estimate_words(totals);
+    const std::string immersion = mean_words(totals.radial_immersion, totals, "");
+    const std::string depth = mean_words(totals.axial_depth_mm, totals, " mm");
     const std::string events = events_html(history);
     const std::string data = run_page_json(history);
     return filled(run_page_assets::run_template(),
@@ -197,7 +200,8 @@ std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
                       {"verdict", verdict},
                       {"ceilings", ceilings},
                       {"states", states},
-                      {"estimates", estimates},
+                      {"immersion", immersion},
+                      {"depth", depth},
                       {"events", events},
                       {"data", data},
                       {"report_style", page_assets::report_style()},

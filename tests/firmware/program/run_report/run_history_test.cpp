@@ -63,7 +63,7 @@ TEST(RunHistory, gives_each_ceiling_the_time_for_which_it_held_and_all_of_it_to_
     }
     DOUBLES_EQUAL(totals.length_s, all_s, 1e-9);
     DOUBLES_EQUAL(0.6, totals.ceilings.cut_s, 1e-9);
-    DOUBLES_EQUAL(0.5, totals.override_s / totals.ceilings.cut_s, 1e-6);
+    DOUBLES_EQUAL(0.5, totals.override_ratio.mean(), 1e-6);
     double binned_s = 0.0;
     for (const RunBin& bin : history.bins()) {
         binned_s += static_cast<double>(bin.held_s[place(Limit::force)]);

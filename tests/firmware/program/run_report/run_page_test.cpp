@@ -61,6 +61,8 @@ TEST(RunPage, says_in_words_how_long_the_tool_cut_how_high_the_load_was_and_what
     CHECK(has(html, "was at most 110 % of its limit, and can have been above it for 1.00 s"));
     CHECK(has(html, "For 75 % of the cut the ceiling on the feed was: load on a tooth."));
     CHECK(has(html, "There was no fault."));
+    CHECK(has(html, "In this run it was known in 75 % of the cut, and was 0.60 on average."));
+    CHECK(has(html, "In this run it was known in 75 % of the cut, and was 4.00 mm on average."));
 }
 
 TEST(RunPage, lists_the_ceilings_that_held_by_their_keys_and_no_other) {
