@@ -62,7 +62,7 @@ void add_drive_constants(const KimCampaign& campaign, Reproduction& result) {
         result.figures.push_back({name, unit, published, ours, Judged::shown, 0.0, 0.0, reason});
     };
     show(
-        "Eq. 8: K_t1", "N/A", Published::K_t1, spindle.gain * per_Nm,
+        "Eq. 8: K_t1", "N per A", Published::K_t1, spindle.gain * per_Nm,
         "a constant of each machine, in N per unit of current: ours is the ampere, the paper's is not printed. Ours is "
         "judged against the simulated motor's, below.");
     show("Eq. 8: K_t2", "N", Published::K_t2_N, spindle.offset * per_Nm,
@@ -75,7 +75,7 @@ void add_drive_constants(const KimCampaign& campaign, Reproduction& result) {
     const char* copied =
         "Table 3 repeats K_t1 and K_t2 of Eq. 8 to the digit. With them the feed force is −7644 N at 0.25 m/min where "
         "the axis only overcomes its friction: they cannot be the feed drive's.";
-    show("Table 3: K_x4", "N/A", Published::K_x4, feed.gain, copied);
+    show("Table 3: K_x4", "N per A", Published::K_x4, feed.gain, copied);
     show("Table 3: K_x5", "N·m/min", Published::K_x5, feed.offset,
          "as K_x4. In the plant it has no counterpart: ours is what the quadratic friction leaves at low feed.");
 }
