@@ -27,6 +27,10 @@ ScenarioInfo info_of(const Scenario& scenario, const ConstantFeeds& feeds) {
         info.constant_feed_mm_s = std::max(info.constant_feed_mm_s, feed_mm_s * feeds.safe_ratio);
         info.hindsight_feed_mm_s = std::max(info.hindsight_feed_mm_s, feed_mm_s * feeds.hindsight_ratio);
     }
+    info.origin = {{"Machine", scenario.machine_file}, {"Tool", scenario.tool_file}};
+    const host::Facts process = host::facts_of_this_process();
+    info.origin.insert(info.origin.end(), process.begin(), process.end());
+    info.origin.emplace_back("Date", host::date_and_time());
     info.hardest_material = feeds.hardest;
     info.has_top_view = scenario.has_program();
     info.stock_min_x_mm = scenario.stock.block.min_x_mm;

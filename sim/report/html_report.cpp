@@ -22,6 +22,14 @@ namespace millforce::sim {
 
 namespace {
 
+std::string origin_html(const ScenarioInfo& info) {
+    std::string out;
+    for (const auto& [name, value] : info.origin) {
+        out += host::fact_html(name, value);
+    }
+    return out;
+}
+
 std::string feed_text(double feed_mm_s) {
     return fmt::format("{:.0f} mm/min", 60.0 * feed_mm_s);
 }
@@ -235,6 +243,7 @@ std::string report_html(const ScenarioInfo& info, std::span<const RunResult> run
     const std::string figures = figures_table_html(runs);
     const std::string ceilings = host::ceilings_html(ceiling_times(runs.front()));
     const std::string controlled = host::html_escaped(runs.front().controller);
+    const std::string origin = origin_html(info);
     const std::string data = report_data_json(info, runs);
     return host::filled(report_assets::report_template(),
                         {
@@ -246,6 +255,7 @@ std::string report_html(const ScenarioInfo& info, std::span<const RunResult> run
                             {"verdict", verdict},
                             {"figures", figures},
                             {"ceilings", ceilings},
+                            {"origin", origin},
                             {"data", data},
                             {"report_style", host::page_assets::report_style()},
                             {"charts_script", host::page_assets::charts_script()},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/csv.hpp"
+#include "report/page_origin.hpp"
 
 /// What a simulated run leaves behind: a trace, one point per interval, and its figures. Reports, CSV and JSON are
 /// written from it and from nothing else.
@@ -97,6 +98,7 @@ struct ScenarioInfo {
     double constant_feed_mm_s = 0.0;   ///< the constant feed that is safe everywhere, the baseline's
     double hardest_material = 1.0;     ///< for a K_s so many times as high, too
     double hindsight_feed_mm_s = 0.0;  ///< the best constant feed for exactly this material; 0: not sought
+    host::Facts origin{};              ///< machine, tool, program, command, date
     bool has_top_view = false;         ///< the path is a real one in x and y
     double stock_min_x_mm = 0.0;
     double stock_min_y_mm = 0.0;

@@ -41,6 +41,7 @@ TEST_GROUP(HtmlReport) {
 };
 
 TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
+    info.origin = {{"Command", "millforce simulate <part>"}};
     const std::string html = report_html(info, both_runs());
     const std::string data = embedded_data(html);
     CHECK(millforce::host::JsonCheck::valid(data));
@@ -49,6 +50,7 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
         LONGS_EQUAL(0, count_of(html, placeholder));
     }
     CHECK(html.find("Dygraph") != std::string::npos);
+    CHECK(html.find("<dt>Command</dt><dd>millforce simulate &lt;part&gt;</dd>") != std::string::npos);
 }
 
 TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
