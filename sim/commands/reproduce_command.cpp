@@ -10,11 +10,11 @@
 
 #include "commands/command_line.hpp"
 #include "commands/plant_commands.hpp"
-#include "commands/results_folder.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/nearest_name.hpp"
 #include "files/progress.hpp"
+#include "files/results_folder.hpp"
 #include "reproduce/papers.hpp"
 #include "reproduce_report/reproduction_json.hpp"
 #include "reproduce_report/reproduction_page.hpp"

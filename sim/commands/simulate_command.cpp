@@ -10,12 +10,12 @@
 #include "bus/plant_wiring.hpp"
 #include "commands/command_line.hpp"
 #include "commands/plant_commands.hpp"
-#include "commands/results_folder.hpp"
 #include "commands/scenario_info.hpp"
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
+#include "files/results_folder.hpp"
 #include "loop/bounds.hpp"
 #include "loop/recorder.hpp"
 #include "loop/simulation.hpp"
@@ -48,7 +48,7 @@ struct SimulateOptions {
     host::BusPace pace{};
 };
 
-constexpr const char* baseline = "constant";
+constexpr const char* baseline = constant_feed;
 
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
@@ -113,8 +113,10 @@ host::PartMap map_of(const SimulateOptions& options, const Scenario& scenario) {
     return std::move(file.map);
 }
 
-double safe_override_of(const Scenario& scenario, double hardest) {
-    host::Progress progress("finding the constant feed that is safe everywhere", 1);
+double constant_override_of(const Scenario& scenario, double hardest) {
+    host::Progress progress(hardest > 1.0 ? "finding the constant feed that is safe everywhere"
+                                          : "finding the best constant feed in hindsight",
+                            1);
     return safe_constant_override(scenario, hardest, settings_with(progress));
 }
 
@@ -170,13 +172,19 @@ int simulate_scenario(const SimulateOptions& options) {
         results.push_back(
             run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
     }
-    double ratio = 0.0;
+    ConstantFeeds feeds;
     if (options.interface.empty()) {
-        ratio = safe_override_of(scenario, options.hardest);
-        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
+        feeds.hardest = options.hardest;
+        feeds.safe_ratio = constant_override_of(scenario, options.hardest);
+        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, feeds.safe_ratio),
                               is_baseline ? recording : std::nullopt));
     }
-    const ScenarioInfo info = info_of(scenario, ratio);
+    if (options.interface.empty() && !is_baseline && options.hardest > 1.0) {
+        feeds.hindsight_ratio = constant_override_of(scenario, 1.0);
+        results.push_back(run(scenario, constant_feed_in_hindsight,
+                              *controller_named(baseline, scenario, feeds.hindsight_ratio), std::nullopt));
+    }
+    const ScenarioInfo info = info_of(scenario, feeds);
     fmt::print("{}", summary_table(info, results));
     if (options.preview || !options.map.empty()) {
         print_plan(scenario, results.front().figures);
@@ -198,9 +206,8 @@ void add_simulate(host::Command& program) {
     host::Command command = program.subcommand(
         "simulate", "Mill a scenario in closed loop on the simulated machine: summary table, traces, report");
     command.footer(
-        "The baseline for comparison is the largest constant feed with which no tooth exceeds its limit even if the "
-        "material\n"
-        "is harder (--hardest).\n"
+        "Compared with two constant feeds: the largest with which no tooth exceeds its limit even if the material is\n"
+        "harder (--hardest), and in hindsight the largest for exactly this material.\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
         "the\n"
         "reaction time after the engagement grew, or the program did not finish.");

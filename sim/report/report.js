@@ -3,7 +3,7 @@
 
 /** Builds the page from the embedded data: which curves stand in which chart, the choices, and what follows what. */
 (() => {
-  const { LinkedCharts, drawBand, drawStates, element, colour } = charts;
+  const { LinkedCharts, drawBand, drawStrip, element, colour } = charts;
   const data = JSON.parse(document.getElementById("report-data").textContent);
   const byId = (id) => document.getElementById(id);
   const force = (value) => `${value.toFixed(0)} N`;
@@ -104,7 +104,7 @@
       series: (axis) => runSeries(axis, state.feedAs, (value) => `${value.toFixed(0)} ${spec.unit}`),
       top: (series) => 1.06 * largest(series),
       underlay: (context, area, graph, axis) =>
-        drawStates(context, area, graph, axis, axis.runs[0].states, data.state_names),
+        drawStrip(context, area, graph, axis, axis.runs[0].states, (digit) => `state-${data.state_names[digit]}`),
       note: (row, axis) => {
         const digit = (text) => parseInt(text[row >> 1], 16);
         const { states, limits } = axis.runs[0];

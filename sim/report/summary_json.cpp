@@ -29,7 +29,7 @@ constexpr struct {
     {"real_time_factor", &RunFigures::real_time_factor},
 };
 
-void write_summary_scenario(JsonWriter& json, const ScenarioInfo& info) {
+void write_summary_scenario(host::JsonWriter& json, const ScenarioInfo& info) {
     json.begin_object();
     json.key("name").text(info.name).key("title").text(info.title).key("description").text(info.description);
     json.key("tool").text(info.tool).key("material").text(info.material);
@@ -38,6 +38,8 @@ void write_summary_scenario(JsonWriter& json, const ScenarioInfo& info) {
     json.key("cutter_diameter_mm").number(info.cutter_diameter_mm);
     json.key("spindle_speed_rad_s").number(info.spindle_speed_rad_s);
     json.key("constant_feed_mm_s").number(info.constant_feed_mm_s);
+    json.key("hardest_material").number(info.hardest_material);
+    json.key("hindsight_feed_mm_s").number(info.hindsight_feed_mm_s);
     json.key("stock");
     if (info.has_top_view) {
         json.begin_object();
@@ -50,12 +52,14 @@ void write_summary_scenario(JsonWriter& json, const ScenarioInfo& info) {
     json.end_object();
 }
 
-void write_run(JsonWriter& json, const RunResult& run, std::span<const RunResult> runs) {
+void write_run(host::JsonWriter& json, const RunResult& run, std::span<const RunResult> runs) {
     json.begin_object();
     json.key("controller").text(run.controller);
     json.key("finished").boolean(run.figures.finished);
     json.key("fault").text(run.figures.fault);
     json.key("time_saved_percent").number(time_saved_percent(run, runs).value_or(host::no_estimate));
+    json.key("time_saved_in_hindsight_percent")
+        .number(time_saved_percent(run, runs, constant_feed_in_hindsight).value_or(host::no_estimate));
     json.key("teeth_broken").integer(run.figures.teeth_broken);
     for (const auto& [key, value] : figure_keys) {
         json.key(key).number(run.figures.*value);
@@ -66,7 +70,7 @@ void write_run(JsonWriter& json, const RunResult& run, std::span<const RunResult
 }  // namespace
 
 std::string summary_json(const ScenarioInfo& info, std::span<const RunResult> runs) {
-    JsonWriter json(JsonWriter::Style::indented);
+    host::JsonWriter json(host::JsonWriter::Style::indented);
     json.begin_object().key("scenario");
     write_summary_scenario(json, info);
     json.key("runs").begin_array();

@@ -175,6 +175,13 @@ void add_bus_pace(Command& command, BusPace& pace) {
         .excludes(slow_motion);
 }
 
+void add_report(Command& command, std::string& folder) {
+    command
+        .option("--report", folder,
+                "Folder for report.html: engagement and forces, and which ceiling held the feed for how long")
+        .value_name("DIR");
+}
+
 CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
     : app_(std::make_unique<CLI::App>(description, name)), version_(version) {
     app_->require_subcommand(1);

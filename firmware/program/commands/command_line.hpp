@@ -105,6 +105,9 @@ void add_tools(Command& command, ToolChoice& tools);
 /// --slow-motion and --lock-step, of the commands on a bus.
 void add_bus_pace(Command& command, BusPace& pace);
 
+/// --report, of the commands that run the tick.
+void add_report(Command& command, std::string& folder);
+
 /// The program with its commands.
 class CommandLine {
   public:

@@ -21,6 +21,7 @@
 #include "replay/replay_candump.hpp"
 #include "replay/replay_findings.hpp"
 #include "run_log/tool_forces.hpp"
+#include "run_report/run_report.hpp"
 
 namespace millforce::host {
 
@@ -35,6 +36,7 @@ struct ReplayOptions {
     double interval_s = 0.02;
     std::string interface;
     std::string run_log;
+    std::string report;
     BusPace pace{};
 };
 
@@ -73,6 +75,8 @@ int replay_table(const ReplayOptions& options) {
         show_parameter_notes(parameters);
     }
     refuse_without_tool_numbers(tools, recording, options.log);
+    const auto report =
+        started_report({RunKind::replay, options.log, options.machine, options.tools, options.report}, tools);
     firmware::ToolTick tick(parameters, tools.source());
     EstimateTable table({options.log, options.output, options.interval_s}, tools,
                         recording.has_force_sensor() ? WideBandSource::force_sensor : WideBandSource::drives);
@@ -84,6 +88,9 @@ int replay_table(const ReplayOptions& options) {
             firmware::step_and_work(tick, recording.sample(), program_of(recording, options));
         const firmware::TickRecord record = firmware::tick_record(tick.of_tool(), output, 0);
         findings.follow(recording.sample(), record);
+        if (report != nullptr) {
+            report->history().add(recording.time_s(), record, tick.tool());
+        }
         if (table.is_due(recording.time_s())) {
             table.write(
                 {recording.time_s(), record, tick.tool(), tick.of_tool().roughness(), tick.of_tool().wide_band()});
@@ -95,7 +102,7 @@ int replay_table(const ReplayOptions& options) {
     show_findings(recording, findings, options.log);
     table.show_notes();
     table.commit("", tick.of_tool().wide_band());
-    return 0;
+    return finish_report(report.get(), stderr) ? 0 : 1;
 }
 
 int replay(const ReplayOptions& options) {
@@ -115,7 +122,7 @@ int replay(const ReplayOptions& options) {
                                      options.log));
     }
     return replay_candump({options.log, options.machine, options.tools, options.output, options.interface,
-                           options.interval_s, options.run_log, options.pace});
+                           options.interval_s, options.run_log, options.pace, options.report});
 }
 
 }  // namespace
@@ -155,6 +162,7 @@ void add_replay(Command& program) {
         .option("--verify", options->run_log,
                 "Compare with the log of 'millforce run --log'; exit code 1 if one bit of one tick differs")
         .value_name("RUN.jsonl");
+    add_report(command, options->report);
     add_bus_pace(command, options->pace);
     command.on_run([options] { return replay(*options); });
 }

@@ -13,6 +13,7 @@
 #include "commands/machine_commands.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
+#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
@@ -20,6 +21,7 @@
 #include "parameters/machine_bus.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
+#include "run_report/run_report.hpp"
 
 namespace millforce::host {
 
@@ -31,6 +33,7 @@ struct RunOptions {
     ToolChoice tools;
     std::string log;
     std::string record;
+    std::string report;
     BusPace pace{};
 };
 
@@ -105,11 +108,14 @@ int run_on_bus(const RunOptions& options) {
                         "number is that id + 0x100",
                         options.machine, bus.program.id, hal::largest_standard_can_id - 0x100));
     }
+    const auto report =
+        started_report({RunKind::run, options.interface, options.machine, options.tools, options.report}, tools);
+    const auto page = report != nullptr ? std::make_unique<RunRecorder>(report->history()) : nullptr;
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, ToolForces(tools)});
-    const auto daemon =
-        std::make_unique<CanDaemon>(interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time});
+    const auto journal = std::make_unique<Journal>(JournalSettings{
+        options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, ToolForces(tools), page.get()});
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, tools, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), time, page.get()});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }
@@ -121,8 +127,14 @@ int run_on_bus(const RunOptions& options) {
     notify_service_manager("READY=1");
     daemon->run(stop);
     notify_service_manager("STOPPING=1");
+    notify_service_manager(time_for_the_report);
+    leave_real_time();
     journal->finish();
     print_summary(options, *daemon, *journal);
+    if (page != nullptr) {
+        page->finish();
+    }
+    const bool is_reported = finish_report(report.get(), stdout);
     if (!journal->failed_file().empty()) {
         print_line(stderr,
                    fmt::format("millforce: {}: a write failed; the file is incomplete", journal->failed_file()));
@@ -132,7 +144,7 @@ int run_on_bus(const RunOptions& options) {
         print_line(stderr, fmt::format("millforce: the files are incomplete: {} entries were lost", journal->lost()));
         return 1;
     }
-    return 0;
+    return is_reported ? 0 : 1;
 }
 
 }  // namespace
@@ -146,7 +158,7 @@ void add_run(Command& program) {
         "logrotate. Conditions are reported on standard error; on a terminal a\n"
         "status line is printed each second.\n"
         "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
-        "Exit code 1: frames of --record or lines of --log are missing.");
+        "Exit code 1: frames of --record or lines of --log are missing, or the page of --report could not be written.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");
     add_tools(command, options->tools);
@@ -155,6 +167,7 @@ void add_run(Command& program) {
         .option("--record", options->record,
                 "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
         .value_name("FILE.log");
+    add_report(command, options->report);
     add_bus_pace(command, options->pace);
     command.on_run([options] { return run_on_bus(*options); });
 }

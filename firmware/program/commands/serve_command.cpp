@@ -13,6 +13,7 @@
 #include "control/cut_state.hpp"
 #include "daemon/line_printer.hpp"
 #include "daemon/pause_watch.hpp"
+#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
@@ -22,6 +23,7 @@
 #include "parameters/tool_set.hpp"
 #include "part_map/map_follower.hpp"
 #include "part_map/part_map_file.hpp"
+#include "run_report/run_report.hpp"
 #include "socketcan/can_socket.hpp"
 
 namespace millforce::host {
@@ -35,6 +37,37 @@ struct ServeOptions {
     double override_max = 1.0;
     std::string map;
     std::string program;
+    std::string report;
+};
+
+/// The page of the run, if one is asked for.
+class Page {
+  public:
+    explicit Page(RunReport* report) {
+        if (report != nullptr) {
+            recorder_ = std::make_unique<RunRecorder>(report->history());
+        }
+    }
+    void tick(const firmware::LinkController& controller) {
+        if (recorder_ != nullptr) {
+            const std::uint64_t now_us = socketcan::monotonic_us();
+            recorder_->tick(now_us, firmware::tick_record(controller.tick(), controller.output(), now_us),
+                            controller.tool());
+        }
+    }
+    void note(std::string_view text) {
+        if (recorder_ != nullptr) {
+            recorder_->note(socketcan::monotonic_us(), text);
+        }
+    }
+    void finish() {
+        if (recorder_ != nullptr) {
+            recorder_->finish();
+        }
+    }
+
+  private:
+    std::unique_ptr<RunRecorder> recorder_{};
 };
 
 /// Reports a fault as it comes and goes.
@@ -54,8 +87,9 @@ class FaultReporter {
 /// Reports when a part map is dropped.
 class MapReporter {
   public:
-    void follow(const MapFollower& follower, LinePrinter& printer) {
+    void follow(const MapFollower& follower, LinePrinter& printer, Page& page) {
         if (follower.ahead().is_refuted() && !was_refuted_) {
+            page.note("The part map does not fit this cut: the run went on without it.");
             printer.print("millforce: the part map does not fit this cut: continuing without it");
         }
         was_refuted_ = follower.ahead().is_refuted();
@@ -92,13 +126,14 @@ class ToolReporter {
 /// did not.
 class Turns final : public TurnListener {
   public:
-    explicit Turns(LinePrinter& printer) : printer_(printer) {}
+    Turns(LinePrinter& printer, Page& page) : printer_(printer), page_(page) {}
 
     void on_turn() override {
         const std::uint64_t now_us = socketcan::monotonic_us();
         watchdog_.poll(now_us);
         if (pause_watch_.look(now_us)) {
             hold_until_us_ = now_us + drain_us;
+            page_.note("This program was stopped for a while: the feed was held until newer samples came.");
             printer_.print(fmt::format("millforce: was stopped for {:.1f} s: hold, until newer samples come",
                                        1e-6 * static_cast<double>(pause_watch_.pause_us())));
         }
@@ -116,12 +151,13 @@ class Turns final : public TurnListener {
     ServiceWatchdog watchdog_{};
     PauseWatch pause_watch_{longest_turn_us};
     LinePrinter& printer_;
+    Page& page_;
     std::uint64_t hold_until_us_ = 0;
     bool is_held_ = false;
 };
 
 void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller,
-                const MapFollower* follower, LinePrinter& printer) {
+                const MapFollower* follower, LinePrinter& printer, Page& page) {
     FaultReporter faults;
     MapReporter maps;
     ToolReporter tools;
@@ -136,15 +172,17 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
         if (error != local_link::MessageError::none) {
             printer.print(fmt::format("millforce: invalid message of {} bytes ({}): connection closed", bytes.size(),
                                       name(error)));
+            page.note("The CNC sent a message that is not valid: the connection was closed.");
             server.drop_peer();
             return;
         }
         server.send(answer);
         firmware::finish_work(controller);
+        page.tick(controller);
         faults.follow(controller.output(), printer);
         tools.follow(controller, printer);
         if (follower != nullptr) {
-            maps.follow(*follower, printer);
+            maps.follow(*follower, printer, page);
         }
     }
 }
@@ -171,8 +209,11 @@ int serve(const ServeOptions& options) {
     const firmware::Parameters<float>& parameters = tools.parameters();
     show_start_check(tools);
     const std::optional<PartMap> map = map_of(options, parameters);
+    const auto report =
+        started_report({RunKind::serve, options.socket, options.machine, options.tools, options.report}, tools);
+    Page page(report.get());
     LinePrinter printer(stderr);
-    Turns turns(printer);
+    Turns turns(printer, page);
     UnixServer server(options.socket, &turns);
     for (const std::string& note : become_real_time()) {
         printer.print(fmt::format("millforce: note: {}", note));
@@ -186,16 +227,21 @@ int serve(const ServeOptions& options) {
     while (server.wait_for_peer()) {
         notify_service_manager("STATUS=connected");
         printer.print("millforce: connected");
+        page.note("The CNC connected.");
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller =
             std::make_unique<firmware::LinkController>(parameters, largest_override, follower.get(), tools.source());
-        serve_peer(server, turns, *controller, follower.get(), printer);
+        serve_peer(server, turns, *controller, follower.get(), printer, page);
         server.drop_peer();
+        page.note("The CNC disconnected.");
         notify_service_manager("STATUS=waiting for a CNC");
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
     notify_service_manager("STOPPING=1");
-    return 0;
+    notify_service_manager(time_for_the_report);
+    leave_real_time();
+    page.finish();
+    return finish_report(report.get(), stderr) ? 0 : 1;
 }
 
 }  // namespace
@@ -221,6 +267,7 @@ void add_serve(Command& program) {
     command.option("--map", options->map, "Part map of 'millforce preview', to look ahead with")
         .value_name("PART.map")
         .needs(program_file);
+    add_report(command, options->report);
     command.on_run([options] { return serve(*options); });
 }
 

@@ -14,6 +14,7 @@
 #include "replay/candump_replay.hpp"
 #include "replay/estimate_table.hpp"
 #include "replay/run_check.hpp"
+#include "run_report/run_report.hpp"
 
 namespace millforce::host {
 
@@ -72,10 +73,15 @@ int replay_candump(const ReplayCandumpOptions& options) {
     if (!options.run_log.empty()) {
         check.emplace(options.run_log, ToolForces(tools));
     }
+    const auto report =
+        started_report({RunKind::replay, options.log, options.machine, options.tools, options.report}, tools);
     TickEntries entries(run_log_interval_us);
     replay.run(
         [&](const firmware::CanController& controller) {
             const firmware::TickRecord record = controller.record();
+            if (report != nullptr) {
+                report->history().add(seconds_of(record.time_us), record, controller.tool());
+            }
             if (EstimateEntry entry; check && entries.add(record, controller.tool(), entry)) {
                 check->add(entry);
             }
@@ -97,7 +103,7 @@ int replay_candump(const ReplayCandumpOptions& options) {
         fmt::print(exit_code == 0 && table.goes_to_a_file() ? stdout : stderr, "{}", check->summary());
     }
     table.commit("; " + summary_of(replay), {});
-    return exit_code;
+    return finish_report(report.get(), stderr) ? exit_code : 1;
 }
 
 }  // namespace millforce::host

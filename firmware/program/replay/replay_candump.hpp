@@ -18,6 +18,7 @@ struct ReplayCandumpOptions {
     double interval_s = 0.02;
     std::string run_log;  ///< file of `millforce run --log`, to compare with; empty: none
     BusPace pace{};
+    std::string report{};  ///< folder for the page; empty: none
 };
 
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.

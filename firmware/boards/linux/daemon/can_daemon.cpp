@@ -34,6 +34,7 @@ std::uint64_t longest_turn_us(const ToolSet& tools, const BusTime& time) {
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
                      Journal& journal, const CanDaemonSettings& settings)
     : journal_(journal),
+      page_(settings.page),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
       controller_(controller_settings(bus), tools.parameters(), this, tools.source()),
@@ -173,8 +174,12 @@ void CanDaemon::on_tick(const firmware::CanController& controller) {
 
 void CanDaemon::record_ticks() {
     for (std::size_t k = 0; k < unrecorded_count_; ++k) {
-        if (entries_.add(unrecorded_[k].tick, unrecorded_[k].tool, newest_)) {
+        const auto& [tick, tool] = unrecorded_[k];
+        if (entries_.add(tick, tool, newest_)) {
             journal_.estimate(newest_);
+        }
+        if (page_ != nullptr) {
+            page_->tick(tick.time_us, tick, tool);
         }
     }
     unrecorded_count_ = 0;

@@ -8,6 +8,7 @@
 #include "daemon/journal.hpp"
 #include "daemon/latency.hpp"
 #include "daemon/pause_watch.hpp"
+#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "firmware_can/can_controller.hpp"
 #include "parameters/machine_bus.hpp"
@@ -19,6 +20,7 @@ namespace millforce::host {
 struct CanDaemonSettings {
     bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
     BusTime time{};
+    RunRecorder* page = nullptr;  ///< gets every tick; outlives the daemon
 };
 
 /// The controller on a CAN interface: socket, CanController and journal in one loop, until `stop` is set. Then the
@@ -57,6 +59,7 @@ class CanDaemon final : private firmware::TickListener {
                                                         const firmware::CanController& controller, bool records);
 
     Journal& journal_;
+    RunRecorder* page_;
     std::uint32_t override_id_;
     TickEntries entries_;
     struct RecordOfTool {

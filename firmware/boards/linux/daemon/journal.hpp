@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "daemon/log_file.hpp"
+#include "daemon/run_recorder.hpp"
 #include "daemon/spsc_ring.hpp"
 #include "daemon/status_lines.hpp"
 #include "run_log/estimate_entry.hpp"
@@ -19,10 +20,11 @@ namespace millforce::host {
 
 struct JournalSettings {
     std::string interface;
-    std::string record_file;   ///< candump log of every frame, with local_line()s between; empty: none
-    std::string log_file;      ///< JSON lines; empty: none
-    bool status_line = false;  ///< on standard output, once a second
-    ToolForces forces;         ///< for the log
+    std::string record_file;      ///< candump log of every frame, with local_line()s between; empty: none
+    std::string log_file;         ///< JSON lines; empty: none
+    bool status_line = false;     ///< on standard output, once a second
+    ToolForces forces;            ///< for the log
+    RunRecorder* page = nullptr;  ///< is told of conditions as they come and go; outlives the journal
 };
 
 /// The files of a run, written by a separate thread: the real-time thread hands over without waiting. Entries that did

@@ -11,6 +11,7 @@
 #include "parameters/drive_names.hpp"
 #include "run_log/bus_names.hpp"
 #include "run_log/estimate_line.hpp"
+#include "run_report/run_words.hpp"
 
 namespace millforce::host {
 
@@ -122,6 +123,22 @@ std::string culprit(const StatusEntry& entry, Condition condition) {
     return drives;
 }
 
+/// Each with whose fault it is, and with what `explain` says of it.
+template <typename Explain>
+std::string joined_conditions(const StatusEntry& entry, const char* separator, Explain explain) {
+    std::string text;
+    for (std::size_t k = 0; k < firmware::condition_count; ++k) {
+        const auto condition = static_cast<Condition>(k);
+        if (!entry.conditions.has(condition)) {
+            continue;
+        }
+        const std::string drives = culprit(entry, condition);
+        text += (text.empty() ? "" : separator) + std::string(firmware::name(condition)) +
+                (drives.empty() ? "" : " (" + drives + ")") + explain(condition);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string json_line(const StatusEntry& entry) {
@@ -134,17 +151,12 @@ std::string json_line(const StatusEntry& entry) {
 }
 
 std::string condition_list(const StatusEntry& entry) {
-    std::string text;
-    for (std::size_t k = 0; k < firmware::condition_count; ++k) {
-        const auto condition = static_cast<Condition>(k);
-        if (!entry.conditions.has(condition)) {
-            continue;
-        }
-        const std::string drives = culprit(entry, condition);
-        text += (text.empty() ? "" : ", ") + std::string(firmware::name(condition)) +
-                (drives.empty() ? "" : " (" + drives + ")");
-    }
-    return text;
+    return joined_conditions(entry, ", ", [](Condition) { return std::string(); });
+}
+
+std::string condition_words(const StatusEntry& entry) {
+    return joined_conditions(entry, "; ",
+                             [](Condition condition) { return std::string(": ") + meaning_of(condition); });
 }
 
 std::string status_line(const StatusEntry& entry) {

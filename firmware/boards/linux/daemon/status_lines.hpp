@@ -40,4 +40,7 @@ std::string status_line(const StatusEntry& entry);
 /// `drive_lost (x), sync_lost`; empty: nothing is wrong.
 std::string condition_list(const StatusEntry& entry);
 
+/// `drive_lost (x): a drive does not answer any more; sync_lost: …`, for someone who does not know the names.
+std::string condition_words(const StatusEntry& entry);
+
 }  // namespace millforce::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/results_folder.hpp"
+#include "files/results_folder.hpp"
 
 #include <fmt/format.h>
 

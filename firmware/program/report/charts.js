@@ -66,16 +66,17 @@ const charts = (() => {
     }
   }
 
-  /** The controller's states: a faint tint behind the curves and a strip of full colour at the foot. */
-  function drawStates(context, area, graph, axis, states, names) {
+  /** What held in each bucket (one hexadecimal digit, "." for nothing): a faint tint behind the curves and a strip of
+   *  full colour at the foot. */
+  function drawStrip(context, area, graph, axis, digits, colourOf) {
     const stripHeight = 9;
-    for (let first = 0; first < states.length; ) {
+    for (let first = 0; first < digits.length; ) {
       let end = first + 1;
-      while (end < states.length && states[end] === states[first]) ++end;
-      if (states[first] !== ".") {
+      while (end < digits.length && digits[end] === digits[first]) ++end;
+      if (digits[first] !== ".") {
         const x = graph.toDomXCoord((first * axis.length) / axis.buckets);
         const width = graph.toDomXCoord((end * axis.length) / axis.buckets) - x;
-        context.fillStyle = colour(`state-${names[Number(states[first])]}`);
+        context.fillStyle = colour(colourOf(parseInt(digits[first], 16)));
         context.globalAlpha = 0.1;
         context.fillRect(x, area.y, width, area.h);
         context.globalAlpha = 1;
@@ -276,5 +277,5 @@ const charts = (() => {
     addEventListener("afterprint", () => forPaper(false));
   }
 
-  return { LinkedCharts, drawBand, drawStates, element, colour, forgetColours, followWindow, interactionModel };
+  return { LinkedCharts, drawBand, drawStrip, element, colour, forgetColours, followWindow, interactionModel };
 })();
