@@ -55,13 +55,13 @@ function(millforce_joined_sources target)
     endif()
 endfunction()
 
-# millforce_names(<name>): the target millforce_<name> is millforce::<name> for every project that builds or installs it,
-# and <name> inside this one. Another project may have a target `control` of its own.
+# millforce_names(<name>): the library millforce_lib_<name> is millforce::<name> for every project that builds or installs
+# it, and <name> inside this one. Another project may have a target `control` of its own.
 function(millforce_names name)
-    add_library(millforce::${name} ALIAS millforce_${name})
-    set_target_properties(millforce_${name} PROPERTIES EXPORT_NAME ${name})
+    add_library(millforce::${name} ALIAS millforce_lib_${name})
+    set_target_properties(millforce_lib_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME millforce_${name})
     if(PROJECT_IS_TOP_LEVEL)
-        add_library(${name} ALIAS millforce_${name})
+        add_library(${name} ALIAS millforce_lib_${name})
     endif()
 endfunction()
 
@@ -87,7 +87,7 @@ endfunction()
 # millforce_core(<folder> SOURCES ... LINKS ...)
 function(millforce_core name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-    set(target millforce_${name})
+    set(target millforce_lib_${name})
     add_library(${target} STATIC ${ARG_SOURCES})
     millforce_names(${name})
     millforce_public_headers(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
