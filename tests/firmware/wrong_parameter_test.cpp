@@ -23,14 +23,14 @@ bool is_bad_configuration(const Parameters<float>& parameters) {
 template <typename Visit>
 void for_each_number(Visit visit) {
     Parameters<float> parameters = default_parameters<float>();
-    for_each_parameter(parameters, [&]<typename Field>(const ParameterName& name, Field& field, float minimum,
-                                                       float maximum) {
-        if constexpr (std::is_same_v<Field, float>) {
-            const float before = field;
-            visit(parameters, name, minimum, maximum, field);
-            field = before;
-        }
-    });
+    for_each_parameter(parameters,
+                       [&]<typename Field>(const ParameterName& name, Field& field, float minimum, float maximum) {
+                           if constexpr (std::is_same_v<Field, float>) {
+                               const float before = field;
+                               visit(parameters, name, minimum, maximum, field);
+                               field = before;
+                           }
+                       });
 }
 
 void names_the_field(const Parameters<float>& parameters, const ParameterName& name) {
@@ -52,14 +52,14 @@ TEST(WrongParameter, is_none_in_the_defaults_of_either_scalar) {
 }
 
 TEST(WrongParameter, is_each_number_that_is_out_of_its_range_or_not_a_number) {
-    for_each_number([](const Parameters<float>& parameters, const ParameterName& name, float minimum, float maximum,
-                       float& field) {
-        const float far = 1.0F + maximum - minimum;
-        for (const float value : {minimum - far, maximum + far, std::numeric_limits<float>::quiet_NaN()}) {
-            field = value;
-            names_the_field(parameters, name);
-        }
-    });
+    for_each_number(
+        [](const Parameters<float>& parameters, const ParameterName& name, float minimum, float maximum, float& field) {
+            const float far = 1.0F + maximum - minimum;
+            for (const float value : {minimum - far, maximum + far, std::numeric_limits<float>::quiet_NaN()}) {
+                field = value;
+                names_the_field(parameters, name);
+            }
+        });
 }
 
 TEST(WrongParameter, is_named_wherever_the_controller_sees_a_bad_configuration) {

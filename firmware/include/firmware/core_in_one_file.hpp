@@ -9,6 +9,13 @@
 /// hal, estimation, control and firmware. CMake's target millforce::core_in_one_file has them. With GCC and clang add
 /// -ffp-contract=off, and the results have the same bits on every processor.
 
+#include "control/src/ceilings.cpp"
+#include "control/src/cut_states.cpp"
+#include "control/src/cut_trend.cpp"
+#include "control/src/feed_ahead.cpp"
+#include "control/src/feed_controller.cpp"
+#include "control/src/feed_law.cpp"
+#include "control/src/path_turn.cpp"
 #include "estimation/src/cut_estimator_fixed.cpp"
 #include "estimation/src/cut_estimator_float.cpp"
 #include "estimation/src/cutting_law.cpp"
@@ -19,13 +26,6 @@
 #include "estimation/src/force_drop.cpp"
 #include "estimation/src/peak_table.cpp"
 #include "estimation/src/roughness.cpp"
-#include "control/src/ceilings.cpp"
-#include "control/src/cut_states.cpp"
-#include "control/src/cut_trend.cpp"
-#include "control/src/feed_ahead.cpp"
-#include "control/src/feed_controller.cpp"
-#include "control/src/feed_law.cpp"
-#include "control/src/path_turn.cpp"
 #include "firmware/src/parameter_block.cpp"
 #include "firmware/src/parameter_values.cpp"
 #include "firmware/src/signal_supervisor.cpp"

@@ -13,8 +13,8 @@ namespace millforce::firmware {
 
 struct WrongParameter {
     ParameterName name;  ///< file and key; its table: table_in_file(name)
-    float value;  ///< may be NaN
-    float minimum;  ///< of the range; an override_max must be above it
+    float value;         ///< may be NaN
+    float minimum;       ///< of the range; an override_max must be above it
     float maximum;
 };
 

@@ -24,11 +24,11 @@ TEST(DefaultParameters, are_those_of_the_scenarios_files_but_for_feed_drives_bus
     const ParameterValues values = values_of(of_files);
     const std::set<std::string> not_theirs{"axis", "bus", "bus.drive"};
     std::size_t next = 0;
-    for_each_parameter(defaults, [&](const ParameterName& name, const auto& field, float /*minimum*/,
-                                     float /*maximum*/) {
-        const float of_file = values[next++];
-        if (!not_theirs.contains(name.table)) {
-            CHECK_TEXT(of_file == static_cast<float>(field), name.key);
-        }
-    });
+    for_each_parameter(defaults,
+                       [&](const ParameterName& name, const auto& field, float /*minimum*/, float /*maximum*/) {
+                           const float of_file = values[next++];
+                           if (!not_theirs.contains(name.table)) {
+                               CHECK_TEXT(of_file == static_cast<float>(field), name.key);
+                           }
+                       });
 }
