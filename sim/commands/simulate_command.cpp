@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "bus/plant_on_can.hpp"
 #include "bus/plant_wiring.hpp"
@@ -24,6 +25,7 @@
 #include "preview/clairvoyant.hpp"
 #include "preview/preview.hpp"
 #include "recording/recording.hpp"
+#include "remote/socket_controller.hpp"
 #include "report/report.hpp"
 #include "report/summary.hpp"
 
@@ -34,6 +36,7 @@ namespace {
 struct SimulateOptions {
     std::string scenario;
     std::string controller = "millforce";
+    double controller_timeout_s = 10.0;
     std::optional<std::uint64_t> seed;
     std::string out = "out";
     bool record = false;
@@ -49,6 +52,7 @@ struct SimulateOptions {
 };
 
 constexpr const char* baseline = "constant";
+constexpr std::string_view at_socket = "socket:";
 
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
@@ -150,6 +154,16 @@ void print_plan(const Scenario& scenario, const RunFigures& figures) {
         plan.time_s, 100.0 * plan.peak_over_limit, figures.time_s / plan.time_s);
 }
 
+/// The controller is another process, behind a Unix socket.
+RunResult run_with_socket(const SimulateOptions& options, const Scenario& scenario,
+                          const std::optional<std::filesystem::path>& recording) {
+    SocketController controller(scenario, options.controller.substr(at_socket.size()),
+                                LineSocket::Patience(options.controller_timeout_s));
+    RunResult result = run(scenario, controller.name(), controller, recording);
+    controller.end(result.figures);
+    return result;
+}
+
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
     const std::filesystem::path out = host::results_folder(options.out, "summary.json");
@@ -166,6 +180,8 @@ int simulate_scenario(const SimulateOptions& options) {
     } else if (options.preview || !options.map.empty()) {
         MappedController controller(scenario.parameters, map_of(options, scenario));
         results.push_back(run(scenario, "millforce", controller, recording));
+    } else if (options.controller.starts_with(at_socket)) {
+        results.push_back(run_with_socket(options, scenario, recording));
     } else if (!is_baseline) {
         results.push_back(
             run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
@@ -201,13 +217,22 @@ void add_simulate(host::Command& program) {
         "The baseline for comparison is the largest constant feed with which no tooth exceeds its limit even if the "
         "material\n"
         "is harder (--hardest).\n"
+        "socket:PATH is a controller in another process, in any language, that listens at a Unix socket: a line of "
+        "JSON "
+        "for\n"
+        "each sample, a line back (sim/python/README.md).\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
         "the\n"
         "reaction time after the engagement grew, or the program did not finish.");
     command.option("scenario", options->scenario, "Scenario to mill").required().value_name("SCENARIO.toml");
     host::Option controller = command.option("--controller", options->controller, "Controller that sets the override")
-                                  .one_of(controller_names())
+                                  .one_of_or(controller_names(), std::string(at_socket), "socket:PATH")
                                   .shows_default();
+    command
+        .option("--controller-timeout", options->controller_timeout_s,
+                "With socket:PATH: longest wait in s for the controller to listen, and for each of its answers")
+        .within(0.01, 3600.0)
+        .shows_default();
     command.option("--seed", options->seed, "Seed of all noise; default: the scenario's").within(0.0, 4294967295.0);
     command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
         .value_name("DIR")

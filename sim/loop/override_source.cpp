@@ -6,14 +6,10 @@
 
 namespace millforce::sim {
 
-namespace {
-
 firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
     parameters.tool.monitor_only = true;
     return parameters;
 }
-
-}  // namespace
 
 template <typename Scalar>
 hal::FeedOverride TickController<Scalar>::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {

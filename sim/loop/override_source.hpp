@@ -35,6 +35,9 @@ class OverrideSource {
     [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
 
+/// The parameters with which a tick only watches.
+[[nodiscard]] firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters);
+
 /// What a tick knew. Its total force, that a trace shows as well, is left to the caller.
 void describe(const firmware::TickRecord& tick, TracePoint& point);
 

@@ -30,22 +30,8 @@ bool has(const hal::DriveSample& sample, std::uint8_t mask) {
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev,
                                  bool has_force_sensor)
-    : file_(file), counts_per_rev_(static_cast<double>(encoder_counts_per_rev)), has_force_sensor_(has_force_sensor) {
+    : file_(file), counts_(encoder_counts_per_rev), has_force_sensor_(has_force_sensor) {
     file_.stream() << header << (has_force_sensor_ ? ",fx_N,fy_N\n" : "\n");
-}
-
-double RecordingWriter::angle_rad(std::int64_t count) const {
-    return static_cast<double>(count) / counts_per_rev_ * turn_rad;
-}
-
-/// Time and count of the sample wrap at 2³²; those of the file go on.
-void RecordingWriter::follow(const hal::DriveSample& sample) {
-    time_us_ += static_cast<std::int32_t>(sample.time_us - last_time_us_);
-    last_time_us_ = sample.time_us;
-    if (has(sample, hal::mask(hal::Present::spindle_count))) {
-        count_ += static_cast<std::int32_t>(sample.spindle_count - last_count_);
-        last_count_ = sample.spindle_count;
-    }
 }
 
 template <typename Value>
@@ -58,11 +44,10 @@ void RecordingWriter::cell(Value value, bool present) {
 
 void RecordingWriter::add(const RecordedStep& step) {
     const hal::DriveSample& s = step.sample;
-    follow(s);
-    const bool has_count = has(s, hal::mask(hal::Present::spindle_count));
+    counts_.follow(s);
     const bool has_force = has_force_sensor_ && has(s, hal::mask(hal::Present::force_sensor));
-    line_ = CsvWriter::cell(static_cast<double>(time_us_) / 1e6);
-    cell(angle_rad(count_), has_count);
+    line_ = CsvWriter::cell(counts_.time_s());
+    cell(counts_.angle_rad(), ContinuousCounts::has_count(s));
     cell(s.spindle_current_A, has(s, hal::mask(hal::Present::spindle_current)));
     for (std::size_t k = 0; k < hal::axis_count; ++k) {
         cell(s.axis_current_A[k], has(s, hal::axis_mask(k)));
@@ -71,8 +56,7 @@ void RecordingWriter::add(const RecordedStep& step) {
         cell(s.axis_velocity_mm_s[k], has(s, hal::axis_mask(k)) || (k < s.force_N.size() && has_force));
     }
     cell(step.override_ratio);
-    cell(angle_rad(count_ + static_cast<std::int32_t>(s.spindle_index_count - s.spindle_count)),
-         has_count && s.spindle_index_number != 0);
+    cell(counts_.index_angle_rad(s), ContinuousCounts::has_index(s));
     cell(step.program.programmed_feed_mm_s);
     line_ += step.program.rapid ? ",1" : ",0";
     for (std::size_t k = 0; has_force_sensor_ && k < s.force_N.size(); ++k) {

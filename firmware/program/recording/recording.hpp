@@ -8,6 +8,7 @@
 #include "files/csv.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
+#include "recording/continuous_counts.hpp"
 
 namespace millforce::host {
 
@@ -31,19 +32,13 @@ class RecordingWriter {
     void commit() { file_.commit(); }
 
   private:
-    void follow(const hal::DriveSample& sample);
-    [[nodiscard]] double angle_rad(std::int64_t count) const;
     template <typename Value>
     void cell(Value value, bool present = true);
 
     AtomicFile file_;
-    double counts_per_rev_;
+    ContinuousCounts counts_;
     bool has_force_sensor_;
     std::string line_;
-    std::int64_t time_us_ = 0;
-    std::int64_t count_ = 0;
-    std::uint32_t last_time_us_ = 0;
-    std::uint32_t last_count_ = 0;
 };
 
 /// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as
