@@ -69,20 +69,6 @@ Scenario scenario_of(const SimulateOptions& options) {
     return scenario;
 }
 
-std::unique_ptr<OverrideSource> controller_named(const std::string& name, const Scenario& scenario,
-                                                 double constant_ratio) {
-    if (name == baseline) {
-        return std::make_unique<ConstantFeed>(scenario.parameters, constant_ratio);
-    }
-    if (name == "constant_load") {
-        return std::make_unique<ConstantLoad>(scenario.parameters, constant_load_reference_N(scenario.parameters));
-    }
-    if (name == "millforce_fixed") {
-        return std::make_unique<FixedPointController>(scenario.parameters);
-    }
-    return std::make_unique<MillforceController>(scenario.parameters);
-}
-
 SimulationSettings settings_with(host::Progress& progress) {
     SimulationSettings settings;
     settings.progress = [&progress](double share) {
@@ -183,13 +169,13 @@ int simulate_scenario(const SimulateOptions& options) {
     } else if (options.controller.starts_with(at_socket)) {
         results.push_back(run_with_socket(options, scenario, recording));
     } else if (!is_baseline) {
-        results.push_back(
-            run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
+        results.push_back(run(scenario, options.controller,
+                              *controller_named(options.controller, scenario.parameters, 0.0), recording));
     }
     double ratio = 0.0;
     if (options.interface.empty()) {
         ratio = safe_override_of(scenario, options.hardest);
-        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
+        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario.parameters, ratio),
                               is_baseline ? recording : std::nullopt));
     }
     const ScenarioInfo info = info_of(scenario, ratio);

@@ -16,22 +16,29 @@
 
 namespace millforce::sim {
 
-/// Who sets the feed override: the project's own tick, or a baseline to compare it with. It sees what a controller on
-/// the machine sees, drive samples and the program's status, and nothing of the plant.
-class OverrideSource {
+/// Who can say what a controller knew.
+class TraceSource {
   public:
-    virtual ~OverrideSource() = default;
-    virtual hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) = 0;
+    virtual ~TraceSource() = default;
     /// Writes the estimates of this moment into a trace point.
     virtual void describe(TracePoint& point) const = 0;
+};
+
+/// How the plant is to step until the next sample.
+struct PlantSteps {
+    int count = 0;
+    double step_s = 0.0;
+};
+
+/// Who sets the feed override: the project's own tick, or a baseline to compare it with. It sees what a controller on
+/// the machine sees, drive samples and the program's status, and nothing of the plant.
+class OverrideSource : public TraceSource {
+  public:
+    virtual hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) = 0;
 
     /// Before it is, the spindle turns and the program waits.
     [[nodiscard]] virtual bool is_ready() const { return true; }
-    /// How the plant is to step until the next sample: as usual, but where a bus sets the time.
-    struct PlantSteps {
-        int count = 0;
-        double step_s = 0.0;
-    };
+    /// As usual, but where a bus sets the time.
     [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
 
@@ -120,5 +127,8 @@ double constant_load_reference_N(const firmware::Parameters<float>& parameters);
 
 /// The controllers by name: "millforce", "millforce_fixed", "constant", "constant_load".
 std::vector<std::string> controller_names();
+/// One of them. `constant_ratio`: the override of "constant".
+std::unique_ptr<OverrideSource> controller_named(const std::string& name, const firmware::Parameters<float>& parameters,
+                                                 double constant_ratio);
 
 }  // namespace millforce::sim

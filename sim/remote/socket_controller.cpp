@@ -8,21 +8,8 @@
 
 namespace millforce::sim {
 
-namespace {
-
-/// Nobody at the simulated machine holds the feed but the controller: a part on which it never comes back would not
-/// end.
-constexpr double longest_standstill_s = 10.0;
-
-}  // namespace
-
 SocketController::SocketController(const Scenario& scenario, const std::string& path, LineSocket::Patience patience)
-    : path_(path),
-      cnc_(scenario.parameters.machine.cnc),
-      socket_(path, patience),
-      name_(greet(scenario)),
-      monitor_(monitoring(scenario.parameters)),
-      counts_(scenario.parameters.machine.encoder_counts_per_rev) {}
+    : path_(path), socket_(path, patience), name_(greet(scenario)), controller_(scenario) {}
 
 std::string SocketController::greet(const Scenario& scenario) {
     try {
@@ -34,51 +21,21 @@ std::string SocketController::greet(const Scenario& scenario) {
 }
 
 hal::FeedOverride SocketController::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    monitor_.step(sample, program);
-    counts_.follow(sample);
-    ++samples_;
     try {
-        const hal::FeedOverride output = ask(sample, program);
-        refuse_standstill(output);
-        return output;
+        return ask(sample, program);
     } catch (const host::InputError& error) {
         give_up(error.what());
     }
 }
 
 hal::FeedOverride SocketController::ask(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
+    const std::string question = controller_.ask(sample, program);
+    const std::uint64_t number = controller_.sample_number();
     if (socket_.has_more()) {
-        throw host::InputError(fmt::format("the controller sent more than one line before sample {}", samples_));
+        throw host::InputError(fmt::format("the controller sent more than one line before sample {}", number));
     }
-    TracePoint estimate;
-    monitor_.describe(estimate);
-    socket_.send(sample_message({samples_, sample, program, counts_, estimate}));
-    const std::string_view line = socket_.receive(fmt::format("the answer to sample {}", samples_));
-    const ControllerAnswer answer = read_answer(line, samples_, cnc_);
-    own_estimate_ = answer.estimate;
-    hal::FeedOverride output;
-    output.ratio = answer.override_ratio;
-    output.hold = answer.hold;
-    output.heartbeat = static_cast<std::uint32_t>(samples_);
-    return output;
-}
-
-void SocketController::refuse_standstill(const hal::FeedOverride& output) {
-    const bool stands = counts_.time_s() > 0.0 && (output.hold || !(output.ratio > 0.0F));
-    stands_since_s_ = stands ? stands_since_s_ : counts_.time_s();
-    if (stands && counts_.time_s() - stands_since_s_ > longest_standstill_s) {
-        throw host::InputError(fmt::format("sample {}: the feed has been held for {:g} s, the program would not end",
-                                           samples_, longest_standstill_s));
-    }
-}
-
-void SocketController::describe(TracePoint& point) const {
-    monitor_.describe(point);
-    point.limit = 0;
-    point.fault = 0;
-    if (own_estimate_) {
-        copy_estimate(*own_estimate_, point);
-    }
+    socket_.send(question);
+    return controller_.take(socket_.receive(fmt::format("the answer to sample {}", number)));
 }
 
 void SocketController::end(const RunFigures& figures) {

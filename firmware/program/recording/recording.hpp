@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "files/atomic_file.hpp"
@@ -55,6 +56,8 @@ class RecordingWriter {
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
+    /// The same from other rows than those of a file.
+    RecordingReader(std::unique_ptr<NumberTable> rows, std::uint32_t encoder_counts_per_rev);
 
     bool next();
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
@@ -67,7 +70,7 @@ class RecordingReader {
     /// Whether index pulses are recorded; else the angle's zero stands for them.
     [[nodiscard]] bool has_index() const { return index_angle_.has_value(); }
     [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
-    [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
+    [[nodiscard]] double fraction_read() const { return rows_->fraction_read(); }
 
   private:
     struct Axis {
@@ -84,7 +87,7 @@ class RecordingReader {
     [[nodiscard]] std::optional<std::uint32_t> index_of_zero() const;
     [[nodiscard]] std::optional<std::uint32_t> count_at(std::optional<CsvColumn> angle) const;
 
-    CsvReader csv_;
+    std::unique_ptr<NumberTable> rows_;
     std::uint32_t counts_per_rev_;
     CsvColumn time_;
     CsvColumn angle_;
