@@ -10,7 +10,8 @@ namespace millforce::sim {
 
 namespace {
 
-/// Nobody at the simulated machine holds the feed but the controller: a part on which it never comes back would not end.
+/// Nobody at the simulated machine holds the feed but the controller: a part on which it never comes back would not
+/// end.
 constexpr double longest_standstill_s = 10.0;
 
 }  // namespace

@@ -58,8 +58,7 @@ void NumberTable::fail_names(std::string_view message) const {
 }
 
 void NumberTable::fail(CsvColumn column, std::string_view message) const {
-    throw InputError(
-        fmt::format("{}: column '{}': {}", place_of_row(), printable(names_[column.index]), message));
+    throw InputError(fmt::format("{}: column '{}': {}", place_of_row(), printable(names_[column.index]), message));
 }
 
 }  // namespace millforce::host
