@@ -53,8 +53,7 @@ auto friction(const Files& data, const std::filesystem::path& output, std::optio
     host::FrictionCalibrationOptions options;
     options.data = data;
     options.output = output;
-    options.axis =
-        choice<std::string>("axis", axis.value_or(options.axis), {{"x", "x"}, {"y", "y"}, {"z", "z"}});
+    options.axis = choice<std::string>("axis", axis.value_or(options.axis), {{"x", "x"}, {"y", "y"}, {"z", "z"}});
     options.low_pass_hz = low_pass_hz.value_or(options.low_pass_hz);
     options.minimum_speed_mm_s = minimum_speed_mm_s.value_or(options.minimum_speed_mm_s);
     return reported(host::calibrate_friction, options);

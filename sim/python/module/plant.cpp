@@ -90,8 +90,9 @@ class Plant {
 
   private:
     void ask() {
-        sample_ = simulation_.next_sample() ? std::optional(controller_.ask(simulation_.sample(), simulation_.program()))
-                                            : std::nullopt;
+        sample_ = simulation_.next_sample()
+                      ? std::optional(controller_.ask(simulation_.sample(), simulation_.program()))
+                      : std::nullopt;
     }
 
     std::string hello_;

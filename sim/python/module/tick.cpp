@@ -32,7 +32,8 @@ class Tick {
         py::dict out;
         add_columns(out, made.points, sim::estimate_columns());
         for (const sim::TraceColumn& column : sim::simulation_columns()) {
-            if (const std::string_view name = column.name; name == "limit" || name == "fault" || name == "tooth_force_N") {
+            if (const std::string_view name = column.name;
+                name == "limit" || name == "fault" || name == "tooth_force_N") {
                 add_columns(out, made.points, std::span(&column, 1));
             }
         }
@@ -59,9 +60,9 @@ class Tick {
         const auto rows = columns.empty() ? 0 : columns.front().size();
         for (std::size_t k = 0; k < columns.size(); ++k) {
             if (columns[k].ndim() != 1 || columns[k].size() != rows) {
-                throw host::InputError(fmt::format(
-                    "samples: column '{}' has {} values in {} dimensions; expected {} in one, as in '{}'", names[k],
-                    columns[k].size(), columns[k].ndim(), rows, names.front()));
+                throw host::InputError(
+                    fmt::format("samples: column '{}' has {} values in {} dimensions; expected {} in one, as in '{}'",
+                                names[k], columns[k].size(), columns[k].ndim(), rows, names.front()));
             }
             starts.push_back(columns[k].data());
         }
