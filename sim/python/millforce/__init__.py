@@ -147,7 +147,7 @@ class Tick:
         "no estimate". The forces are means over a tooth period, radial_immersion is a_e/R (0…2), *_sd are standard
         deviations. The numbers are those of `millforce replay --interval 0`. Cost: some 7 µs a sample."""
         table = read_csv(samples) if not isinstance(samples, Mapping) else samples
-        numbers = {name: column for name, column in table.items() if np.asarray(column).dtype.kind in "biuf"}
+        numbers = {name: column for name, column in table.items() if np.asarray(column).dtype.kind not in "US"}
         return self._tick.step(list(numbers), [np.asarray(column, dtype=float) for column in numbers.values()])
 
 
@@ -256,7 +256,7 @@ class Fit:
 
 @contextmanager
 def _files() -> Iterator[Callable[[Data | None, str], str]]:
-    """Paths for tables and dictionaries: the calibrations read files, and name them in their messages."""
+    """Paths for tables and dictionaries: the calibrations read files, and name them in their messages (data_1.csv)."""
     with tempfile.TemporaryDirectory(prefix="millforce-") as folder:
         def path_of(given: Any, name: str) -> str:
             if given is None:
@@ -269,7 +269,10 @@ def _files() -> Iterator[Callable[[Data | None, str], str]]:
             else:
                 write_csv(path, given)
             return str(path)
-        yield path_of
+        try:
+            yield path_of
+        except InputError as error:
+            raise InputError(str(error).replace(folder + os.sep, "")) from None
 
 
 def _calibrate(calibration: Callable[..., tuple[str, bool]], data: Data | Sequence[Data], files: Mapping[str, Any],

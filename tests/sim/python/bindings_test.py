@@ -95,6 +95,9 @@ class SameAsTheProgram(WithFolder):
         self.assertLess(spindle["K_t1_Nm_per_A_se"], 0.01)
 
     def test_what_the_program_refuses(self):
+        table = millforce.read_csv(CUTS)
+        table["feed_mm_s"][0] = -1.0
+        self.assert_refused("data_1.csv:2: column 'feed_mm_s'", millforce.calibrate_cutting, table)
         (self.folder / "cut.csv").write_text(CUTS.read_text().splitlines()[0] + "\n")
         for command, function, data in (("friction", millforce.calibrate_friction, self.folder / "none.csv"),
                                         ("cutting", millforce.calibrate_cutting, self.folder / "cut.csv")):
