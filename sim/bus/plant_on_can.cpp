@@ -122,7 +122,7 @@ void PlantOnCan::send_all() {
     }
 }
 
-PlantSteps PlantOnCan::plant_steps(const PlantSteps& usual) {
+OverrideSource::PlantSteps PlantOnCan::plant_steps(const PlantSteps& usual) {
     const double elapsed_s = 1e-6 * static_cast<double>(std::max<std::uint64_t>(due_us_ - plant_us_, 1));
     plant_us_ = due_us_;
     if (settings_.computes_ahead && syncs_ != stepped_syncs_) {

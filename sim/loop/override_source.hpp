@@ -24,12 +24,6 @@ class TraceSource {
     virtual void describe(TracePoint& point) const = 0;
 };
 
-/// How the plant is to step until the next sample.
-struct PlantSteps {
-    int count = 0;
-    double step_s = 0.0;
-};
-
 /// Who sets the feed override: the project's own tick, or a baseline to compare it with. It sees what a controller on
 /// the machine sees, drive samples and the program's status, and nothing of the plant.
 class OverrideSource : public TraceSource {
@@ -38,7 +32,11 @@ class OverrideSource : public TraceSource {
 
     /// Before it is, the spindle turns and the program waits.
     [[nodiscard]] virtual bool is_ready() const { return true; }
-    /// As usual, but where a bus sets the time.
+    /// How the plant is to step until the next sample: as usual, but where a bus sets the time.
+    struct PlantSteps {
+        int count = 0;
+        double step_s = 0.0;
+    };
     [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
 

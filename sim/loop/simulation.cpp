@@ -91,7 +91,7 @@ bool SteppedSimulation::next_sample(bool is_ready) {
 }
 
 void SteppedSimulation::answer(const hal::FeedOverride& output, const TraceSource& controller,
-                               const PlantSteps& steps) {
+                               const OverrideSource::PlantSteps& steps) {
     override_ = output;
     steps_ = steps;
     if (has_begun_) {

@@ -53,9 +53,10 @@ class SteppedSimulation {
     /// The override that is in force until the next sample. `controller` describes what led to it.
     void answer(const hal::FeedOverride& output, const TraceSource& controller) { answer(output, controller, usual_); }
     /// `steps`: of the plant until the next sample.
-    void answer(const hal::FeedOverride& output, const TraceSource& controller, const PlantSteps& steps);
+    void answer(const hal::FeedOverride& output, const TraceSource& controller,
+                const OverrideSource::PlantSteps& steps);
     /// As the machine's sample rate gives them.
-    [[nodiscard]] const PlantSteps& usual_steps() const { return usual_; }
+    [[nodiscard]] const OverrideSource::PlantSteps& usual_steps() const { return usual_; }
 
     [[nodiscard]] double time_s() const { return plant_.time_s(); }
     [[nodiscard]] double path_share() const;
@@ -73,9 +74,9 @@ class SteppedSimulation {
     MillingPlant plant_;
     hal::DriveSample sample_{};
     hal::FeedOverride override_{};
-    PlantSteps usual_{};
-    PlantSteps steps_{};      ///< left until the next sample
-    bool has_begun_ = false;  ///< the program
+    OverrideSource::PlantSteps usual_{};
+    OverrideSource::PlantSteps steps_{};  ///< left until the next sample
+    bool has_begun_ = false;              ///< the program
     bool was_stopped_ = false;
     double next_report_s_ = 1.0;
     std::chrono::steady_clock::time_point started_;

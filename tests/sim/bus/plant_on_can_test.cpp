@@ -64,7 +64,7 @@ struct PlantOnScript {
     }
 
     /// Up to the next SYNC: how the plant is to step behind it.
-    sim::PlantSteps next() {
+    sim::OverrideSource::PlantSteps next() {
         (void)plant->step({}, {});
         return plant->plant_steps({4, 0.25e-3});
     }
