@@ -84,6 +84,21 @@ class SameAsTheProgram(WithFolder):
             self.assertEqual(from_arrays.parameters, from_file.parameters)
         self.assertGreater(from_file.parameters["cutting"]["k_s_N_per_mm2_se"], 0)
 
+    def test_kim_and_chungs_procedure_from_arrays(self):
+        folder = ROOT / "sim/scenarios/commissioning"
+        recording = self.folder / "standard.csv"
+        millforce.simulate(folder / "standard_cut_x.toml", recording=recording)
+        cuts, library = folder / "standard_cut_x_cuts.csv", ROOT / "sim/scenarios/tools/coefficients.toml"
+        ended = program("calibrate", "standard-cut", recording, "--cuts", cuts, "--machine", MACHINE, "--database",
+                        library, "--entry", "SM45C_carbide", "-o", self.folder / "gains.toml")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        fit = millforce.calibrate_standard_cut(millforce.read_csv(recording), millforce.read_csv(cuts),
+                                               millforce.tomllib.loads(MACHINE.read_text()), library,
+                                               entry="SM45C_carbide")
+        self.assertEqual(fit.parameters, millforce.tomllib.loads((self.folder / "gains.toml").read_text()))
+        spindle = fit.parameters["spindle"]
+        self.assertLess(abs(spindle["K_t1_Nm_per_A"] - 0.7), 3 * spindle["K_t1_Nm_per_A_se"])  # 0.7: the plant's
+
     def test_gains_of_a_spindle_come_back_from_made_up_torques(self):
         random = np.random.default_rng(1)
         current_A = np.repeat(np.arange(2.0, 12.0), 3)
