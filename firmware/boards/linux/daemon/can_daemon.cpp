@@ -34,6 +34,7 @@ std::uint64_t longest_turn_us(const ToolSet& tools, const BusTime& time) {
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
                      Journal& journal, const CanDaemonSettings& settings)
     : journal_(journal),
+      telemetry_(settings.telemetry),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
       controller_(controller_settings(bus), tools.parameters(), this, tools.source()),
@@ -168,13 +169,26 @@ void CanDaemon::on_tick(const firmware::CanController& controller) {
     if (unrecorded_count_ == unrecorded_.size()) {
         record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
-    unrecorded_[unrecorded_count_++] = {controller.record(), controller.tool()};
+    unrecorded_[unrecorded_count_++] = sample_of(controller);
+}
+
+TelemetrySample CanDaemon::sample_of(const firmware::CanController& controller) const {
+    return {.monotonic_us = socketcan::monotonic_us(),
+            .tick = controller.record(),
+            .tool = controller.tool(),
+            .is_held = controller.sent_override().hold,
+            .drives = controller.sample(),
+            .program = controller.program(),
+            .conditions = reported_};
 }
 
 void CanDaemon::record_ticks() {
     for (std::size_t k = 0; k < unrecorded_count_; ++k) {
         if (entries_.add(unrecorded_[k].tick, unrecorded_[k].tool, newest_)) {
             journal_.estimate(newest_);
+        }
+        if (telemetry_ != nullptr) {
+            telemetry_->put(unrecorded_[k]);
         }
     }
     unrecorded_count_ = 0;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemetry/telemetry_hub.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <new>
+
+namespace millforce::host {
+
+namespace {
+
+constexpr auto turn_period = std::chrono::milliseconds(20);
+constexpr int lowest_priority = 19;
+
+std::int64_t unix_offset_us() {
+    using std::chrono::microseconds;
+    const auto in_us = [](auto time) {
+        return std::chrono::duration_cast<microseconds>(time.time_since_epoch()).count();
+    };
+    return in_us(std::chrono::system_clock::now()) - in_us(std::chrono::steady_clock::now());
+}
+
+}  // namespace
+
+TelemetryHub::TelemetryHub(const ToolSet& tools, std::vector<std::unique_ptr<TelemetrySink>> sinks)
+    : maker_(tools, unix_offset_us()), sinks_(std::move(sinks)) {
+    if (!sinks_.empty()) {
+        feed_ = std::make_unique<TelemetryFeed>();
+        thread_ = std::thread([this] { run(); });
+    }
+}
+
+TelemetryHub::~TelemetryHub() {
+    ended_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+void TelemetryHub::run() {
+    setpriority(PRIO_PROCESS, 0, lowest_priority);  // on Linux: of this thread
+    while (!ended_.load()) {
+        std::this_thread::sleep_for(turn_period);
+        turn();
+    }
+    turn();
+    for (const auto& sink : sinks_) {
+        sink->on_end();
+    }
+}
+
+/// Without memory the watchers miss something, and the controller goes on.
+void TelemetryHub::turn() {
+    try {
+        for (TelemetrySample sample; feed_->take(sample);) {
+            hand_over(sample);
+        }
+        for (const auto& sink : sinks_) {
+            sink->on_turn();
+        }
+    } catch (const std::bad_alloc&) {
+    }
+}
+
+void TelemetryHub::hand_over(const TelemetrySample& sample) {
+    const Telemetry telemetry = maker_.of(sample, feed_->lost());
+    events_.follow(telemetry, [this](const TelemetryEvent& event) {
+        for (const auto& sink : sinks_) {
+            sink->on_event(event);
+        }
+    });
+    for (const auto& sink : sinks_) {
+        sink->on_sample(telemetry);
+    }
+}
+
+}  // namespace millforce::host

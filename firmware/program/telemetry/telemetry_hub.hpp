@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "telemetry/event_watch.hpp"
+#include "telemetry/telemetry.hpp"
+#include "telemetry/telemetry_feed.hpp"
+
+namespace millforce::host {
+
+/// Somebody who watches. All calls come from the hub's thread; none of them may throw, but for lack of memory.
+class TelemetrySink {
+  public:
+    virtual ~TelemetrySink() = default;
+    virtual void on_sample(const Telemetry& telemetry) = 0;
+    /// Before on_sample() of the telemetry that shows it.
+    virtual void on_event(const TelemetryEvent&) {}
+    /// After the samples that there were, each 20 ms.
+    virtual void on_turn() {}
+    /// The last call.
+    virtual void on_end() {}
+};
+
+/// Takes samples from the real-time thread and hands them to all sinks, in a thread of its own with the lowest
+/// priority. Made before the caller becomes real-time: the thread inherits its scheduler.
+class TelemetryHub {
+  public:
+    TelemetryHub(const ToolSet& tools, std::vector<std::unique_ptr<TelemetrySink>> sinks);
+    /// Hands over what is left.
+    ~TelemetryHub();
+    TelemetryHub(const TelemetryHub&) = delete;
+    TelemetryHub& operator=(const TelemetryHub&) = delete;
+
+    /// Of the real-time thread; null where nobody watches.
+    [[nodiscard]] TelemetryFeed* feed() { return feed_.get(); }
+
+  private:
+    void run();
+    void turn();
+    void hand_over(const TelemetrySample& sample);
+
+    TelemetryMaker maker_;
+    EventWatch events_{};
+    std::vector<std::unique_ptr<TelemetrySink>> sinks_;
+    std::unique_ptr<TelemetryFeed> feed_{};
+    std::atomic<bool> ended_{false};
+    std::thread thread_{};
+};
+
+}  // namespace millforce::host
