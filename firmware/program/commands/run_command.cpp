@@ -11,6 +11,7 @@
 #include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/watch_options.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
 #include "daemon/service.hpp"
@@ -32,6 +33,7 @@ struct RunOptions {
     std::string log;
     std::string record;
     BusPace pace{};
+    WatchOptions watch{};
 };
 
 MachineBus bus_of(const std::string& machine_file) {
@@ -106,10 +108,12 @@ int run_on_bus(const RunOptions& options) {
                         options.machine, bus.program.id, hal::largest_standard_can_id - 0x100));
     }
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, ToolForces(tools)});
-    const auto daemon =
-        std::make_unique<CanDaemon>(interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time});
+    const auto journal = std::make_unique<Journal>(JournalSettings{options.interface, options.record, options.log,
+                                                                   isatty(STDOUT_FILENO) != 0 && !options.watch.view,
+                                                                   ToolForces(tools)});
+    const auto hub = watch(options.watch, tools, options.interface);
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, tools, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), time, hub->feed()});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }
@@ -122,6 +126,7 @@ int run_on_bus(const RunOptions& options) {
     daemon->run(stop);
     notify_service_manager("STOPPING=1");
     journal->finish();
+    hub->finish();
     print_summary(options, *daemon, *journal);
     if (!journal->failed_file().empty()) {
         print_line(stderr,
@@ -156,6 +161,7 @@ void add_run(Command& program) {
                 "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
         .value_name("FILE.log");
     add_bus_pace(command, options->pace);
+    add_watch(command, options->watch);
     command.on_run([options] { return run_on_bus(*options); });
 }
 

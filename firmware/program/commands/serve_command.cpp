@@ -10,6 +10,7 @@
 #include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/watch_options.hpp"
 #include "control/cut_state.hpp"
 #include "daemon/line_printer.hpp"
 #include "daemon/pause_watch.hpp"
@@ -35,6 +36,7 @@ struct ServeOptions {
     double override_max = 1.0;
     std::string map;
     std::string program;
+    WatchOptions watch{};
 };
 
 /// Reports a fault as it comes and goes.
@@ -120,8 +122,41 @@ class Turns final : public TurnListener {
     bool is_held_ = false;
 };
 
+/// Hands each tick to whoever watches.
+class TickWatcher {
+  public:
+    explicit TickWatcher(TelemetryFeed* feed) : feed_(feed) {}
+
+    void follow(const firmware::LinkController& controller, bool was_stopped) {
+        if (feed_ == nullptr) {
+            return;
+        }
+        const std::uint32_t sample_us = controller.sample().time_us;
+        time_us_ += has_time_ ? sample_us - last_us_ : 0;  // the sample's clock wraps
+        last_us_ = sample_us;
+        has_time_ = true;
+        TelemetrySample sample{.monotonic_us = socketcan::monotonic_us(),
+                               .tick = firmware::tick_record(controller.tick(), controller.output(), time_us_),
+                               .tool = controller.tool(),
+                               .is_held = controller.is_held(),
+                               .drives = controller.sample(),
+                               .program = controller.program()};
+        sample.conditions.set(firmware::Condition::tool_unknown, !controller.is_tool_known());
+        sample.conditions.set(firmware::Condition::tool_change_due, controller.is_tool_change_due());
+        sample.conditions.set(firmware::Condition::process_paused, was_stopped);
+        feed_->put(sample);
+    }
+
+  private:
+    TelemetryFeed* feed_;
+    std::uint64_t time_us_ = 0;
+    std::uint32_t last_us_ = 0;
+    bool has_time_ = false;
+};
+
 void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller,
-                const MapFollower* follower, LinePrinter& printer) {
+                const MapFollower* follower, LinePrinter& printer, TelemetryFeed* feed) {
+    TickWatcher watcher(feed);
     FaultReporter faults;
     MapReporter maps;
     ToolReporter tools;
@@ -140,6 +175,7 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
             return;
         }
         server.send(answer);
+        watcher.follow(controller, turns.is_held());
         firmware::finish_work(controller);
         faults.follow(controller.output(), printer);
         tools.follow(controller, printer);
@@ -172,6 +208,7 @@ int serve(const ServeOptions& options) {
     show_start_check(tools);
     const std::optional<PartMap> map = map_of(options, parameters);
     LinePrinter printer(stderr);
+    const auto hub = watch(options.watch, tools, options.socket);
     Turns turns(printer);
     UnixServer server(options.socket, &turns);
     for (const std::string& note : become_real_time()) {
@@ -189,7 +226,7 @@ int serve(const ServeOptions& options) {
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller =
             std::make_unique<firmware::LinkController>(parameters, largest_override, follower.get(), tools.source());
-        serve_peer(server, turns, *controller, follower.get(), printer);
+        serve_peer(server, turns, *controller, follower.get(), printer, hub->feed());
         server.drop_peer();
         notify_service_manager("STATUS=waiting for a CNC");
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
@@ -221,6 +258,7 @@ void add_serve(Command& program) {
     command.option("--map", options->map, "Part map of 'millforce preview', to look ahead with")
         .value_name("PART.map")
         .needs(program_file);
+    add_watch(command, options->watch);
     command.on_run([options] { return serve(*options); });
 }
 

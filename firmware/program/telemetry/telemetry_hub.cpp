@@ -32,14 +32,22 @@ TelemetryHub::TelemetryHub(const ToolSet& tools, std::vector<std::unique_ptr<Tel
 }
 
 TelemetryHub::~TelemetryHub() {
+    finish();
+}
+
+void TelemetryHub::finish() {
     ended_.store(true);
     if (thread_.joinable()) {
         thread_.join();
     }
+    sinks_.clear();
 }
 
 void TelemetryHub::run() {
     setpriority(PRIO_PROCESS, 0, lowest_priority);  // on Linux: of this thread
+    for (const auto& sink : sinks_) {
+        sink->on_begin();
+    }
     while (!ended_.load()) {
         std::this_thread::sleep_for(turn_period);
         turn();

@@ -17,6 +17,8 @@ namespace millforce::host {
 class TelemetrySink {
   public:
     virtual ~TelemetrySink() = default;
+    /// The first call.
+    virtual void on_begin() {}
     virtual void on_sample(const Telemetry& telemetry) = 0;
     /// Before on_sample() of the telemetry that shows it.
     virtual void on_event(const TelemetryEvent&) {}
@@ -31,10 +33,12 @@ class TelemetrySink {
 class TelemetryHub {
   public:
     TelemetryHub(const ToolSet& tools, std::vector<std::unique_ptr<TelemetrySink>> sinks);
-    /// Hands over what is left.
     ~TelemetryHub();
     TelemetryHub(const TelemetryHub&) = delete;
     TelemetryHub& operator=(const TelemetryHub&) = delete;
+
+    /// Hands over what is left, and closes all sinks.
+    void finish();
 
     /// Of the real-time thread; null where nobody watches.
     [[nodiscard]] TelemetryFeed* feed() { return feed_.get(); }
