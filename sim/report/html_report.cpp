@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "report/page_assets.hpp"
 #include "report/page_template.hpp"
 #include "report/report_assets.hpp"
 #include "report/report_data.hpp"
@@ -30,7 +31,7 @@ std::string readable_time(double time_s, double longest_s) {
 
 std::string fact(std::string_view name, std::string_view value) {
     return value.empty() ? std::string{}
-                         : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html_escaped(value));
+                         : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, host::html_escaped(value));
 }
 
 std::string facts_html(const ScenarioInfo& info) {
@@ -82,7 +83,7 @@ std::string verdict_html(std::span<const RunResult> runs) {
     const RunFigures& figures = runs.front().figures;
     std::string out;
     if (!figures.finished) {
-        out += fmt::format("The part program did not come to its end (fault: {}). ", html_escaped(figures.fault));
+        out += fmt::format("The part program did not come to its end (fault: {}). ", host::html_escaped(figures.fault));
     }
     if (limit_held(figures)) {
         out += fmt::format("No tooth went over its limit; {}.",
@@ -110,13 +111,13 @@ std::string label_html(const std::string& label) {
 }
 
 std::string cell_text(const std::string& cell) {
-    return cell == "-" ? "–" : html_escaped(cell);
+    return cell == "-" ? "–" : host::html_escaped(cell);
 }
 
 std::string figures_table_html(std::span<const RunResult> runs) {
     std::string out = "<table class=\"figures\">\n<thead><tr><th scope=\"col\">Figure</th>";
     for (const RunResult& run : runs) {
-        out += fmt::format("<th scope=\"col\">{}</th>", html_escaped(run.controller));
+        out += fmt::format("<th scope=\"col\">{}</th>", host::html_escaped(run.controller));
     }
     out += "<th scope=\"col\" class=\"explanation\">What it is</th></tr></thead>\n<tbody>\n";
     for (const FigureRow& row : figure_rows(runs)) {
@@ -126,7 +127,7 @@ std::string figures_table_html(std::span<const RunResult> runs) {
         for (const std::string& cell : row.cells) {
             out += fmt::format("<td>{}</td>", cell_text(cell));
         }
-        out += fmt::format("<td class=\"explanation\">{}</td></tr>\n", html_escaped(row.explanation));
+        out += fmt::format("<td class=\"explanation\">{}</td></tr>\n", host::html_escaped(row.explanation));
     }
     return out + "</tbody>\n</table>\n";
 }
@@ -134,31 +135,31 @@ std::string figures_table_html(std::span<const RunResult> runs) {
 }  // namespace
 
 std::string report_html(const ScenarioInfo& info, std::span<const RunResult> runs) {
-    const std::string title = html_escaped(info.title.empty() ? info.name : info.title);
-    const std::string description = html_escaped(info.description);
+    const std::string title = host::html_escaped(info.title.empty() ? info.name : info.title);
+    const std::string description = host::html_escaped(info.description);
     const std::string facts = facts_html(info);
     const std::string headline = headline_html(runs);
     const std::string verdict = verdict_html(runs);
     const std::string figures = figures_table_html(runs);
-    const std::string controlled = html_escaped(runs.front().controller);
+    const std::string controlled = host::html_escaped(runs.front().controller);
     const std::string data = report_data_json(info, runs);
-    return filled(report_assets::report_template(),
-                  {
-                      {"title", title},
-                      {"description", description},
-                      {"controlled", controlled},
-                      {"facts", facts},
-                      {"headline", headline},
-                      {"verdict", verdict},
-                      {"figures", figures},
-                      {"data", data},
-                      {"report_style", report_assets::report_style()},
-                      {"charts_script", report_assets::charts_script()},
-                      {"top_view_script", report_assets::top_view_script()},
-                      {"report_script", report_assets::report_script()},
-                      {"dygraphs_script", without_source_map(report_assets::dygraphs_script())},
-                      {"dygraphs_style", without_source_map(report_assets::dygraphs_style())},
-                  });
+    return host::filled(report_assets::report_template(),
+                        {
+                            {"title", title},
+                            {"description", description},
+                            {"controlled", controlled},
+                            {"facts", facts},
+                            {"headline", headline},
+                            {"verdict", verdict},
+                            {"figures", figures},
+                            {"data", data},
+                            {"report_style", host::page_assets::report_style()},
+                            {"charts_script", host::page_assets::charts_script()},
+                            {"top_view_script", report_assets::top_view_script()},
+                            {"report_script", report_assets::report_script()},
+                            {"dygraphs_script", host::without_source_map(host::page_assets::dygraphs_script())},
+                            {"dygraphs_style", host::without_source_map(host::page_assets::dygraphs_style())},
+                        });
 }
 
 }  // namespace millforce::sim

@@ -3,16 +3,12 @@
 
 #include <string_view>
 
-/// The files that report.html is made of, embedded at build time by ReportAssets.cmake. The memory is static.
+/// The files that report.html is made of in addition to every page's, embedded at build time. The memory is static.
 
 namespace millforce::sim::report_assets {
 
 std::string_view report_template();
-std::string_view report_style();
-std::string_view charts_script();
 std::string_view top_view_script();
 std::string_view report_script();
-std::string_view dygraphs_script();
-std::string_view dygraphs_style();
 
 }  // namespace millforce::sim::report_assets

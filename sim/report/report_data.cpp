@@ -45,7 +45,7 @@ constexpr ChartColumn columns_of_first_run[] = {
     {"axial_depth_mm", 3, [](const TracePoint& p) { return p.axial_depth_mm; }},
 };
 
-void write_values(JsonWriter& json, const char* key, std::span<const double> values, int places) {
+void write_values(host::JsonWriter& json, const char* key, std::span<const double> values, int places) {
     json.key(key).begin_array();
     for (const double value : values) {
         json.decimal(value, places);
@@ -53,20 +53,20 @@ void write_values(JsonWriter& json, const char* key, std::span<const double> val
     json.end_array();
 }
 
-void write_columns(JsonWriter& json, const BucketedRun& run, std::span<const ChartColumn> columns) {
+void write_columns(host::JsonWriter& json, const BucketedRun& run, std::span<const ChartColumn> columns) {
     for (const ChartColumn& column : columns) {
         write_values(json, column.key, min_max_decimated(run, column.value), column.places);
     }
 }
 
 /// Of the moving limit the lowest in each bucket, one value: what counts, and no zigzag.
-void write_force_limit(JsonWriter& json, const BucketedRun& run) {
+void write_force_limit(host::JsonWriter& json, const BucketedRun& run) {
     write_values(json, "force_limit_N", bucket_minima(run, [](const TracePoint& p) { return p.force_limit_N; }), 1);
 }
 
 /// The 95 % band of an estimate: its lowest and highest bound in each bucket. An estimate without a standard deviation
 /// has no band.
-void write_band(JsonWriter& json, const BucketedRun& run, const char* low_key, const char* high_key,
+void write_band(host::JsonWriter& json, const BucketedRun& run, const char* low_key, const char* high_key,
                 double TracePoint::*value, double TracePoint::*sd) {
     const auto low = [&](const TracePoint& p) { return std::max(p.*value - band_sd * (p.*sd), 0.0); };
     const auto high = [&](const TracePoint& p) { return p.*value + band_sd * (p.*sd); };
@@ -74,7 +74,7 @@ void write_band(JsonWriter& json, const BucketedRun& run, const char* low_key, c
     write_values(json, high_key, bucket_maxima(run, high), 3);
 }
 
-void write_bands(JsonWriter& json, const BucketedRun& run) {
+void write_bands(host::JsonWriter& json, const BucketedRun& run) {
     write_band(json, run, "radial_immersion_low", "radial_immersion_high", &TracePoint::radial_immersion,
                &TracePoint::radial_immersion_sd);
     write_band(json, run, "axial_depth_low_mm", "axial_depth_high_mm", &TracePoint::axial_depth_mm,
@@ -89,7 +89,7 @@ constexpr int weight_of_state(std::uint8_t state) {
 
 /// One hexadecimal digit per bucket for the state and one for the limit that held the override in it; '.' where the run
 /// has ended.
-void write_states(JsonWriter& json, const BucketedRun& run) {
+void write_states(host::JsonWriter& json, const BucketedRun& run) {
     std::string states;
     std::string limits;
     for (std::size_t k = 0; k < run.bucket_count(); ++k) {
@@ -108,7 +108,7 @@ void write_states(JsonWriter& json, const BucketedRun& run) {
     json.key("states").text(states).key("limits").text(limits);
 }
 
-void write_chart_axis(JsonWriter& json, std::span<const RunResult> runs, Position position) {
+void write_chart_axis(host::JsonWriter& json, std::span<const RunResult> runs, Position position) {
     BucketAxis axis;
     std::size_t longest_trace = 1;
     for (const RunResult& run : runs) {
@@ -148,7 +148,7 @@ class DifferenceColumn {
         last_ = rounded;
     }
 
-    void write(JsonWriter& json) const {
+    void write(host::JsonWriter& json) const {
         json.key(key_).begin_array();
         for (const std::int64_t difference : differences_) {
             json.integer(difference);
@@ -175,7 +175,7 @@ double force_share(std::span<const TracePoint> group, double tooth_force_limit_N
     return all_rapid && !(largest_N > 0.0) ? -1.0 : std::ceil(1000.0 * largest_N / std::max(tooth_force_limit_N, 1e-9));
 }
 
-void write_path(JsonWriter& json, const ScenarioInfo& info, std::span<const TracePoint> trace) {
+void write_path(host::JsonWriter& json, const ScenarioInfo& info, std::span<const TracePoint> trace) {
     DifferenceColumn time("t", 1e-3);
     DifferenceColumn path("s", 1e-2);
     DifferenceColumn x("x", 1e-2);
@@ -200,7 +200,7 @@ void write_path(JsonWriter& json, const ScenarioInfo& info, std::span<const Trac
     json.end_object();
 }
 
-void write_report_scenario(JsonWriter& json, const ScenarioInfo& info) {
+void write_report_scenario(host::JsonWriter& json, const ScenarioInfo& info) {
     json.begin_object();
     json.key("name").text(info.name);
     json.key("tooth_force_limit_N").number(info.tooth_force_limit_N);
@@ -220,7 +220,7 @@ void write_report_scenario(JsonWriter& json, const ScenarioInfo& info) {
 }
 
 template <typename Enumeration>
-void write_names(JsonWriter& json, const char* key, unsigned count) {
+void write_names(host::JsonWriter& json, const char* key, unsigned count) {
     json.key(key).begin_array();
     for (unsigned k = 0; k < count; ++k) {
         json.text(control::name(static_cast<Enumeration>(k)));
@@ -231,7 +231,7 @@ void write_names(JsonWriter& json, const char* key, unsigned count) {
 }  // namespace
 
 std::string report_data_json(const ScenarioInfo& info, std::span<const RunResult> runs) {
-    JsonWriter json;
+    host::JsonWriter json;
     json.begin_object().key("scenario");
     write_report_scenario(json, info);
     write_names<control::CutState>(json, "state_names", control::state_count);

@@ -29,7 +29,7 @@ constexpr struct {
     {"real_time_factor", &RunFigures::real_time_factor},
 };
 
-void write_summary_scenario(JsonWriter& json, const ScenarioInfo& info) {
+void write_summary_scenario(host::JsonWriter& json, const ScenarioInfo& info) {
     json.begin_object();
     json.key("name").text(info.name).key("title").text(info.title).key("description").text(info.description);
     json.key("tool").text(info.tool).key("material").text(info.material);
@@ -50,7 +50,7 @@ void write_summary_scenario(JsonWriter& json, const ScenarioInfo& info) {
     json.end_object();
 }
 
-void write_run(JsonWriter& json, const RunResult& run, std::span<const RunResult> runs) {
+void write_run(host::JsonWriter& json, const RunResult& run, std::span<const RunResult> runs) {
     json.begin_object();
     json.key("controller").text(run.controller);
     json.key("finished").boolean(run.figures.finished);
@@ -66,7 +66,7 @@ void write_run(JsonWriter& json, const RunResult& run, std::span<const RunResult
 }  // namespace
 
 std::string summary_json(const ScenarioInfo& info, std::span<const RunResult> runs) {
-    JsonWriter json(JsonWriter::Style::indented);
+    host::JsonWriter json(host::JsonWriter::Style::indented);
     json.begin_object().key("scenario");
     write_summary_scenario(json, info);
     json.key("runs").begin_array();

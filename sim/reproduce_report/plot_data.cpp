@@ -41,7 +41,7 @@ GroupExtremes extremes_of(const std::vector<double>& values, std::size_t first, 
     return found;
 }
 
-void write_numbers(JsonWriter& json, const char* key, const std::vector<double>& values) {
+void write_numbers(host::JsonWriter& json, const char* key, const std::vector<double>& values) {
     constexpr int digits = 5;
     json.key(key).begin_array();
     for (const double value : values) {
@@ -81,7 +81,7 @@ Plot::Series decimated(const Plot::Series& series) {
     return kept;
 }
 
-void write_plot(JsonWriter& json, const Plot& plot) {
+void write_plot(host::JsonWriter& json, const Plot& plot) {
     json.begin_object();
     json.key("title").text(plot.title);
     json.key("x_label").text(plot.x_label).key("y_label").text(plot.y_label);

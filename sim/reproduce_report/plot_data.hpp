@@ -17,6 +17,6 @@ inline constexpr std::size_t plot_point_count = 600;
 [[nodiscard]] Plot::Series decimated(const Plot::Series& series);
 
 /// What the page draws of a plot: axes' labels, and per series name, style, x and y; null is a gap.
-void write_plot(JsonWriter& json, const Plot& plot);
+void write_plot(host::JsonWriter& json, const Plot& plot);
 
 }  // namespace millforce::sim

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-/// The files that reproduce.html is made of in addition to the report's, embedded at build time. The memory is static.
+/// The files that reproduce.html is made of in addition to every page's, embedded at build time. The memory is static.
 
 namespace millforce::sim::reproduction_assets {
 

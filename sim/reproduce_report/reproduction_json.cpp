@@ -29,7 +29,7 @@ constexpr const char* judged_name(Figure::Judged judged) {
     return "shown";
 }
 
-void write_figure(JsonWriter& json, const Figure& figure) {
+void write_figure(host::JsonWriter& json, const Figure& figure) {
     using Judged = Figure::Judged;
     json.begin_object();
     json.key("name").text(figure.name).key("unit").text(figure.unit);
@@ -48,7 +48,7 @@ void write_figure(JsonWriter& json, const Figure& figure) {
     json.end_object();
 }
 
-void write_figures(JsonWriter& json, const char* key, const std::vector<Figure>& figures) {
+void write_figures(host::JsonWriter& json, const char* key, const std::vector<Figure>& figures) {
     json.key(key).begin_array();
     for (const Figure& figure : figures) {
         write_figure(json, figure);
@@ -56,7 +56,7 @@ void write_figures(JsonWriter& json, const char* key, const std::vector<Figure>&
     json.end_array();
 }
 
-void write_reproduction(JsonWriter& json, const Reproduction& reproduction) {
+void write_reproduction(host::JsonWriter& json, const Reproduction& reproduction) {
     json.begin_object();
     json.key("name").text(reproduction.name).key("title").text(reproduction.title);
     json.key("holds").boolean(reproduction.holds());
@@ -77,7 +77,7 @@ void write_reproduction(JsonWriter& json, const Reproduction& reproduction) {
 }  // namespace
 
 std::string reproduction_json(std::span<const Reproduction> reproductions) {
-    JsonWriter json(JsonWriter::Style::indented);
+    host::JsonWriter json(host::JsonWriter::Style::indented);
     json.begin_object();
     json.key("holds").boolean(
         std::all_of(reproductions.begin(), reproductions.end(), [](const Reproduction& r) { return r.holds(); }));

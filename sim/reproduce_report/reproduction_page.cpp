@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "report/json_writer.hpp"
+#include "report/page_assets.hpp"
 #include "report/page_template.hpp"
-#include "report/report_assets.hpp"
 #include "reproduce_report/figure_tables.hpp"
 #include "reproduce_report/plot_data.hpp"
 #include "reproduce_report/reproduction_assets.hpp"
@@ -24,7 +24,7 @@ std::string plot_id(const Reproduction& reproduction, std::size_t k) {
 /// Numbers are written with a true minus sign.
 std::string cell_html(std::string_view label, std::string_view value) {
     const bool is_negative = value.starts_with('-');
-    const std::string text = (is_negative ? "−" : "") + html_escaped(value.substr(is_negative ? 1 : 0));
+    const std::string text = (is_negative ? "−" : "") + host::html_escaped(value.substr(is_negative ? 1 : 0));
     return fmt::format("<td class=\"{0}\" data-label=\"{0}\">{1}</td>", label, value.empty() ? "–" : text);
 }
 
@@ -35,12 +35,12 @@ std::string row_html(const Figure& figure, const FigureTable& table, Rows rows) 
     const bool is_shown = figure.judged == Figure::Judged::shown;
     const char* style = is_shown ? "shown" : (figure.holds() ? "held" : "broken");
     const char* judgement = is_shown ? "–" : (figure.holds() ? "ok" : "broken");
-    std::string name = html_escaped(name_in_table(figure, table));
+    std::string name = host::html_escaped(name_in_table(figure, table));
     if (!figure.unit.empty()) {
-        name += fmt::format(" <span class=\"unit\">in {}</span>", html_escaped(figure.unit));
+        name += fmt::format(" <span class=\"unit\">in {}</span>", host::html_escaped(figure.unit));
     }
     if (!figure.reason.empty()) {
-        name += fmt::format("<span class=\"reason\">{}</span>", html_escaped(figure.reason));
+        name += fmt::format("<span class=\"reason\">{}</span>", host::html_escaped(figure.reason));
     }
     const bool is_published = rows == Rows::published;
     return fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>{}{}{}{}<td class=\"judgement\">{}</td></tr>\n",
@@ -69,7 +69,7 @@ std::string table_html(const FigureTable& table, Rows rows) {
     }
     const FigureCount count = count_figures(table.figures);
     return fmt::format("<details{}><summary><strong>{}</strong>: {}</summary>\n{}</details>\n",
-                       count.broken > 0 ? " open" : "", html_escaped(table.title), verdict(count), html);
+                       count.broken > 0 ? " open" : "", host::html_escaped(table.title), verdict(count), html);
 }
 
 std::string plots_html(const Reproduction& reproduction) {
@@ -78,7 +78,8 @@ std::string plots_html(const Reproduction& reproduction) {
         const Plot& plot = reproduction.plots[k];
         html += fmt::format(
             "<figure class=\"drawing\">\n<h4>{}</h4>\n<div id=\"{}\"></div>\n<figcaption>{}</figcaption>\n</figure>\n",
-            html_escaped(plot.title), html_escaped(plot_id(reproduction, k)), html_escaped(plot.caption));
+            host::html_escaped(plot.title), host::html_escaped(plot_id(reproduction, k)),
+            host::html_escaped(plot.caption));
     }
     return html.empty() ? html : "<h3>Plots</h3>\n<div class=\"drawings\">\n" + html + "</div>\n";
 }
@@ -86,7 +87,7 @@ std::string plots_html(const Reproduction& reproduction) {
 std::string deviations_html(const Reproduction& reproduction) {
     std::string html;
     for (const std::string& deviation : reproduction.deviations) {
-        html += fmt::format("<li>{}</li>\n", html_escaped(deviation));
+        html += fmt::format("<li>{}</li>\n", host::html_escaped(deviation));
     }
     return html.empty()
                ? html
@@ -96,7 +97,8 @@ std::string deviations_html(const Reproduction& reproduction) {
 std::string not_reproduced_html(const Reproduction& reproduction) {
     std::string html;
     for (const NotReproduced& one : reproduction.not_reproduced) {
-        html += fmt::format("<li><strong>{}</strong>: {}</li>\n", html_escaped(one.what), html_escaped(one.why));
+        html += fmt::format("<li><strong>{}</strong>: {}</li>\n", host::html_escaped(one.what),
+                            host::html_escaped(one.why));
     }
     return html.empty() ? html : "<h3>Not reproduced, and why</h3>\n<ul class=\"deviations\">\n" + html + "</ul>\n";
 }
@@ -122,10 +124,10 @@ std::string verdict_html(const Reproduction& reproduction) {
 }
 
 std::string section_html(const Reproduction& reproduction) {
-    const std::string name = html_escaped(reproduction.name);
+    const std::string name = host::html_escaped(reproduction.name);
     std::string html = fmt::format(
         "<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
-        html_escaped(reproduction.title), html_escaped(reproduction.summary), verdict_html(reproduction));
+        host::html_escaped(reproduction.title), host::html_escaped(reproduction.summary), verdict_html(reproduction));
     html += tables_html("Figures", reproduction.figures, Rows::published);
     html += plots_html(reproduction);
     html += tables_html("Checks of our own", reproduction.checks, Rows::own);
@@ -136,14 +138,14 @@ std::string contents_html(std::span<const Reproduction> reproductions) {
     std::string html;
     for (const Reproduction& reproduction : reproductions) {
         html += fmt::format("<li class=\"{}\"><a href=\"#paper-{}\">{}</a><span>{}</span></li>\n",
-                            reproduction.holds() ? "held" : "broken", html_escaped(reproduction.name),
-                            html_escaped(reproduction.title), whole_verdict(reproduction));
+                            reproduction.holds() ? "held" : "broken", host::html_escaped(reproduction.name),
+                            host::html_escaped(reproduction.title), whole_verdict(reproduction));
     }
     return html;
 }
 
 std::string plots_json(std::span<const Reproduction> reproductions) {
-    JsonWriter json;
+    host::JsonWriter json;
     json.begin_object();
     for (const Reproduction& reproduction : reproductions) {
         for (std::size_t k = 0; k < reproduction.plots.size(); ++k) {
@@ -164,18 +166,18 @@ std::string reproduction_page(std::span<const Reproduction> reproductions) {
     for (const Reproduction& reproduction : reproductions) {
         sections += section_html(reproduction);
     }
-    return filled(reproduction_assets::page_template(),
-                  {
-                      {"contents", contents},
-                      {"sections", sections},
-                      {"data", data},
-                      {"report_style", report_assets::report_style()},
-                      {"page_style", reproduction_assets::page_style()},
-                      {"charts_script", report_assets::charts_script()},
-                      {"page_script", reproduction_assets::page_script()},
-                      {"dygraphs_script", without_source_map(report_assets::dygraphs_script())},
-                      {"dygraphs_style", without_source_map(report_assets::dygraphs_style())},
-                  });
+    return host::filled(reproduction_assets::page_template(),
+                        {
+                            {"contents", contents},
+                            {"sections", sections},
+                            {"data", data},
+                            {"report_style", host::page_assets::report_style()},
+                            {"page_style", reproduction_assets::page_style()},
+                            {"charts_script", host::page_assets::charts_script()},
+                            {"page_script", reproduction_assets::page_script()},
+                            {"dygraphs_script", host::without_source_map(host::page_assets::dygraphs_script())},
+                            {"dygraphs_style", host::without_source_map(host::page_assets::dygraphs_style())},
+                        });
 }
 
 }  // namespace millforce::sim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "firmware/program/report/json_check.hpp"
 #include "program.hpp"
-#include "sim/report/json_check.hpp"
 #include "temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -29,7 +29,7 @@ TEST(Reproduce, a_paper_gives_its_table_a_page_and_json_and_is_silent_in_a_pipe)
     CHECK(contains(ended.out, "not reproduced\n  Figs. 2–4: measured roughness: "));
     CHECK(contains(ended.out, "reproduce.html"));
     CHECK(contains(result("reproduce.html"), "Tangjitsitcharoen"));
-    CHECK(millforce::sim::JsonCheck::valid(result("reproduce.json")));
+    CHECK(millforce::host::JsonCheck::valid(result("reproduce.json")));
     CHECK(contains(result("reproduce.json"), "\"holds\": true"));
 }
 

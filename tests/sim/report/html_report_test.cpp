@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "control/cut_state.hpp"
-#include "json_check.hpp"
+#include "firmware/program/report/json_check.hpp"
 #include "report/html_report.hpp"
 #include "report/report_data.hpp"
 #include "synthetic_run.hpp"
@@ -42,7 +42,7 @@ TEST_GROUP(HtmlReport) {
 TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
     const std::string html = report_html(info, both_runs());
     const std::string data = embedded_data(html);
-    CHECK(JsonCheck::valid(data));
+    CHECK(millforce::host::JsonCheck::valid(data));
     STRCMP_EQUAL(report_data_json(info, both_runs()).c_str(), data.c_str());
     for (const char* placeholder : {"{{title}}", "{{data}}", "{{report_script}}", "{{figures}}"}) {
         LONGS_EQUAL(0, count_of(html, placeholder));
@@ -79,7 +79,7 @@ TEST(HtmlReport, AHostileScenarioNameStaysText) {
     LONGS_EQUAL(count_of(calm, "<script"), count_of(html, "<script"));
     LONGS_EQUAL(0, count_of(html, "<img"));
     LONGS_EQUAL(1, count_of(html, "</title>"));
-    CHECK(JsonCheck::valid(embedded_data(html)));
+    CHECK(millforce::host::JsonCheck::valid(embedded_data(html)));
 }
 
 TEST(HtmlReport, TheHeadlineIsTheTimeSavedAndThePeakOverTheLimit) {
@@ -142,7 +142,7 @@ TEST(HtmlReport, DrawsWithoutTopViewBaselineOrTrace) {
     RunResult empty;
     empty.controller = "millforce";
     const std::string html = report_html(info, {&empty, 1});
-    CHECK(JsonCheck::valid(embedded_data(html)));
+    CHECK(millforce::host::JsonCheck::valid(embedded_data(html)));
     CHECK(html.find("\"stock_mm\":null") != std::string::npos);
 }
 

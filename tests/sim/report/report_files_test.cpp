@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "files/input_error.hpp"
-#include "json_check.hpp"
+#include "firmware/program/report/json_check.hpp"
 #include "report/report.hpp"
 #include "report/trace_csv.hpp"
 #include "synthetic_run.hpp"
@@ -65,7 +65,7 @@ TEST(ReportFiles, TheDirectoryIsMadeAndHoldsExactlyTheFilesNamed) {
     }
     const auto entries = std::filesystem::directory_iterator(target);
     LONGS_EQUAL(4, std::distance(begin(entries), end(entries)));  // no temporary file is left
-    CHECK(JsonCheck::valid(content_of(target / "summary.json")));
+    CHECK(millforce::host::JsonCheck::valid(content_of(target / "summary.json")));
     CHECK(content_of(target / "trace.csv") == trace_csv(runs[0]));
     CHECK(content_of(target / "trace_constant.csv") == trace_csv(runs[1]));
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "json_check.hpp"
+#include "firmware/program/report/json_check.hpp"
 #include "report/summary.hpp"
 
 using namespace millforce::sim;
@@ -140,7 +140,7 @@ TEST(Summary, TheTableIsAlignedAndAtMost100ColumnsWide) {
 
 TEST(Summary, JsonIsValidAndNamesEveryFigure) {
     const std::string json = summary_json(info, runs);
-    CHECK(JsonCheck::valid(json));
+    CHECK(millforce::host::JsonCheck::valid(json));
     for (const char* key :
          {"\"time_s\": 61.2", "\"time_saved_percent\": 37.8049", "\"peak_over_limit\": 0.983", "\"teeth_broken\": 3",
           "\"tooth_force_limit_N\": 400", "\"controller\": \"constant\"", "\"finished\": true", "\"stock\": null"}) {
@@ -160,6 +160,6 @@ TEST(Summary, JsonStandsHostileNames) {
     info.title = "</script>\"\\\n\xff";
     runs[0].controller = "a\"b";
     info.has_top_view = true;
-    CHECK(JsonCheck::valid(summary_json(info, runs)));
-    CHECK(JsonCheck::valid(summary_json(info, {})));
+    CHECK(millforce::host::JsonCheck::valid(summary_json(info, runs)));
+    CHECK(millforce::host::JsonCheck::valid(summary_json(info, {})));
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "made_up_papers.hpp"
 
+#include "firmware/program/report/json_check.hpp"
 #include "reproduce_report/reproduction_json.hpp"
 #include "reproduce_report/reproduction_page.hpp"
-#include "sim/report/json_check.hpp"
 
 #include <CppUTest/TestHarness.h>
 
@@ -69,7 +69,7 @@ TEST(ReproductionPage, loads_nothing_from_elsewhere) {
 
 TEST(ReproductionPage, its_data_and_the_json_file_are_json_without_nan) {
     for (const std::string& json : {page_data(page), reproduction_json(papers)}) {
-        CHECK(JsonCheck::valid(json));
+        CHECK(millforce::host::JsonCheck::valid(json));
         CHECK(!holds(json, "nan"));
         CHECK(!holds(json, "inf"));
         CHECK(holds(json, "null"));

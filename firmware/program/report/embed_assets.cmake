@@ -2,7 +2,7 @@
 # Writes OUTPUT, a C++ file that defines the functions of HEADER in NAMESPACE, from ASSETS: name;file;name;file…
 # The bytes go through hexadecimal, so that no character of a file can be mistaken for C++ or CMake.
 
-set(text "#include \"${HEADER}\"\n\nnamespace millforce::sim::${NAMESPACE} {\n")
+set(text "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n")
 while(ASSETS)
     list(POP_FRONT ASSETS name file)
     file(READ "${file}" hex HEX)
@@ -15,5 +15,5 @@ while(ASSETS)
         "std::string_view ${name}() {\n"
         "    return {reinterpret_cast<const char*>(${name}_bytes), ${byte_count}};\n}\n")
 endwhile()
-string(APPEND text "\n}  // namespace millforce::sim::${NAMESPACE}\n")
+string(APPEND text "\n}  // namespace ${NAMESPACE}\n")
 file(WRITE "${OUTPUT}" "${text}")

@@ -8,7 +8,7 @@
 
 /// Self-contained pages out of a template and its fillings.
 
-namespace millforce::sim {
+namespace millforce::host {
 
 using PageFilling = std::pair<std::string_view, std::string_view>;
 
@@ -21,4 +21,4 @@ std::string_view without_source_map(std::string_view text);
 /// Text as HTML: & < > " ' as entities, bytes that are not UTF-8 as U+FFFD.
 std::string html_escaped(std::string_view text);
 
-}  // namespace millforce::sim
+}  // namespace millforce::host

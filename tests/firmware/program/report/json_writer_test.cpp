@@ -7,8 +7,8 @@
 #include "json_check.hpp"
 #include "report/json_writer.hpp"
 
-using millforce::sim::JsonCheck;
-using millforce::sim::JsonWriter;
+using millforce::host::JsonCheck;
+using millforce::host::JsonWriter;
 
 namespace {
 

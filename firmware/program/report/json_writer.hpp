@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace millforce::sim {
+namespace millforce::host {
 
 /// Writes JSON (RFC 8259) that is valid whatever the values are:
 /// - a number that is NaN or infinite becomes null;
@@ -53,4 +53,4 @@ class JsonWriter {
     bool after_key_ = false;
 };
 
-}  // namespace millforce::sim
+}  // namespace millforce::host

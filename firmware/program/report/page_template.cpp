@@ -3,7 +3,7 @@
 
 #include "report/utf8.hpp"
 
-namespace millforce::sim {
+namespace millforce::host {
 
 std::string filled(std::string_view text, std::initializer_list<PageFilling> fillings) {
     std::string out;
@@ -54,4 +54,4 @@ std::string html_escaped(std::string_view text) {
     return out;
 }
 
-}  // namespace millforce::sim
+}  // namespace millforce::host

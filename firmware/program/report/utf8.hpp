@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace millforce::sim {
+namespace millforce::host {
 
 /// Length in bytes (1…4) of the UTF-8 sequence that starts at `text[0]`, 0 where the bytes are no valid UTF-8: a stray
 /// or missing continuation byte, an overlong form, a surrogate, a code point above U+10FFFF (RFC 3629).
@@ -35,4 +35,4 @@ inline std::size_t utf8_length(std::string_view text) {
     return length;
 }
 
-}  // namespace millforce::sim
+}  // namespace millforce::host

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace millforce::sim {
+namespace millforce::host {
 
 /// Whether a text is one JSON value and nothing else (RFC 8259). Numbers must be finite by their grammar; strings may
 /// not hold raw control characters. Depth is limited by the stack.
@@ -117,4 +117,4 @@ class JsonCheck {
     std::string_view rest_;
 };
 
-}  // namespace millforce::sim
+}  // namespace millforce::host

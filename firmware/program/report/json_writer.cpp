@@ -7,7 +7,7 @@
 
 #include "report/utf8.hpp"
 
-namespace millforce::sim {
+namespace millforce::host {
 
 namespace {
 
@@ -153,4 +153,4 @@ void JsonWriter::new_line() {
     }
 }
 
-}  // namespace millforce::sim
+}  // namespace millforce::host

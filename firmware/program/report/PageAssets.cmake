@@ -17,7 +17,7 @@ function(millforce_embed_assets target header namespace)
     set(assets ${ARGN})
     set(files ${ARGN})
     list(FILTER files INCLUDE REGEX "[.](html|css|js)$")
-    set(script ${PROJECT_SOURCE_DIR}/sim/report/embed_assets.cmake)
+    set(script ${PROJECT_SOURCE_DIR}/firmware/program/report/embed_assets.cmake)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/assets/${target}.cpp)
     add_custom_command(
         OUTPUT ${output}
@@ -31,18 +31,8 @@ function(millforce_embed_assets target header namespace)
     add_dependencies(embedded_assets embedded_assets_of_${target})
 endfunction()
 
-set(REPORT_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/report)
-millforce_embed_assets(sim_report report/report_assets.hpp report_assets
-    report_template ${REPORT_FOLDER}/report_template.html
-    report_style ${REPORT_FOLDER}/report.css
-    charts_script ${REPORT_FOLDER}/charts.js
-    top_view_script ${REPORT_FOLDER}/top_view.js
-    report_script ${REPORT_FOLDER}/report.js
+millforce_embed_assets(program_report report/page_assets.hpp millforce::host::page_assets
+    report_style ${CMAKE_CURRENT_LIST_DIR}/report.css
+    charts_script ${CMAKE_CURRENT_LIST_DIR}/charts.js
     dygraphs_script ${DYGRAPHS_SCRIPT}
     dygraphs_style ${DYGRAPHS_STYLE})
-
-set(REPRODUCE_REPORT_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/reproduce_report)
-millforce_embed_assets(sim_reproduce_report reproduce_report/reproduction_assets.hpp reproduction_assets
-    page_template ${REPRODUCE_REPORT_FOLDER}/reproduction_template.html
-    page_style ${REPRODUCE_REPORT_FOLDER}/reproduction.css
-    page_script ${REPRODUCE_REPORT_FOLDER}/reproduction.js)
