@@ -42,7 +42,7 @@ TEST_GROUP(ViewOnTerminal) {
     std::unique_ptr<Bridge> cnc;
 
     [[nodiscard]] std::vector<std::string> words() const {
-        return {"serve",  inputs.name("a.sock"),   "--machine", inputs.name("machine.toml"),
+        return {"serve",  inputs.name("a.sock"),    "--machine", inputs.name("machine.toml"),
                 "--tool", inputs.name("tool.toml"), "--view"};
     }
     void start() {

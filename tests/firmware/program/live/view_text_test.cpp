@@ -97,7 +97,9 @@ TEST(ViewText, draws_the_threshold_and_the_uncertain_part_of_a_bar) {
 }
 
 TEST(ViewText, obeys_no_control_character_of_a_name_or_a_message) {
-    state.title = "\x1b[2Jcan\x9b" "0\xc2\x9b";
+    state.title =
+        "\x1b[2Jcan\x9b"
+        "0\xc2\x9b";
     state.add_event(0, "lost \x1b]0;title\x07");
     const std::string all = text();
     CHECK(std::none_of(all.begin(), all.end(), [](char letter) {
