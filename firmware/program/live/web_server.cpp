@@ -57,7 +57,7 @@ int listen_on(const Address& address, int family) {
     if (family == AF_INET6) {
         ::setsockopt(listener, IPPROTO_IPV6, IPV6_V6ONLY, &yes, sizeof yes);
     }
-    constexpr int backlog = 8;
+    constexpr int backlog = 32;  // of those that come within one turn
     if (::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
         ::listen(listener, backlog) != 0) {
         const int error = errno;
