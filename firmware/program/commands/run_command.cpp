@@ -58,10 +58,15 @@ socketcan::CanSocketSettings socket_on(const std::string& interface) {
 
 void check_outputs(const RunOptions& options) {
     const auto plain = [](const std::string& name) { return std::filesystem::absolute(name).lexically_normal(); };
-    if (!options.log.empty() && !options.record.empty() && plain(options.log) == plain(options.record)) {
-        throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
-    }
-    for (const std::string& output : {options.log, options.record}) {
+    const auto refuse_same = [&plain](const char* names, const std::string& one, const std::string& other) {
+        if (!one.empty() && !other.empty() && plain(one) == plain(other)) {
+            throw InputError(fmt::format("{}: both are {}, expected two files", names, one));
+        }
+    };
+    refuse_same("--log, --record", options.log, options.record);
+    refuse_same("--log, --mcap", options.log, options.watch.mcap);
+    refuse_same("--record, --mcap", options.record, options.watch.mcap);
+    for (const std::string& output : {options.log, options.record, options.watch.mcap}) {
         refuse_overwriting(output, {options.machine, options.tools.file});
     }
 }
@@ -131,6 +136,10 @@ int run_on_bus(const RunOptions& options) {
     if (!journal->failed_file().empty()) {
         print_line(stderr,
                    fmt::format("millforce: {}: a write failed; the file is incomplete", journal->failed_file()));
+        return 1;
+    }
+    if (!hub->failed_file().empty()) {
+        print_line(stderr, fmt::format("millforce: {}: a write failed; the file is incomplete", hub->failed_file()));
         return 1;
     }
     if (journal->lost() > 0) {

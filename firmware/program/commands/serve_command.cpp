@@ -18,6 +18,7 @@
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "firmware_link/link_controller.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
@@ -202,6 +203,7 @@ std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Param
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
+    refuse_overwriting(options.watch.mcap, {options.machine, options.tools.file, options.map, options.program});
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
@@ -232,7 +234,8 @@ int serve(const ServeOptions& options) {
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
     notify_service_manager("STOPPING=1");
-    return 0;
+    hub->finish();
+    return hub->failed_file().empty() ? 0 : 1;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "live/mcap_file.hpp"
 #include "live/terminal_view.hpp"
 #include "live/udp_json.hpp"
 #include "live/web_server.hpp"
@@ -23,6 +24,8 @@ void add_watch(Command& command, WatchOptions& options) {
         .value_name("PORT");
     command.option("--udp-json", options.udp_json, "Send each tick as JSON, for PlotJuggler's UDP server (port 9870)")
         .value_name("HOST:PORT");
+    command.option("--mcap", options.mcap, "Write the telemetry as MCAP, for Foxglove and PlotJuggler")
+        .value_name("FILE.mcap");
 }
 
 std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools, const std::string& title) {
@@ -40,6 +43,9 @@ std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& 
     }
     if (!options.udp_json.empty()) {
         sinks.push_back(std::make_unique<UdpJson>(options.udp_json));
+    }
+    if (!options.mcap.empty()) {
+        sinks.push_back(std::make_unique<McapFile>(options.mcap));
     }
     return std::make_unique<TelemetryHub>(tools, std::move(sinks));
 }

@@ -29,7 +29,13 @@ std::string fields_json(const std::string& title) {
     JsonWriter json;
     json.begin_object().key("title").text(title).key("fields").begin_array();
     for (const TelemetryField& field : telemetry_fields()) {
-        json.begin_object().key("name").text(field.name).key("unit").text(field.unit).key("meaning").text(field.meaning);
+        json.begin_object()
+            .key("name")
+            .text(field.name)
+            .key("unit")
+            .text(field.unit)
+            .key("meaning")
+            .text(field.meaning);
         json.end_object();
     }
     return json.end_array().end_object().str();

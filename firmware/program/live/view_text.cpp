@@ -148,8 +148,7 @@ class View {
         const std::string age = !state_.newest                 ? "waiting for samples"
                                 : state_.age_s > stale_after_s ? fmt::format("no tick for {:.0f} s", state_.age_s)
                                                                : "";
-        const std::string clock =
-            state_.newest ? fmt::format("{:.1f} s", 1e-6 * static_cast<double>(tick().time_us)) : std::string();
+        const std::string clock = state_.newest ? fmt::format("{:.1f} s", state_.newest->time_s) : std::string();
         add_text(fmt::format("millforce  {}  {}  {}", in_ascii(printable(state_.title)), clock, age));
         add_text("");
     }

@@ -31,7 +31,8 @@ constexpr int steps_per_turn = 8;
 constexpr std::uint64_t turns_of_silence = 100;  ///< of 20 ms each
 
 constexpr std::string_view content_security_policy =
-    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self'; img-src 'self' data:; "
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self'; img-src 'self' "
+    "data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// The port that a socket has got.
@@ -135,11 +136,11 @@ class WebServer::Daemon {
 
     /// Without threads: all is done in turn().
     bool start() {
-        daemon_ = MHD_start_daemon(MHD_USE_EPOLL, 0, nullptr, nullptr, on_request, this, MHD_OPTION_LISTEN_SOCKET,
-                                   listener_, MHD_OPTION_CONNECTION_LIMIT, most_connections,
-                                   MHD_OPTION_CONNECTION_MEMORY_LIMIT, bytes_per_connection,
-                                   MHD_OPTION_CONNECTION_TIMEOUT, patience_s, MHD_OPTION_STRICT_FOR_CLIENT, 1,
-                                   MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_END);
+        daemon_ =
+            MHD_start_daemon(MHD_USE_EPOLL, 0, nullptr, nullptr, on_request, this, MHD_OPTION_LISTEN_SOCKET, listener_,
+                             MHD_OPTION_CONNECTION_LIMIT, most_connections, MHD_OPTION_CONNECTION_MEMORY_LIMIT,
+                             bytes_per_connection, MHD_OPTION_CONNECTION_TIMEOUT, patience_s,
+                             MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_END);
         return daemon_ != nullptr;
     }
     void turn() {
@@ -152,8 +153,8 @@ class WebServer::Daemon {
     /// A reader of `/events`.
     struct Stream {
         WebServer& server;
-        std::uint64_t next = 0;     ///< number of the message to send
-        std::size_t sent = 0;       ///< bytes of `message`
+        std::uint64_t next = 0;  ///< number of the message to send
+        std::size_t sent = 0;    ///< bytes of `message`
         std::string message{};
     };
 

@@ -16,6 +16,7 @@ TelemetryMaker::TelemetryMaker(const ToolSet& tools, std::int64_t unix_offset_us
 Telemetry TelemetryMaker::of(const TelemetrySample& sample, std::uint64_t lost) const {
     Telemetry made;
     made.unix_us = static_cast<std::uint64_t>(static_cast<std::int64_t>(sample.monotonic_us) + unix_offset_us_);
+    made.time_s = 1e-6 * static_cast<double>(sample.tick.time_us);
     made.sample = sample;
     made.shown = forces_.of(sample.tick, sample.tool);
     if (const auto limit = tooth_force_limits_N_.find(sample.tool); limit != tooth_force_limits_N_.end()) {

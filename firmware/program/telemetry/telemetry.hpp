@@ -13,6 +13,7 @@ namespace millforce::host {
 /// A sample as it is shown: with what is worked out beside the real-time thread.
 struct Telemetry {
     std::uint64_t unix_us = 0;  ///< when the tick was done; goes on steadily where the clock is set
+    double time_s = 0.0;        ///< of the tick, by the clock of its samples
     TelemetrySample sample{};
     firmware::ShownForces shown{};
     float tooth_force_limit_N = firmware::TickRecord::no_estimate;

@@ -64,7 +64,7 @@ using Of = const Telemetry&;
 
 const std::array fields{
     TelemetryField{"time_s", "s", "Time of the tick, by the clock of its samples", Kind::number,
-                   [](Of t) { return FieldValue(1e-6 * static_cast<double>(t.sample.tick.time_us)); }},
+                   [](Of t) { return FieldValue(t.time_s); }},
     TelemetryField{
         "state", "", "Where the tool stands in relation to the cut", Kind::word,
         [](Of t) { return FieldValue(state_names[t.sample.tick.feed_override.state % control::state_count]); },

@@ -40,6 +40,9 @@ void TelemetryHub::finish() {
     if (thread_.joinable()) {
         thread_.join();
     }
+    for (const auto& sink : sinks_) {
+        failed_file_ = failed_file_.empty() ? sink->failed_file() : failed_file_;
+    }
     sinks_.clear();
 }
 

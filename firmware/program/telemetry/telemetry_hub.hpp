@@ -26,6 +26,8 @@ class TelemetrySink {
     virtual void on_turn() {}
     /// The last call.
     virtual void on_end() {}
+    /// A file that could not be written whole; empty: none. After on_end().
+    [[nodiscard]] virtual std::string failed_file() const { return {}; }
 };
 
 /// Takes samples from the real-time thread and hands them to all sinks, in a thread of its own with the lowest
@@ -40,6 +42,8 @@ class TelemetryHub {
     /// Hands over what is left, and closes all sinks.
     void finish();
 
+    /// A file that could not be written whole; empty: none. After finish().
+    [[nodiscard]] const std::string& failed_file() const { return failed_file_; }
     /// Of the real-time thread; null where nobody watches.
     [[nodiscard]] TelemetryFeed* feed() { return feed_.get(); }
 
@@ -51,6 +55,7 @@ class TelemetryHub {
     TelemetryMaker maker_;
     EventWatch events_{};
     std::vector<std::unique_ptr<TelemetrySink>> sinks_;
+    std::string failed_file_{};
     std::unique_ptr<TelemetryFeed> feed_{};
     std::atomic<bool> ended_{false};
     std::thread thread_{};

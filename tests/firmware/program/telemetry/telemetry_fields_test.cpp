@@ -54,7 +54,7 @@ TEST(TelemetryFields, leave_out_what_is_not_known) {
 
 TEST(TelemetryFields, show_what_the_tick_answered_and_what_went_in) {
     TelemetrySample& sample = telemetry.sample;
-    sample.tick.time_us = 1'250'000;
+    telemetry.time_s = 1.25;
     sample.tick.feed_override = {0.75F, false, static_cast<std::uint8_t>(control::CutState::in_cut), 0, 42};
     sample.tick.limit = static_cast<std::uint8_t>(control::Limit::force);
     sample.tick.radial_immersion = 0.5F;

@@ -22,7 +22,8 @@
 using namespace millforce;
 using namespace millforce::test;
 
-/// `millforce serve --web` and `--udp-json`, asked over real sockets while a CNC's bridge sends samples.
+/// `millforce serve` with `--web`, `--udp-json` and `--mcap`, asked over real sockets while a CNC's bridge sends
+/// samples.
 
 namespace {
 
@@ -67,7 +68,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_GROUP(WebOfServe) {
+TEST_GROUP(ServeWatched) {
     Inputs inputs;
     std::unique_ptr<Program> serve;
     std::unique_ptr<Bridge> cnc;
@@ -94,14 +95,18 @@ TEST_GROUP(WebOfServe) {
             cnc->ask();
         }
     }
-    [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(port); }
+    [[nodiscard]] std::string host() const {
+        return "127.0.0.1:" + std::to_string(port);
+    }
     [[nodiscard]] std::string answer(const std::string& request, const std::string& host_name,
                                      const std::string& more = {}) const {
         Connection connection(port);
         connection.send(request + " HTTP/1.1\r\nHost: " + host_name + "\r\nConnection: close\r\n" + more + "\r\n");
         return connection.read_until("nothing: to the end");
     }
-    [[nodiscard]] std::string get(const std::string& path) const { return answer("GET " + path, host()); }
+    [[nodiscard]] std::string get(const std::string& path) const {
+        return answer("GET " + path, host());
+    }
     /// Until a tick was seen.
     [[nodiscard]] std::string telemetry() const {
         std::string text = get("/telemetry.json");
@@ -118,7 +123,7 @@ TEST_GROUP(WebOfServe) {
     }
 };
 
-TEST(WebOfServe, shows_page_and_telemetry_to_this_computer_alone) {
+TEST(ServeWatched, shows_page_and_telemetry_to_this_computer_alone) {
     start();
     CHECK(port != 0);
     CHECK(contains(telemetry(), R"("state":"air")"));
@@ -140,7 +145,7 @@ TEST(WebOfServe, shows_page_and_telemetry_to_this_computer_alone) {
     end();
 }
 
-TEST(WebOfServe, gives_prometheus_each_metric_with_its_type_and_one_value) {
+TEST(ServeWatched, gives_prometheus_each_metric_with_its_type_and_one_value) {
     start();
     (void)telemetry();
     const std::string text = get("/metrics");
@@ -169,7 +174,7 @@ TEST(WebOfServe, gives_prometheus_each_metric_with_its_type_and_one_value) {
     end();
 }
 
-TEST(WebOfServe, streams_what_was_and_what_comes) {
+TEST(ServeWatched, streams_what_was_and_what_comes) {
     start();
     Connection page(port);
     page.send("GET /events HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
@@ -180,7 +185,7 @@ TEST(WebOfServe, streams_what_was_and_what_comes) {
     end();
 }
 
-TEST(WebOfServe, answers_the_cnc_whatever_its_clients_do) {
+TEST(ServeWatched, answers_the_cnc_whatever_its_clients_do) {
     start();
     std::vector<std::unique_ptr<Connection>> clients;
     for (int k = 0; k < 34; ++k) {  // two more than it takes, with requests that never end
@@ -195,7 +200,7 @@ TEST(WebOfServe, answers_the_cnc_whatever_its_clients_do) {
     end();
 }
 
-TEST(WebOfServe, refuses_a_port_that_is_used_or_none) {
+TEST(ServeWatched, refuses_a_port_that_is_used_or_none) {
     start();
     const std::string used = std::to_string(port);
     inputs.write("b.txt", "");
@@ -209,7 +214,7 @@ TEST(WebOfServe, refuses_a_port_that_is_used_or_none) {
     end();
 }
 
-TEST(WebOfServe, sends_each_tick_as_json_by_udp) {
+TEST(ServeWatched, sends_each_tick_as_json_by_udp) {
     const int receiver = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -231,11 +236,30 @@ TEST(WebOfServe, sends_each_tick_as_json_by_udp) {
     end();
 }
 
-TEST(WebOfServe, refuses_an_address_that_is_no_host_and_port) {
+TEST(ServeWatched, refuses_an_address_that_is_no_host_and_port) {
     for (const char* address : {"9870", "127.0.0.1", "127.0.0.1:", ":9870", "127.0.0.1:0", "127.0.0.1:70000",
                                 "::1:9870", "[]:9870", "127.0.0.1:x"}) {
         const Ended ended = run_millforce(words("--udp-json", address));
         LONGS_EQUAL_TEXT(2, ended.exit_code, address);
         CHECK_TEXT(contains(ended.error, "--udp-json"), address);
     }
+}
+
+TEST(ServeWatched, writes_an_mcap_file_that_is_whole_at_the_end) {
+    start("--mcap", inputs.name("run.mcap"));
+    ask(300);
+    end();
+    const std::string file = inputs.read("run.mcap");
+    const std::string magic("\x89MCAP0\r\n", 8);
+    CHECK(file.starts_with(magic) && file.ends_with(magic) && file.size() > 1000);
+    CHECK(contains(file, R"("ticks":1,)") && contains(file, R"("message":"run begins")"));
+}
+
+TEST(ServeWatched, ends_with_code_1_where_a_disk_did_not_take_its_mcap_file) {
+    start("--mcap", "/dev/full");
+    cnc.reset();
+    serve->interrupt(SIGTERM);
+    serve->wait();
+    LONGS_EQUAL(1, serve->exit_code());
+    CHECK(contains(inputs.read("error.txt"), "/dev/full: could not be written: the file ends here"));
 }
