@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemetry/telemetry_fields.hpp"
 
+#include <fstream>
+#include <limits>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "control/cut_state.hpp"
@@ -81,4 +84,10 @@ TEST(TelemetryFields, show_numbers_that_no_json_can_hold_as_none) {
     const std::string text = telemetry_json(telemetry);
     CHECK(!contains(text, "inf") && !contains(text, "nan"));
     CHECK(!contains(text, R"("override")"));
+}
+
+TEST(TelemetryFields, are_documented_as_they_are) {
+    std::ostringstream text;
+    text << std::ifstream(MILLFORCE_SOURCE_DIR "/firmware/program/telemetry/README.md").rdbuf();
+    CHECK_TEXT(contains(text.str(), telemetry_table()), "'millforce telemetry' prints the table of fields anew");
 }
