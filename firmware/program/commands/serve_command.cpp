@@ -210,9 +210,9 @@ int serve(const ServeOptions& options) {
     show_start_check(tools);
     const std::optional<PartMap> map = map_of(options, parameters);
     LinePrinter printer(stderr);
-    const auto hub = watch(options.watch, tools, options.socket);
     Turns turns(printer);
     UnixServer server(options.socket, &turns);
+    const auto hub = watch(options.watch, tools, options.socket);
     for (const std::string& note : become_real_time()) {
         printer.print(fmt::format("millforce: note: {}", note));
     }

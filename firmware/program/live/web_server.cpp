@@ -174,7 +174,8 @@ class WebServer::Daemon {
 };
 
 bool WebServer::Daemon::is_for_this_computer(std::string_view host) const {
-    const std::string port = fmt::format(":{}", server_.port_);
+    constexpr std::uint16_t default_port = 80;  // a browser leaves it out
+    const std::string port = server_.port_ == default_port ? "" : fmt::format(":{}", server_.port_);
     return host == "localhost" + port || host == "127.0.0.1" + port || host == "[::1]" + port;
 }
 

@@ -4,7 +4,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <new>
+#include <exception>
 
 namespace millforce::host {
 
@@ -48,42 +48,42 @@ void TelemetryHub::finish() {
 
 void TelemetryHub::run() {
     setpriority(PRIO_PROCESS, 0, lowest_priority);  // on Linux: of this thread
-    for (const auto& sink : sinks_) {
-        sink->on_begin();
-    }
+    for_each_sink([](TelemetrySink& sink) { sink.on_begin(); });
     while (!ended_.load()) {
         std::this_thread::sleep_for(turn_period);
         turn();
     }
     turn();
+    for_each_sink([](TelemetrySink& sink) { sink.on_end(); });
+}
+
+/// Without memory a watcher misses something, and the controller goes on.
+template <typename Call>
+void TelemetryHub::for_each_sink(Call call) {
     for (const auto& sink : sinks_) {
-        sink->on_end();
+        try {
+            call(*sink);
+        } catch (const std::exception&) {
+        }
     }
 }
 
-/// Without memory the watchers miss something, and the controller goes on.
 void TelemetryHub::turn() {
-    try {
-        for (TelemetrySample sample; feed_->take(sample);) {
+    for (TelemetrySample sample; feed_->take(sample);) {
+        try {
             hand_over(sample);
+        } catch (const std::exception&) {  // of an event's text
         }
-        for (const auto& sink : sinks_) {
-            sink->on_turn();
-        }
-    } catch (const std::bad_alloc&) {
     }
+    for_each_sink([](TelemetrySink& sink) { sink.on_turn(); });
 }
 
 void TelemetryHub::hand_over(const TelemetrySample& sample) {
     const Telemetry telemetry = maker_.of(sample, feed_->lost());
     events_.follow(telemetry, [this](const TelemetryEvent& event) {
-        for (const auto& sink : sinks_) {
-            sink->on_event(event);
-        }
+        for_each_sink([&event](TelemetrySink& sink) { sink.on_event(event); });
     });
-    for (const auto& sink : sinks_) {
-        sink->on_sample(telemetry);
-    }
+    for_each_sink([&telemetry](TelemetrySink& sink) { sink.on_sample(telemetry); });
 }
 
 }  // namespace millforce::host

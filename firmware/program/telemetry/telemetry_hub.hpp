@@ -13,7 +13,7 @@
 
 namespace millforce::host {
 
-/// Somebody who watches. All calls come from the hub's thread; none of them may throw, but for lack of memory.
+/// Somebody who watches. All calls come from the hub's thread; an exception ends the call, and nothing else.
 class TelemetrySink {
   public:
     virtual ~TelemetrySink() = default;
@@ -50,6 +50,8 @@ class TelemetryHub {
   private:
     void run();
     void turn();
+    template <typename Call>
+    void for_each_sink(Call call);
     void hand_over(const TelemetrySample& sample);
 
     TelemetryMaker maker_;
