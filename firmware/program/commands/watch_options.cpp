@@ -8,9 +8,11 @@
 
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "live/job_files.hpp"
 #include "live/mcap_file.hpp"
 #include "live/terminal_view.hpp"
 #include "live/udp_json.hpp"
+#include "live/unix_json.hpp"
 #include "live/web_server.hpp"
 
 namespace millforce::host {
@@ -26,6 +28,8 @@ void add_watch(Command& command, WatchOptions& options) {
         .value_name("HOST:PORT");
     command.option("--mcap", options.mcap, "Write the telemetry as MCAP, for Foxglove and PlotJuggler")
         .value_name("FILE.mcap");
+    command.option("--jobs", options.jobs, "Write a report of each job as a JSON file").value_name("FOLDER");
+    command.option("--gateway", options.gateway, "Tell 'millforce gateway' the state and events").value_name("SOCKET");
 }
 
 std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools, const std::string& title) {
@@ -46,6 +50,12 @@ std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& 
     }
     if (!options.mcap.empty()) {
         sinks.push_back(std::make_unique<McapFile>(options.mcap));
+    }
+    if (!options.jobs.empty()) {
+        sinks.push_back(std::make_unique<JobFiles>(options.jobs));
+    }
+    if (!options.gateway.empty()) {
+        sinks.push_back(std::make_unique<UnixJson>(options.gateway));
     }
     return std::make_unique<TelemetryHub>(tools, std::move(sinks));
 }

@@ -17,9 +17,11 @@ struct WatchOptions {
     std::optional<std::uint64_t> web_port;
     std::string udp_json;
     std::string mcap;
+    std::string jobs;
+    std::string gateway;
 };
 
-/// --view, --web, --udp-json and --mcap.
+/// --view, --web, --udp-json, --mcap, --jobs and --gateway.
 void add_watch(Command& command, WatchOptions& options);
 
 /// Opens all that was asked for. `title`: what is watched, e.g. "can0". Throws InputError.

@@ -21,10 +21,6 @@ constexpr std::uint64_t row_period_us = 20'000;
 constexpr std::uint64_t message_period_us = 100'000;
 constexpr std::size_t most_messages = 650;  // a minute of rows, and some events
 
-const char* name(EventLevel level) {
-    return level == EventLevel::fault ? "fault" : level == EventLevel::warning ? "warning" : "info";
-}
-
 std::string fields_json(const std::string& title) {
     JsonWriter json;
     json.begin_object().key("title").text(title).key("fields").begin_array();

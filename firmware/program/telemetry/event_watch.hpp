@@ -12,6 +12,10 @@ namespace millforce::host {
 
 enum class EventLevel : std::uint8_t { info, warning, fault };
 
+constexpr const char* name(EventLevel level) {
+    return level == EventLevel::fault ? "fault" : level == EventLevel::warning ? "warning" : "info";
+}
+
 /// Something that began or ended between two ticks.
 struct TelemetryEvent {
     std::uint64_t unix_us = 0;
