@@ -15,5 +15,6 @@ void add_parameters(Command& program);
 void add_import(Command& program);
 void add_check(Command& program);
 void add_telemetry(Command& program);
+void add_gateway(Command& program);
 
 }  // namespace millforce::host

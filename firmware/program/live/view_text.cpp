@@ -94,10 +94,12 @@ struct Bar {
 
 void draw_bar(Line& line, const Bar& bar, const Marks& marks) {
     const std::size_t cells = line.left();
-    const auto threshold = static_cast<std::size_t>(bar.threshold * static_cast<float>(cells));
+    const bool has_threshold = bar.threshold >= 0.0F && cells > 0;
+    const std::size_t threshold =
+        has_threshold ? std::min(static_cast<std::size_t>(bar.threshold * static_cast<float>(cells)), cells - 1) : 0;
     for (std::size_t k = 0; k < cells; ++k) {
         const float middle = (static_cast<float>(k) + 0.5F) / static_cast<float>(cells);
-        const bool is_threshold = bar.threshold >= 0.0F && k == std::min(threshold, cells - 1);
+        const bool is_threshold = has_threshold && k == threshold;
         const char* fill = middle < bar.low ? marks.full : middle < bar.high ? marks.uncertain : marks.empty;
         line.mark(is_threshold ? marks.threshold : fill);
     }
