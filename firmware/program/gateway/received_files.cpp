@@ -26,15 +26,22 @@ bool is_plain_name(const std::string& name, std::string_view ending) {
            name.find_first_not_of(letters_of_names) == std::string::npos;
 }
 
-/// A folder of its own for one file under its own name, gone afterwards.
+/// A folder of its own for one file under its own name, and copies of others; gone afterwards.
 class Trial {
   public:
-    Trial(const std::string& name, std::string_view content) {
+    Trial(const std::string& name, std::string_view content, const std::filesystem::path& others,
+          std::string_view ending) {
         std::string pattern = (std::filesystem::temp_directory_path() / "millforce-gateway-XXXXXX").string();
         if (::mkdtemp(pattern.data()) == nullptr) {
             throw InputError("no temporary folder");
         }
         folder_ = pattern;
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(others, error)) {
+            if (entry.path().filename().string().ends_with(ending)) {
+                std::filesystem::copy_file(entry.path(), file(entry.path().filename().string()), error);
+            }
+        }
         std::ofstream(file(name), std::ios::binary) << content;
     }
     ~Trial() {
@@ -62,14 +69,14 @@ class Trial {
 
 ReceivedFiles::Kind tool_files() {
     constexpr std::size_t most_bytes = 64U * 1024U;
-    return {".toml", most_bytes, [](const std::filesystem::path& file) {
-                (void)read_tool_folder(file.parent_path());  // the name, too
+    return {".toml", most_bytes, true, [](const std::filesystem::path& file) {
+                (void)read_tool_folder(file.parent_path());  // the names, too
             }};
 }
 
 ReceivedFiles::Kind map_files() {
     constexpr std::size_t most_bytes = 16U * 1024U * 1024U;
-    return {".map", most_bytes, [](const std::filesystem::path& file) { (void)read_part_map(file); }};
+    return {".map", most_bytes, false, [](const std::filesystem::path& file) { (void)read_part_map(file); }};
 }
 
 ReceivedFiles::ReceivedFiles(std::filesystem::path folder, Kind kind)
@@ -89,7 +96,7 @@ std::string ReceivedFiles::fault_of(const std::string& name, std::string_view co
     if (content.size() > kind_.most_bytes) {
         return fmt::format("{}: {} bytes, expected at most {}", name, content.size(), kind_.most_bytes);
     }
-    const Trial trial(name, content);
+    const Trial trial(name, content, kind_.with_others ? folder_ : std::filesystem::path(), kind_.ending);
     try {
         kind_.read(trial.file(name));
     } catch (const InputError& error) {
@@ -114,7 +121,7 @@ std::string ReceivedFiles::receive(const std::string& name, std::string_view con
             file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
             file.commit();
         }
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {  // of the file system, too: C code calls this
         return without_controls(error.what());
     }
     return {};

@@ -16,6 +16,8 @@ class ReceivedFiles {
     struct Kind {
         std::string_view ending;  ///< of names, e.g. ".toml"
         std::size_t most_bytes;
+        /// Read together with what is in the folder: two files may contradict each other.
+        bool with_others;
         /// Throws InputError where the file is not sound.
         std::function<void(const std::filesystem::path&)> read;
     };
