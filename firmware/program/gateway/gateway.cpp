@@ -23,7 +23,7 @@ namespace millforce::host {
 namespace {
 
 constexpr int turn_ms = 100;
-constexpr std::uintmax_t most_job_bytes = 1024U * 1024U;
+constexpr std::uintmax_t most_job_bytes = std::uintmax_t{1024} * 1024;
 
 std::string content_of(const std::filesystem::path& file) {
     std::ostringstream text;

@@ -68,14 +68,14 @@ class Trial {
 }  // namespace
 
 ReceivedFiles::Kind tool_files() {
-    constexpr std::size_t most_bytes = 64U * 1024U;
+    constexpr std::size_t most_bytes = std::size_t{64} * 1024;
     return {".toml", most_bytes, true, [](const std::filesystem::path& file) {
                 (void)read_tool_folder(file.parent_path());  // the names, too
             }};
 }
 
 ReceivedFiles::Kind map_files() {
-    constexpr std::size_t most_bytes = 16U * 1024U * 1024U;
+    constexpr std::size_t most_bytes = std::size_t{16} * 1024 * 1024;
     return {".map", most_bytes, false, [](const std::filesystem::path& file) { (void)read_part_map(file); }};
 }
 
@@ -107,7 +107,7 @@ std::string ReceivedFiles::fault_of(const std::string& name, std::string_view co
 
 std::string ReceivedFiles::receive(const std::string& name, std::string_view content, bool is_own) {
     try {
-        if (const std::string fault = fault_of(name, content); !fault.empty()) {
+        if (std::string fault = fault_of(name, content); !fault.empty()) {
             return fault;
         }
         if (!is_own && own_.contains(name)) {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr unsigned most_connections = 32;
 constexpr unsigned most_streams = 8;
-constexpr std::size_t bytes_per_connection = 16U * 1024U;
+constexpr std::size_t bytes_per_connection = std::size_t{16} * 1024;
 constexpr unsigned patience_s = 10;
 constexpr int steps_per_turn = 8;
 constexpr std::uint64_t turns_of_silence = 100;  ///< of 20 ms each
@@ -233,7 +233,7 @@ ssize_t WebServer::Daemon::read_stream(void* self, std::uint64_t, char* bytes, s
         ++stream.next;
     }
     const std::size_t count = std::min(most, stream.message.size() - stream.sent);
-    std::memcpy(bytes, stream.message.data() + stream.sent, count);
+    std::copy_n(stream.message.data() + stream.sent, count, bytes);
     stream.sent += count;
     return static_cast<ssize_t>(count);
 }

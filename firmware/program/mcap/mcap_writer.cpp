@@ -12,7 +12,7 @@ namespace millforce::host {
 namespace {
 
 constexpr std::string_view magic("\x89MCAP0\r\n", 8);
-constexpr std::size_t chunk_bytes = 512U * 1024U;
+constexpr std::size_t chunk_bytes = std::size_t{512} * 1024;
 
 /// Numbers of the records in the specification.
 enum class Op : std::uint8_t {

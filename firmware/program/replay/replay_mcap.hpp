@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -31,7 +32,7 @@ class ReplayMcap {
         }
         first_s_ = first_s_.value_or(time_s);
         const double since_s = std::max(0.0, time_s - std::min(0.0, *first_s_));
-        sample.monotonic_us = static_cast<std::uint64_t>(since_s * 1e6 + 0.5);
+        sample.monotonic_us = static_cast<std::uint64_t>(std::llround(since_s * 1e6));
         Telemetry telemetry = writing_->maker.of(sample, 0);
         telemetry.time_s = time_s;
         writing_->events.follow(telemetry, [this](const TelemetryEvent& event) { writing_->telemetry.add(event); });

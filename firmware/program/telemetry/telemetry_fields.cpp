@@ -13,7 +13,7 @@ namespace millforce::host {
 namespace {
 
 template <typename Name, std::size_t count>
-std::array<std::string_view, count> names_of() {
+constexpr std::array<std::string_view, count> names_of() {
     std::array<std::string_view, count> names{};
     for (std::size_t k = 0; k < count; ++k) {
         names[k] = name(static_cast<Name>(k));
@@ -21,10 +21,10 @@ std::array<std::string_view, count> names_of() {
     return names;
 }
 
-const auto state_names = names_of<control::CutState, control::state_count>();
-const auto limit_names = names_of<control::Limit, control::limit_count>();
-const auto fault_names = names_of<control::Fault, control::fault_count>();
-const auto condition_names = names_of<firmware::Condition, firmware::condition_count>();
+constexpr auto state_names = names_of<control::CutState, control::state_count>();
+constexpr auto limit_names = names_of<control::Limit, control::limit_count>();
+constexpr auto fault_names = names_of<control::Fault, control::fault_count>();
+constexpr auto condition_names = names_of<firmware::Condition, firmware::condition_count>();
 
 FieldValue number(float value) {
     return std::isfinite(value) ? FieldValue(value) : FieldValue();
@@ -62,7 +62,7 @@ FieldValue axis_velocity(const Telemetry& t) {
 using Kind = FieldKind;
 using Of = const Telemetry&;
 
-const std::array fields{
+constexpr std::array fields{
     TelemetryField{"time_s", "s", "Time of the tick, by the clock of its samples", Kind::number,
                    [](Of t) { return FieldValue(t.time_s); }},
     TelemetryField{
