@@ -93,11 +93,11 @@ McapWriter::McapWriter(std::ostream& out, std::string_view library) : out_(out) 
     std::string header;
     put_text(header, "");  // no profile
     put_text(header, library);
-    write(magic);
+    write(std::string(magic));
     write(record(Op::header, header));
 }
 
-void McapWriter::write(std::string_view bytes) {
+void McapWriter::write(const std::string& bytes) {
     out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     offset_ += bytes.size();
 }
@@ -244,7 +244,7 @@ void McapWriter::finish() {
     summary.add(Op::chunk_index, chunk_indexes());
     summary.add(Op::statistics, statistics());
     write(summary.bytes());
-    write(magic);
+    write(std::string(magic));
     out_.flush();
 }
 

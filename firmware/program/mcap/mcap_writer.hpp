@@ -47,7 +47,7 @@ class McapWriter {
         std::uint64_t records_length;
     };
 
-    void write(std::string_view bytes);
+    void write(const std::string& bytes);
     void write_message_indexes(ChunkIndex& chunk);
     [[nodiscard]] std::string chunk_indexes() const;
     [[nodiscard]] std::string statistics() const;
