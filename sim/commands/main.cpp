@@ -29,6 +29,8 @@ int run(int argc, char** argv) {
     host::add_replay(program);
     host::add_import(program);
     host::add_check(program);
+    host::add_telemetry(program);
+    host::add_gateway(program);
     host::add_calibrate(program);
     host::add_estimate(program);
     sim::add_reproduce(program);
