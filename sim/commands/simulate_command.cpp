@@ -210,7 +210,8 @@ void add_simulate(host::Command& program) {
     command.footer(
         "Compared with two constant feeds: the largest with which no tooth exceeds its limit even if the material is\n"
         "harder (--hardest), and in hindsight the largest for exactly this material.\n"
-        "socket:PATH is a controller in another process, in any language, that listens at a Unix socket: a line of JSON\n"
+        "socket:PATH is a controller in another process, in any language, that listens at a Unix socket: a line of "
+        "JSON\n"
         "for each sample, a line back (sim/python/README.md).\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
         "the\n"

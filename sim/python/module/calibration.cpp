@@ -48,7 +48,7 @@ CutSide side_of(const std::string& word) {
     return choice<CutSide>("side", word, {{"down", CutSide::down}, {"up", CutSide::up}, {"unknown", CutSide::unknown}});
 }
 
-auto friction(const Files& data, const std::filesystem::path& output, std::optional<std::string> axis,
+auto friction(const Files& data, const std::filesystem::path& output, const std::optional<std::string>& axis,
               std::optional<double> low_pass_hz, std::optional<double> minimum_speed_mm_s) {
     host::FrictionCalibrationOptions options;
     options.data = data;
