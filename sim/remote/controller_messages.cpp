@@ -44,20 +44,20 @@ constexpr std::array<EstimateKey, 9> estimate_keys{{
 
 // ---- what is sent
 
-JsonWriter message(std::string_view type) {
-    JsonWriter out;
+host::JsonWriter message(std::string_view type) {
+    host::JsonWriter out;
     out.begin_object().key("type").text(type);
     return out;
 }
 
-void write_number(JsonWriter& out, std::string_view key, double value, bool is_known = true) {
+void write_number(host::JsonWriter& out, std::string_view key, double value, bool is_known = true) {
     out.key(key).number(is_known ? value : host::no_estimate, double_digits);
 }
-void write_float(JsonWriter& out, std::string_view key, float value, bool is_known = true) {
+void write_float(host::JsonWriter& out, std::string_view key, float value, bool is_known = true) {
     out.key(key).number(is_known ? static_cast<double>(value) : host::no_estimate, float_digits);
 }
 
-void write_drives(JsonWriter& out, const hal::DriveSample& sample) {
+void write_drives(host::JsonWriter& out, const hal::DriveSample& sample) {
     const auto has = [&](hal::Present quantity) { return (sample.present & hal::mask(quantity)) != 0; };
     write_float(out, "spindle_current_A", sample.spindle_current_A, has(hal::Present::spindle_current));
     for (std::size_t axis = 0; axis < hal::axis_count; ++axis) {
@@ -173,7 +173,7 @@ void require_whole(Message& of, const char* key, const json& value, std::uint64_
 }  // namespace
 
 std::string hello_message(const Scenario& scenario) {
-    JsonWriter out = message("hello");
+    host::JsonWriter out = message("hello");
     out.key("version").integer(controller_protocol_version);
     out.key("scenario").text(scenario.name);
     out.key("seed").unsigned_integer(scenario.seed);
@@ -202,7 +202,7 @@ std::string read_ready(std::string_view line) {
 }
 
 std::string sample_message(const SampleOfRun& at) {
-    JsonWriter out = message("sample");
+    host::JsonWriter out = message("sample");
     out.key("sample").unsigned_integer(at.number);
     write_number(out, "time_s", at.counts.time_s());
     write_number(out, "spindle_angle_rad", at.counts.angle_rad(), host::ContinuousCounts::has_count(at.sample));
@@ -241,7 +241,7 @@ void copy_estimate(const TracePoint& from, TracePoint& to) {
 }
 
 std::string end_message(const RunFigures& figures) {
-    JsonWriter out = message("end");
+    host::JsonWriter out = message("end");
     out.key("finished").boolean(figures.finished);
     out.key("time_s").number(figures.time_s, float_digits);
     out.key("peak_over_limit").number(figures.peak_over_limit, float_digits);

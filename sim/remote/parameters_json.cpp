@@ -13,7 +13,7 @@ namespace {
 
 class ParameterWriter {
   public:
-    ParameterWriter(JsonWriter& out, firmware::ParameterFile file) : out_(out), file_(file) {}
+    ParameterWriter(host::JsonWriter& out, firmware::ParameterFile file) : out_(out), file_(file) {}
 
     template <typename Field>
     void operator()(const firmware::ParameterName& name, const Field& field, float, float) {
@@ -53,14 +53,15 @@ class ParameterWriter {
         }
     }
 
-    JsonWriter& out_;
+    host::JsonWriter& out_;
     firmware::ParameterFile file_;
     std::string_view table_;
 };
 
 }  // namespace
 
-void write_parameters(JsonWriter& out, const firmware::Parameters<float>& parameters, firmware::ParameterFile file) {
+void write_parameters(host::JsonWriter& out, const firmware::Parameters<float>& parameters,
+                      firmware::ParameterFile file) {
     out.begin_object();
     ParameterWriter writer(out, file);
     firmware::for_each_parameter(parameters, [&writer](const auto& name, const auto& field, float low, float high) {

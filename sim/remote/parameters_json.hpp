@@ -8,6 +8,7 @@ namespace millforce::sim {
 
 /// The parameters of one file as an object of objects, with the tables and keys of machine.toml or tool.toml and all
 /// defaults. What belongs to a bus is left out.
-void write_parameters(JsonWriter& out, const firmware::Parameters<float>& parameters, firmware::ParameterFile file);
+void write_parameters(host::JsonWriter& out, const firmware::Parameters<float>& parameters,
+                      firmware::ParameterFile file);
 
 }  // namespace millforce::sim

@@ -119,13 +119,12 @@ int run_on_bus(const RunOptions& options) {
         started_report({RunKind::run, options.interface, options.machine, options.tools, options.report}, tools);
     const auto page = report != nullptr ? std::make_unique<RunRecorder>(report->history()) : nullptr;
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(
-        JournalSettings{options.interface, options.record, options.log,
-                        isatty(STDOUT_FILENO) != 0 && !options.watch.view, ToolForces(tools), page.get()});
+    const auto journal = std::make_unique<Journal>(JournalSettings{options.interface, options.record, options.log,
+                                                                   isatty(STDOUT_FILENO) != 0 && !options.watch.view,
+                                                                   ToolForces(tools), page.get()});
     const auto hub = watch(options.watch, tools, options.interface);
-    const auto daemon =
-        std::make_unique<CanDaemon>(interface, bus, tools, *journal,
-                                    CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed()});
+    const auto daemon = std::make_unique<CanDaemon>(
+        interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed()});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }

@@ -19,7 +19,7 @@ Parameters from_texts(const std::string& machine, const std::string& machine_nam
 }
 
 std::string json_of(const Parameters& parameters, firmware::ParameterFile file) {
-    sim::JsonWriter out;
+    host::JsonWriter out;
     sim::write_parameters(out, parameters, file);
     return out.str();
 }

@@ -21,7 +21,7 @@ namespace millforce::host {
 struct CanDaemonSettings {
     bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
     BusTime time{};
-    RunRecorder* page = nullptr;  ///< gets every tick; outlives the daemon
+    RunRecorder* page = nullptr;         ///< gets every tick; outlives the daemon
     TelemetryFeed* telemetry = nullptr;  ///< for who watches; outlives the daemon
 };
 

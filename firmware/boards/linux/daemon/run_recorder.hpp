@@ -8,8 +8,8 @@
 #include <string_view>
 #include <thread>
 
-#include "run_log/spsc_ring.hpp"
 #include "firmware/tick_record.hpp"
+#include "run_log/spsc_ring.hpp"
 #include "run_report/run_history.hpp"
 
 namespace millforce::host {
