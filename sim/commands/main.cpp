@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
     sim::add_plant(program);
     host::add_replay(program);
     host::add_import(program);
+    host::add_init(program);
     host::add_check(program);
     host::add_calibrate(program);
     host::add_estimate(program);

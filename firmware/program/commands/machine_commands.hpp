@@ -14,5 +14,6 @@ void add_estimate(Command& program);
 void add_parameters(Command& program);
 void add_import(Command& program);
 void add_check(Command& program);
+void add_init(Command& program);
 
 }  // namespace millforce::host
