@@ -76,11 +76,15 @@ Answers::Answers(const std::string& file, const std::vector<std::string>& pairs)
         lines += toml_line(pair);
     }
     if (!lines.empty()) {
-        sources_.push_back(std::make_unique<Source>(Source{TomlFile::from_text(lines, command_line), {}}));
+        sources_.push_back(std::make_unique<Source>(Source{TomlFile::from_text(lines, command_line)}));
     }
     if (!file.empty()) {
-        sources_.push_back(std::make_unique<Source>(Source{TomlFile::open(file), {}}));
+        sources_.push_back(std::make_unique<Source>(Source{TomlFile::open(file)}));
     }
+}
+
+void Answers::add_known(const std::string& file) {
+    sources_.push_back(std::make_unique<Source>(Source{TomlFile::open(file), false}));
 }
 
 TomlFile::Table& Answers::Source::table(const std::string& name) {
@@ -164,7 +168,7 @@ double Answers::number(const NumberQuestion& question) {
         missing_.push_back(fmt::format("{}{}", question.key, question.unit.empty() ? "" : " in " + question.unit));
         return std::nan("");
     }
-    taken_.emplace_back(question.key, question.is_whole ? fmt::format("{:.0f}", *value) : toml_number(*value));
+    take(question.key, question.is_whole ? fmt::format("{:.0f}", *value) : toml_number(*value));
     return *value;
 }
 
@@ -203,7 +207,7 @@ std::string Answers::word(const WordQuestion& question) {
         missing_.push_back(question.key + choices);
         return {};
     }
-    taken_.emplace_back(question.key, toml_string(*value));
+    take(question.key, toml_string(*value));
     return *value;
 }
 
@@ -214,10 +218,17 @@ void Answers::require_all(bool is_last) const {
     }
     for (const auto& source : sources_) {
         for (const auto& [name, table] : source->tables) {
-            if (is_last) {
+            if (is_last && source->is_strict) {
                 table.reject_unknown_keys();
             }
         }
+    }
+}
+
+void Answers::take(const std::string& key, const std::string& value) {
+    const auto is_same = [&](const auto& taken) { return taken.first == key; };
+    if (std::none_of(taken_.begin(), taken_.end(), is_same)) {
+        taken_.emplace_back(key, value);
     }
 }
 

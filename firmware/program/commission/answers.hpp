@@ -39,6 +39,9 @@ class Answers {
     /// `file` may be empty. Throws InputError.
     Answers(const std::string& file, const std::vector<std::string>& pairs);
 
+    /// Answers that come last, and that nobody need ask for: of an earlier run, or what the drives say.
+    void add_known(const std::string& file);
+
     /// From now on what has no answer is asked for here. Both outlive this.
     void ask_on(std::istream& in, std::ostream& out);
 
@@ -57,10 +60,12 @@ class Answers {
   private:
     struct Source {
         TomlFile file;
-        std::map<std::string, TomlFile::Table> tables;
+        bool is_strict = true;  ///< a key that nobody asks for is an error
+        std::map<std::string, TomlFile::Table> tables{};
         TomlFile::Table& table(const std::string& name);
     };
     [[nodiscard]] Source* source_of(const std::string& key);
+    void take(const std::string& key, const std::string& value);
     std::optional<std::string> line_from_terminal(const std::string& prompt);
     std::optional<double> number_from_terminal(const NumberQuestion& question);
 

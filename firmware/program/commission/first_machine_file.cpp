@@ -119,6 +119,14 @@ void add_drive(FileDraft& draft, Answers& answers, const std::string& drive, boo
     }
 }
 
+Connection asked_connection(Answers& answers) {
+    const WordQuestion question{"machine.connection",
+                                "How the drives are read: can: CiA 402 on a CAN bus, hal: LinuxCNC",
+                                {"can", "hal"},
+                                "can"};
+    return answers.word(question) == "can" ? Connection::can : Connection::hal;
+}
+
 }  // namespace
 
 std::vector<std::string> axes_of(Answers& answers) {
@@ -150,14 +158,11 @@ void add_bus(FileDraft& draft, Answers& answers, const std::vector<std::string>&
     }
 }
 
-FileDraft first_machine_file(Answers& answers) {
+FileDraft first_machine_file(Answers& answers, std::optional<Connection> connection) {
     FileDraft draft(firmware::ParameterFile::machine);
     draft.set_heading("name", answers.word({"machine.name", "Name of the machine", {}, "machine"}));
     draft.set_heading("description", "From data sheets, by 'millforce init': not measured yet");
-    const bool is_can = answers.word({"machine.connection",
-                                      "How the drives are read: can: CiA 402 on a CAN bus, hal: LinuxCNC",
-                                      {"can", "hal"},
-                                      "can"}) == "can";
+    const bool is_can = (connection ? *connection : asked_connection(answers)) == Connection::can;
     const std::vector<std::string> axes = axes_of(answers);
     add_spindle(draft, answers);
     for (const std::string& axis : axes) {

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commission/step_recorder.hpp"
+
+#include <utility>
+
+namespace millforce::host {
+
+namespace {
+constexpr double piece_s = 10.0;
+constexpr double rest_at_end_s = 1.0;
+constexpr std::uint32_t samples_between_looks = 64;
+}  // namespace
+
+StepRecorder::StepRecorder(const Session& session, std::string step, std::uint32_t counts_per_rev, StepWatch& watch,
+                           bool in_pieces)
+    : session_(session),
+      step_(std::move(step)),
+      counts_per_rev_(counts_per_rev),
+      watch_(watch),
+      in_pieces_(in_pieces) {}
+
+bool StepRecorder::add(const hal::DriveSample& sample) {
+    if (!first_) {
+        first_ = sample;
+        last_time_us_ = sample.time_us;
+    }
+    time_us_ += sample.time_us - last_time_us_;
+    last_time_us_ = sample.time_us;
+    hal::DriveSample from_zero = sample;
+    from_zero.time_us = static_cast<std::uint32_t>(time_us_);
+    from_zero.spindle_count -= first_->spindle_count;
+    from_zero.spindle_index_count -= first_->spindle_count;
+    const double time_s = 1e-6 * static_cast<double>(time_us_);
+    steps_.push_back({from_zero, {}, 1.0F});
+    watch_.add({time_s, from_zero});
+    note_rest(time_s, sample);
+    if (++samples_ % samples_between_looks == 0) {
+        is_enough_.store(watch_.is_enough(), std::memory_order_relaxed);
+    }
+    if (in_pieces_ && rests_since_s_ && time_s - piece_start_s_ >= piece_s) {
+        write_piece();
+        piece_start_s_ = time_s;
+    }
+    return is_enough() && rests_since_s_ && time_s - *rests_since_s_ >= rest_at_end_s;
+}
+
+void StepRecorder::note_rest(double time_s, const hal::DriveSample& sample) {
+    if (!hal::axes_rest(sample.axis_velocity_mm_s)) {
+        rests_since_s_.reset();
+    } else if (!rests_since_s_) {
+        rests_since_s_ = time_s;
+    }
+}
+
+void StepRecorder::write_file(const std::filesystem::path& file, std::uint32_t counts_per_rev,
+                              const std::vector<RecordedStep>& steps) {
+    RecordingWriter writer(file, counts_per_rev, false);
+    for (const RecordedStep& step : steps) {
+        writer.add(step);
+    }
+    writer.commit();
+}
+
+void StepRecorder::write_piece() {
+    if (writing_.valid()) {
+        writing_.get();
+    }
+    writing_ = std::async(std::launch::async, write_file, session_.next_recording(step_), counts_per_rev_,
+                          std::exchange(steps_, {}));
+}
+
+void StepRecorder::finish() {
+    watch_.end();
+    is_enough_.store(watch_.is_enough(), std::memory_order_relaxed);
+    if (!steps_.empty()) {
+        write_piece();
+    }
+    if (writing_.valid()) {
+        writing_.get();
+    }
+}
+
+void feed_recordings(const std::vector<std::filesystem::path>& files, std::uint32_t counts_per_rev, StepWatch& watch) {
+    double last_s = 0.0;
+    for (const auto& file : files) {
+        RecordingReader reader(file, counts_per_rev);
+        while (reader.next()) {
+            constexpr double gap_s = 0.5;
+            if (reader.time_s() < last_s || reader.time_s() > last_s + gap_s) {
+                watch.end();
+            }
+            last_s = reader.time_s();
+            watch.add({reader.time_s(), reader.sample()});
+        }
+    }
+    watch.end();
+}
+
+}  // namespace millforce::host
