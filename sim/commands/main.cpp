@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
     host::add_replay(program);
     host::add_import(program);
     host::add_init(program);
+    host::add_commission(program);
     host::add_check(program);
     host::add_calibrate(program);
     host::add_estimate(program);

@@ -15,5 +15,6 @@ void add_parameters(Command& program);
 void add_import(Command& program);
 void add_check(Command& program);
 void add_init(Command& program);
+void add_commission(Command& program);
 
 }  // namespace millforce::host

@@ -82,14 +82,13 @@ void AirWatch::show_fit(std::size_t axis) {
         fit.add(feed.feed_m_per_min, feed.current_A);
     }
     const auto solution = fit.solve();
-    if (solution.determined(estimation::common_K_x3) && std::isfinite(solution.standard_error(estimation::common_K_x3))) {
-        line += fmt::format("; friction so far: K_x3 {:.3f} ± {:.3f} A, K_x2 {:.3f} ± {:.3f} and {:.3f} ± {:.3f}",
-                            solution.parameters(estimation::common_K_x3),
-                            solution.standard_error(estimation::common_K_x3),
-                            solution.parameters(estimation::positive_K_x2),
-                            solution.standard_error(estimation::positive_K_x2),
-                            solution.parameters(estimation::negative_K_x2),
-                            solution.standard_error(estimation::negative_K_x2));
+    if (solution.determined(estimation::common_K_x3) &&
+        std::isfinite(solution.standard_error(estimation::common_K_x3))) {
+        line += fmt::format(
+            "; friction so far: K_x3 {:.3f} ± {:.3f} A, K_x2 {:.3f} ± {:.3f} and {:.3f} ± {:.3f}",
+            solution.parameters(estimation::common_K_x3), solution.standard_error(estimation::common_K_x3),
+            solution.parameters(estimation::positive_K_x2), solution.standard_error(estimation::positive_K_x2),
+            solution.parameters(estimation::negative_K_x2), solution.standard_error(estimation::negative_K_x2));
     }
     tell(line);
 }

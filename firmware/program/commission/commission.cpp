@@ -47,8 +47,8 @@ class Commissioning {
 
     int run() {
         prepare();
-        if (!idle() || !air() || !cuts("standard", plan_.standard) || !fit() ||
-            !cuts("validation", plan_.validation) || !validate()) {
+        if (!idle() || !air() || !cuts("standard", plan_.standard) || !fit() || !cuts("validation", plan_.validation) ||
+            !validate()) {
             write_page();
             return exit_bound_broken;
         }
@@ -105,8 +105,8 @@ class Commissioning {
         for (std::size_t place = 0; place < roles.size(); ++place) {
             const std::string& role = roles[place];
             const auto usual = place < drives.size() ? std::optional<double>(drives[place].node_id) : std::nullopt;
-            const auto node = answers_.integer({"bus." + role + ".node_id",
-                                                fmt::format("Node of the {} drive", role), "", 1.0, 127.0, usual});
+            const auto node = answers_.integer(
+                {"bus." + role + ".node_id", fmt::format("Node of the {} drive", role), "", 1.0, 127.0, usual});
             const auto found = std::find_if(drives.begin(), drives.end(),
                                             [&](const FoundDrive& drive) { return drive.node_id == node; });
             if (found == drives.end() || !found->is_cia402()) {
@@ -137,8 +137,9 @@ class Commissioning {
         if (role == "spindle" || !drive.velocity_unit) {
             return text;
         }
-        const double travel_mm = answers_.number({role + ".travel_per_motor_turn_mm",
-                                                  role + ": travel per turn of the motor (screw lead)", "mm", 0.01, 1e3});
+        const double travel_mm =
+            answers_.number({role + ".travel_per_motor_turn_mm", role + ": travel per turn of the motor (screw lead)",
+                             "mm", 0.01, 1e3});
         if (const auto unit = drive.velocity_mm_s(travel_mm)) {
             text += fmt::format("bus.{}.velocity_mm_s_per_unit = {}\n", role, toml_number(*unit));
         }
@@ -151,7 +152,8 @@ class Commissioning {
         FileDraft watching = tool_;
         watching.set_flag("control", "monitor_only", true);
         watching.save(session_.file("first_tool.toml"));
-        first_ = read_parameters(session_.file("first_machine.toml").string(), session_.file("first_tool.toml").string());
+        first_ =
+            read_parameters(session_.file("first_machine.toml").string(), session_.file("first_tool.toml").string());
     }
 
     void write_programs() {
@@ -181,8 +183,8 @@ class Commissioning {
 
     bool record_live(const std::string& step, StepWatch& watch, bool in_pieces) {
         StepRecorder recorder(session_, step, counts_per_rev(), watch, in_pieces);
-        const bool goes_on = live_->record(session_.file("first_machine.toml"), session_.file("first_tool.toml"),
-                                           recorder, watch);
+        const bool goes_on =
+            live_->record(session_.file("first_machine.toml"), session_.file("first_tool.toml"), recorder, watch);
         recorder.finish();
         show_news(watch);
         if (!goes_on || !watch.is_enough()) {
@@ -196,10 +198,10 @@ class Commissioning {
     bool take_given(const std::string& step, StepWatch& watch) {
         const auto given = options_.recordings.find(step);
         if (given == options_.recordings.end()) {
-            verdicts_.push_back({step, false,
-                                 fmt::format("not recorded yet: record {}.ngc and give it with --recording {}=FILE.csv",
-                                             step, step),
-                                 ""});
+            verdicts_.push_back(
+                {step, false,
+                 fmt::format("not recorded yet: record {}.ngc and give it with --recording {}=FILE.csv", step, step),
+                 ""});
             show_verdict();
             return false;
         }
@@ -207,7 +209,8 @@ class Commissioning {
         for (const auto& file : given->second) {
             RecordingReader(file, counts_per_rev());  // refuses what is no recording before it is copied
             const auto target = session_.next_recording(step);
-            std::filesystem::copy_file(file, target.string() + ".part", std::filesystem::copy_options::overwrite_existing);
+            std::filesystem::copy_file(file, target.string() + ".part",
+                                       std::filesystem::copy_options::overwrite_existing);
             std::filesystem::rename(target.string() + ".part", target);
         }
         const auto all = session_.recordings(step);
@@ -241,16 +244,16 @@ class Commissioning {
         for (const std::string& step : steps) {
             session_.set_aside(step);
         }
-        verdicts_.push_back({steps.front(), false,
-                             fmt::format("to be repeated: {}. The recordings are kept as *.refused; start again",
-                                         error.what()),
-                             ""});
+        verdicts_.push_back(
+            {steps.front(), false,
+             fmt::format("to be repeated: {}. The recordings are kept as *.refused; start again", error.what()), ""});
         show_verdict();
     }
 
     bool idle() {
         idle_watch_ = std::make_unique<IdleWatch>(counts_per_rev(), plan_.idle_rpm.size(), plan_.idle_dwell_s);
-        if (!watch("idle", *idle_watch_, true, "The tool is in air, the axes rest; best after ten minutes of running.")) {
+        if (!watch("idle", *idle_watch_, true,
+                   "The tool is in air, the axes rest; best after ten minutes of running.")) {
             return false;
         }
         const auto fit = idle_watch_->fit();
@@ -260,14 +263,15 @@ class Commissioning {
         idle_ = *fit;
         constexpr double largest_share = 0.05;
         const double middle_A = std::abs(idle_watch_->plateaus().front().current_A);
-        judge("idle", idle_.residual_A <= largest_share * middle_A,
-              fmt::format("the idle current is {:.4f} ± {:.4f} A + ({:.3g} ± {:.2g}) A·s/rad × speed to within {:.4f} A "
-                          "({:.1f} %, bound {:.0f} %){}",
-                          idle_.offset_A, idle_.offset_se, idle_.slope_A_s, idle_.slope_se, idle_.residual_A,
-                          100.0 * idle_.residual_A / middle_A, 100.0 * largest_share,
-                          idle_.residual_A <= largest_share * middle_A
-                              ? ""
-                              : "; run the spindle warm for ten minutes, then delete idle.*.csv and start again"));
+        judge(
+            "idle", idle_.residual_A <= largest_share * middle_A,
+            fmt::format("the idle current is {:.4f} ± {:.4f} A + ({:.3g} ± {:.2g}) A·s/rad × speed to within {:.4f} A "
+                        "({:.1f} %, bound {:.0f} %){}",
+                        idle_.offset_A, idle_.offset_se, idle_.slope_A_s, idle_.slope_se, idle_.residual_A,
+                        100.0 * idle_.residual_A / middle_A, 100.0 * largest_share,
+                        idle_.residual_A <= largest_share * middle_A
+                            ? ""
+                            : "; run the spindle warm for ten minutes, then delete idle.*.csv and start again"));
         return true;
     }
 
@@ -347,8 +351,8 @@ class Commissioning {
             std::filesystem::rename(recording, recording.string() + ".incomplete");
         }
         CutWatch cut_watch(settings);
-        const std::string hint =
-            fmt::format("Origin: top corner of the block, {:.1f} mm long or more; down milling.", block_length_mm(plan_));
+        const std::string hint = fmt::format("Origin: top corner of the block, {:.1f} mm long or more; down milling.",
+                                             block_length_mm(plan_));
         if (!watch(step, cut_watch, false, hint)) {
             return false;
         }
@@ -436,7 +440,8 @@ class Commissioning {
         bool holds = true;
         for (const ValidatedCut& cut : validated_) {
             table += fmt::format(
-                "{} {:.0f} mm/min, {:g} mm wide: torque {:.3f} N·m, by the law {:.3f} ({:+.1f} %, bound {:.0f} %); feed "
+                "{} {:.0f} mm/min, {:g} mm wide: torque {:.3f} N·m, by the law {:.3f} ({:+.1f} %, bound {:.0f} %); "
+                "feed "
                 "force {:.1f} N, by the law {:.1f} ({:+.1f} %, bound {:.0f} %)\n",
                 cut.axis, cut.feed_mm_min, cut.radial_width_mm, cut.torque_Nm, cut.expected_torque_Nm,
                 100.0 * cut.torque_error(), 100.0 * cut.torque_bound, cut.feed_force_N, cut.expected_feed_force_N,

@@ -64,14 +64,16 @@ std::string steps_html(const std::vector<StepVerdict>& verdicts) {
 }
 
 std::string values_html(const CommissionPage& page, const Session& session) {
-    std::string text = "<table><tr><th>key</th><th>value</th><th>standard error</th><th>unit</th><th>meaning</th></tr>\n";
+    std::string text =
+        "<table><tr><th>key</th><th>value</th><th>standard error</th><th>unit</th><th>meaning</th></tr>\n";
     for (const std::string& name : page.files) {
         if (!session.has(name)) {
             continue;
         }
         for (const FittedKey& key : fitted_keys(session.file(name))) {
             text += fmt::format(
-                "<tr><td>{}.{}</td><td class=\"number\">{:.4g}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                "<tr><td>{}.{}</td><td class=\"number\">{:.4g}</td><td "
+                "class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
                 html_escaped(key.table), html_escaped(key.key), key.value,
                 key.standard_error ? fmt::format("{:.2g}", *key.standard_error) : "", html_escaped(key.unit),
                 html_escaped(key.sentence));

@@ -22,14 +22,14 @@ struct SearchBus {
 /// What a node says of itself. An object that it does not have is nothing.
 struct FoundDrive {
     std::uint8_t node_id = 0;
-    std::uint32_t device_type = 0;                ///< 0x1000
-    std::optional<std::uint32_t> vendor_id;       ///< 0x1018:1
-    std::optional<std::uint32_t> product_code;    ///< 0x1018:2
+    std::uint32_t device_type = 0;                  ///< 0x1000
+    std::optional<std::uint32_t> vendor_id;         ///< 0x1018:1
+    std::optional<std::uint32_t> product_code;      ///< 0x1018:2
     std::optional<std::uint32_t> rated_current_mA;  ///< 0x6075
     std::optional<std::uint32_t> rated_torque_mNm;  ///< 0x6076
-    std::optional<std::uint32_t> encoder_counts;  ///< 0x608F:1 over 0x608F:2, per turn of the motor
-    std::optional<std::uint32_t> velocity_unit;   ///< 0x60A9
-    bool has_index_latch = false;                 ///< 0x60BA and 0x60D5
+    std::optional<std::uint32_t> encoder_counts;    ///< 0x608F:1 over 0x608F:2, per turn of the motor
+    std::optional<std::uint32_t> velocity_unit;     ///< 0x60A9
+    bool has_index_latch = false;                   ///< 0x60BA and 0x60D5
 
     [[nodiscard]] bool is_cia402() const { return (device_type & 0xFFFFU) == 402; }
     /// "node 2: CiA 402, vendor 0x…, rated 12 A, 8 N·m, …"

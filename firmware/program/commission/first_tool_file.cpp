@@ -126,7 +126,9 @@ FileDraft first_tool_file(Answers& answers, std::ostream& advice_out, const std:
     write_law(draft, tool);
     write_control(draft, tool, limit_N);
     const bool is_watching =
-        answers.word({"control.monitor_only", "Leave the override to the operator, and watch", {"true", "false"}, "true"}) == "true";
+        answers.word(
+            {"control.monitor_only", "Leave the override to the operator, and watch", {"true", "false"}, "true"}) ==
+        "true";
     draft.set_flag("control", "monitor_only", is_watching,
                    is_watching ? "until the estimates have been compared with real cuts" : "given");
     return draft;

@@ -37,8 +37,8 @@ void IdleWatch::add(const TimedSample& timed) {
 
 void IdleWatch::take(const RevolutionBlock& block) {
     constexpr double steady = 0.01;
-    const bool goes_on = now_.blocks > 0 && std::abs(block.spindle_rad_s - now_.spindle_rad_s) <
-                                                steady * std::abs(now_.spindle_rad_s);
+    const bool goes_on =
+        now_.blocks > 0 && std::abs(block.spindle_rad_s - now_.spindle_rad_s) < steady * std::abs(now_.spindle_rad_s);
     if (!goes_on || !do_axes_rest(block)) {
         end();
         if (do_axes_rest(block) && std::abs(block.spindle_rad_s) > 1.0) {

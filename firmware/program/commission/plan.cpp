@@ -60,26 +60,34 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes) {
     CommissionPlan plan;
     plan.axes = axes;
     const double fastest_rpm = answers.number({"idle.highest_rpm", "Highest speed of the spindle", "1/min", 10.0, 1e5});
-    const double slowest_rpm = answers.number(
-        {"idle.lowest_rpm", "Lowest speed of the spindle that is used", "1/min", 10.0, 1e5,
-         std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.2 * fastest_rpm)});
-    plan.idle_rpm = geometric(slowest_rpm, fastest_rpm, answers.integer({"idle.speeds", "Number of speeds", "", 3.0, 20.0, 4.0}));
+    const double slowest_rpm =
+        answers.number({"idle.lowest_rpm", "Lowest speed of the spindle that is used", "1/min", 10.0, 1e5,
+                        std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.2 * fastest_rpm)});
+    plan.idle_rpm =
+        geometric(slowest_rpm, fastest_rpm, answers.integer({"idle.speeds", "Number of speeds", "", 3.0, 20.0, 4.0}));
     plan.idle_dwell_s = answers.number({"idle.dwell_s", "Time at each speed", "s", 0.5, 600.0, 10.0});
-    const double slowest = answers.number({"air.lowest_feed_mm_min", "Slowest feed of the air cuts", "mm/min", 1.0, 1e5, 150.0});
-    const double fastest = answers.number({"air.highest_feed_mm_min", "Fastest feed of the air cuts", "mm/min", 1.0, 1e5, 3000.0});
+    const double slowest =
+        answers.number({"air.lowest_feed_mm_min", "Slowest feed of the air cuts", "mm/min", 1.0, 1e5, 150.0});
+    const double fastest =
+        answers.number({"air.highest_feed_mm_min", "Fastest feed of the air cuts", "mm/min", 1.0, 1e5, 3000.0});
     plan.air_feeds_mm_min =
         geometric(slowest, fastest, answers.integer({"air.feeds", "Number of feeds", "", 4.0, 20.0, 7.0}));
-    plan.air_travel_mm = answers.number({"air.travel_mm", "Travel of each air cut, several turns of the screw", "mm", 1.0, 1e4, 40.0});
+    plan.air_travel_mm =
+        answers.number({"air.travel_mm", "Travel of each air cut, several turns of the screw", "mm", 1.0, 1e4, 40.0});
     plan.air_rpm = answers.number({"air.spindle_rpm", "Speed of the spindle in the air cuts", "1/min", 10.0, 1e5,
                                    std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.5 * fastest_rpm)});
-    plan.database = answers.word({"standard_cut.database", "File with the coefficients of the standard tool and steel", {}, {}});
+    plan.database =
+        answers.word({"standard_cut.database", "File with the coefficients of the standard tool and steel", {}, {}});
     plan.entry = answers.word({"standard_cut.entry", "Its entry", {}, {}});
     plan.tool_diameter_mm = answers.number({"tool.diameter_mm", "Standard tool: cutting diameter", "mm", 0.1, 1000.0});
     plan.flutes = static_cast<int>(answers.integer({"tool.teeth", "Standard tool: number of teeth", "", 1.0, 12.0}));
-    plan.cut_rpm = answers.number({"standard_cut.spindle_rpm", "Standard cut: speed of the spindle", "1/min", 10.0, 1e5});
+    plan.cut_rpm =
+        answers.number({"standard_cut.spindle_rpm", "Standard cut: speed of the spindle", "1/min", 10.0, 1e5});
     const double feed = answers.number({"standard_cut.feed_mm_min", "Standard cut: middle feed", "mm/min", 1.0, 1e5});
-    const double depth = answers.number({"standard_cut.axial_depth_mm", "Standard cut: axial depth", "mm", 0.01, 300.0});
-    const double width = answers.number({"standard_cut.radial_width_mm", "Standard cut: middle radial width", "mm", 0.01, 500.0});
+    const double depth =
+        answers.number({"standard_cut.axial_depth_mm", "Standard cut: axial depth", "mm", 0.01, 300.0});
+    const double width =
+        answers.number({"standard_cut.radial_width_mm", "Standard cut: middle radial width", "mm", 0.01, 500.0});
     for (const std::string& axis : axes) {
         plan.travel_per_motor_turn_mm =
             std::max(plan.travel_per_motor_turn_mm,
@@ -125,9 +133,9 @@ std::string cut_program(const CommissionPlan& plan, const std::string& axis, con
     const double away = along_x ? 1.0 : -1.0;  // from the block: +y, or −x
     const std::string along = along_x ? "X" : "Y";
     const std::string across = along_x ? "Y" : "X";
-    std::string text = fmt::format(
-        "%\n(Down milling along +{}: {} passes on a block {:.1f} mm long)\n{}S{:.0f} M3\nG0 Z{:g}\n", axis,
-        passes.size(), block_length_mm(plan), program_head, plan.cut_rpm, safe_height_mm);
+    std::string text =
+        fmt::format("%\n(Down milling along +{}: {} passes on a block {:.1f} mm long)\n{}S{:.0f} M3\nG0 Z{:g}\n", axis,
+                    passes.size(), block_length_mm(plan), program_head, plan.cut_rpm, safe_height_mm);
     double taken_mm = 0.0;
     for (const CutPass& pass : passes) {
         taken_mm += pass.radial_width_mm;

@@ -34,7 +34,8 @@ RevolutionBlock RevolutionBlocks::block(const TimedSample& timed) const {
     RevolutionBlock block;
     block.start_s = start_s_;
     block.end_s = timed.time_s;
-    block.spindle_rad_s = static_cast<double>(turned_) / counts_per_rev_ * 2.0 * std::numbers::pi / (timed.time_s - start_s_);
+    block.spindle_rad_s =
+        static_cast<double>(turned_) / counts_per_rev_ * 2.0 * std::numbers::pi / (timed.time_s - start_s_);
     block.spindle_current_A = current_ / n;
     block.current_noise_A = std::sqrt(squared_steps_ / n / 2.0);
     for (std::size_t axis = 0; axis < velocity_.size(); ++axis) {

@@ -46,9 +46,9 @@ std::string plot_html(const ScatterPlot& plot) {
         "<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{2}\">\n"
         "<text x=\"{3}\" y=\"18\" fill=\"currentColor\">{2}</text>\n",
         width, height, html_escaped(plot.title), left);
-    text += fmt::format(
-        "<path d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\" stroke=\"currentColor\" fill=\"none\"/>\n", x.at(x.low),
-        y.at(0.0), x.at(x.high), x.at(0.0), y.at(y.low), y.at(y.high));
+    text +=
+        fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\" stroke=\"currentColor\" fill=\"none\"/>\n",
+                    x.at(x.low), y.at(0.0), x.at(x.high), x.at(0.0), y.at(y.low), y.at(y.high));
     const auto label = [&](double px, double py, const char* anchor, const std::string& words) {
         text += fmt::format(
             "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"12\" fill=\"currentColor\">{}</text>\n", px,
