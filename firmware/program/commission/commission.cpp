@@ -134,6 +134,9 @@ class Commissioning {
         if (role == "spindle" && drive.encoder_counts) {
             text += fmt::format("spindle.encoder_counts_per_rev = {}\n", *drive.encoder_counts);
         }
+        if (role == "spindle" && drive.has_index_latch) {
+            text += "bus.spindle.index_latch = true\n";
+        }
         if (role == "spindle" || !drive.velocity_unit) {
             return text;
         }
@@ -403,7 +406,12 @@ class Commissioning {
         machine_.save(session_.file("fitted.toml"));
         fitted_ = read_machine_parameters(session_.file("fitted.toml").string());
         // The slope is a torque: with the measured gain.
-        add_idle_slope(machine_, static_cast<double>(fitted_.spindle.K_t1_Nm_per_A));
+        const auto K_t1 = static_cast<double>(fitted_.spindle.K_t1_Nm_per_A);
+        add_idle_slope(machine_, K_t1);
+        const double moved_Nm = std::abs(static_cast<double>(fitted_.spindle.K_t2_Nm) + K_t1 * idle_.offset_A);
+        machine_.set("spindle", "idle_torque_sd_Nm",
+                     std::max(moved_Nm, static_cast<double>(first_.machine.spindle.idle_torque_sd_Nm)),
+                     "how far it moved from the idling to the cuts, or the usual value");
         judge("fit", true, "the drives' gains follow from the standard cuts", report.str());
         return true;
     }
@@ -460,6 +468,7 @@ class Commissioning {
     }
 
     void write_files() {
+        machine_.set_heading("description", "Measured by 'millforce commission'");
         machine_.save(session_.file("machine.toml"));
         tool_.save(session_.file("tool.toml"));
         const auto parameters =

@@ -35,6 +35,11 @@ void FileDraft::put(const std::string& table, const std::string& key, std::strin
     tables_[table][key] = {std::move(text), source};
 }
 
+void FileDraft::set_heading(const std::string& key, const std::string& value) {
+    std::erase_if(headings_, [&](const auto& heading) { return heading.first == key; });
+    headings_.emplace_back(key, value);
+}
+
 void FileDraft::set(const std::string& table, const std::string& key, double value, const std::string& source) {
     put(table, key, toml_number(value), source);
 }

@@ -20,7 +20,7 @@ class FileDraft {
     explicit FileDraft(firmware::ParameterFile file) : file_(file) {}
 
     /// Free text at the top of the file: `name`, `description`.
-    void set_heading(const std::string& key, const std::string& value) { headings_.emplace_back(key, value); }
+    void set_heading(const std::string& key, const std::string& value);
     /// `table` as it stands in the file ("x", "bus.spindle"). A key that is set again keeps the last value. `source`
     /// goes behind the value as a comment; empty: none.
     void set(const std::string& table, const std::string& key, double value, const std::string& source = {});

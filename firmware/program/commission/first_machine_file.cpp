@@ -106,6 +106,15 @@ void add_drive(FileDraft& draft, Answers& answers, const std::string& drive, boo
     const bool is_spindle = drive == "spindle";
     draft.set_texts(table, "tpdo1", {is_spindle ? "0x6064:32" : "0x606C:32", "0x6078:16", "0x6041:16"});
     draft.set_flag(table, "write_mapping", is_master);
+    if (is_spindle && answers.word({"bus.spindle.index_latch",
+                                    "Spindle drive: latches the index pulse (0x60BA, 0x60D5)",
+                                    {"true", "false"},
+                                    "false"}) == "true") {
+        draft.set_texts(table, "tpdo2", {"0x60BA:32", "0x60D5:16"});
+        draft.set_integer(table, "tpdo2_every", 4);
+        draft.set_text(table, "index_count_object", "0x60BA");
+        draft.set_text(table, "index_number_object", "0x60D5");
+    }
     if (!is_spindle) {
         ask(draft, answers, table, "velocity_mm_s_per_unit",
             {"",
