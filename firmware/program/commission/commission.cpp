@@ -149,14 +149,22 @@ class Commissioning {
         return text;
     }
 
-    /// What the steps run with until they have measured: the override is the operator's.
+    /// What the steps run with: a controller that watches, sends 1 for its override, and faults at nothing that is not
+    /// measured yet. No axis has a force, and no torque is a contact.
     void save_first_files() {
-        machine_.save(session_.file("first_machine.toml"));
-        FileDraft watching = tool_;
-        watching.set_flag("control", "monitor_only", true);
-        watching.save(session_.file("first_tool.toml"));
-        first_ =
-            read_parameters(session_.file("first_machine.toml").string(), session_.file("first_tool.toml").string());
+        FileDraft machine = machine_;
+        machine.set("spindle", "idle_torque_sd_Nm", 1e3);
+        for (const std::string& axis : axes_) {
+            machine.set(axis, "K_x4_N_per_A", 0.0);
+        }
+        machine.save(session_.file("watching_machine.toml"));
+        FileDraft tool = tool_;
+        tool.set_flag("control", "monitor_only", true);
+        tool.set("tool", "tooth_force_limit_N", 1e6);
+        tool.set("control", "contact_force_N", 1e4);
+        tool.save(session_.file("watching_tool.toml"));
+        first_ = read_parameters(session_.file("watching_machine.toml").string(),
+                                 session_.file("watching_tool.toml").string());
     }
 
     void write_programs() {
@@ -187,7 +195,7 @@ class Commissioning {
     bool record_live(const std::string& step, StepWatch& watch, bool in_pieces) {
         StepRecorder recorder(session_, step, counts_per_rev(), watch, in_pieces);
         const bool goes_on =
-            live_->record(session_.file("first_machine.toml"), session_.file("first_tool.toml"), recorder, watch);
+            live_->record(session_.file("watching_machine.toml"), session_.file("watching_tool.toml"), recorder, watch);
         recorder.finish();
         show_news(watch);
         if (!goes_on || !watch.is_enough()) {
@@ -410,7 +418,7 @@ class Commissioning {
         add_idle_slope(machine_, K_t1);
         const double moved_Nm = std::abs(static_cast<double>(fitted_.spindle.K_t2_Nm) + K_t1 * idle_.offset_A);
         machine_.set("spindle", "idle_torque_sd_Nm",
-                     std::max(moved_Nm, static_cast<double>(first_.machine.spindle.idle_torque_sd_Nm)),
+                     std::max(moved_Nm, static_cast<double>(MachineParameters{}.spindle.idle_torque_sd_Nm)),
                      "how far it moved from the idling to the cuts, or the usual value");
         judge("fit", true, "the drives' gains follow from the standard cuts", report.str());
         return true;
