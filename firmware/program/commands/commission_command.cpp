@@ -24,8 +24,16 @@ struct CommissionCommandOptions {
     std::string answers;
     std::vector<std::string> pairs;
     std::vector<std::string> recordings;
+    std::vector<std::string> repeated;
     BusPace pace{};
 };
+
+void require_step(const std::string& option, const std::string& step) {
+    const std::vector<std::string>& steps = commission_steps();
+    if (std::find(steps.begin(), steps.end(), step) == steps.end()) {
+        throw InputError(fmt::format("{} {}: expected one of {}", option, step, fmt::join(steps, ", ")));
+    }
+}
 
 /// STEP=FILE.csv
 void add_recording(CommissionOptions& options, const std::string& pair) {
@@ -34,13 +42,7 @@ void add_recording(CommissionOptions& options, const std::string& pair) {
         throw InputError(fmt::format("--recording {}: expected STEP=FILE.csv, e.g. air=air.csv", pair));
     }
     const std::string step = pair.substr(0, equals);
-    const std::vector<std::string> steps{"idle", "air", "standard_x", "standard_y", "validation_x", "validation_y"};
-    if (std::find(steps.begin(), steps.end(), step) == steps.end()) {
-        throw InputError(
-            fmt::format("--recording {}: no step {}; expected idle, air, standard_x, standard_y, "
-                        "validation_x or validation_y",
-                        pair, step));
-    }
+    require_step("--recording", step);
     options.recordings[step].emplace_back(pair.substr(equals + 1));
 }
 
@@ -50,6 +52,10 @@ int run_commission(const CommissionCommandOptions& options) {
     for (const std::string& pair : options.recordings) {
         add_recording(chosen, pair);
     }
+    for (const std::string& step : options.repeated) {
+        require_step("--repeat", step);
+    }
+    chosen.repeated = options.repeated;
     if (!options.interface.empty() && !chosen.recordings.empty()) {
         throw InputError("--recording: the machine is on a CAN interface; expected one or the other");
     }
@@ -85,6 +91,8 @@ void add_commission(Command& program) {
     command.option("--answers", options->answers, "Answers").value_name("FILE.toml");
     command.option("--set", options->pairs, "An answer").value_name("KEY=VALUE");
     command.option("--recording", options->recordings, "Recording of a step").value_name("STEP=FILE.csv");
+    command.option("--repeat", options->repeated, "Set the recordings of a step aside and do it again")
+        .value_name("STEP");
     add_bus_pace(command, options->pace);
     command.on_run([options] { return run_commission(*options); });
 }

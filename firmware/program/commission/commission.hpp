@@ -35,6 +35,7 @@ struct CommissionOptions {
     std::filesystem::path session;
     /// Recordings of a machine that is not on a bus, by step: "idle", "air", "standard_x", "validation_x" …
     std::map<std::string, std::vector<std::filesystem::path>> recordings;
+    std::vector<std::string> repeated;  ///< steps whose recordings are set aside, to be done again
 };
 
 /// How a step ended.
@@ -44,6 +45,9 @@ struct StepVerdict {
     std::string words;    ///< good enough, or what to repeat and why
     std::string details;  ///< the fit's own report
 };
+
+/// The names of the steps on the machine.
+const std::vector<std::string>& commission_steps();
 
 /// One commissioning from wherever the session is: find the drives, idle, air cuts, standard cuts, fit, validation,
 /// machine.toml, tool.toml and report.html. `live` may be null: then the steps take the recordings. Returns the

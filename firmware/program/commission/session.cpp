@@ -32,6 +32,7 @@ std::filesystem::path Session::next_recording(const std::string& step) const {
 }
 
 void Session::set_aside(const std::string& step) const {
+    std::filesystem::remove(file(step + "_cuts.csv"));  // first: without it the step is not done
     const auto files = recordings(step);
     for (auto file = files.rbegin(); file != files.rend(); ++file) {  // the last first: none is left without its begin
         std::filesystem::rename(*file, file->string() + ".refused");

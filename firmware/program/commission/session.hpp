@@ -21,7 +21,7 @@ class Session {
     /// Recordings of a step in their order: "air.1.csv", "air.2.csv" …
     [[nodiscard]] std::vector<std::filesystem::path> recordings(const std::string& step) const;
     [[nodiscard]] std::filesystem::path next_recording(const std::string& step) const;
-    /// Recordings that a fit refused: renamed, so that the step is done again.
+    /// Recordings that a fit refused, or the operator: renamed, so that the step is done again.
     void set_aside(const std::string& step) const;
 
     void write(const std::string& name, const std::string& text) const;
