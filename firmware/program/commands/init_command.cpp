@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -68,11 +69,12 @@ int init(InitOptions options) {
     if (!options.machine.empty()) {
         machine = first_machine_file(answers);
     }
+    std::ostringstream advice;  // a refusal is one line alone
     if (!options.tool.empty()) {
-        tool = first_tool_file(answers, std::cout);
+        tool = first_tool_file(answers, answers.asks() ? std::cout : advice);
     }
     answers.require_all();
-    std::cout << std::flush;
+    std::cout << advice.str() << std::flush;
     if (machine) {
         machine->save(options.machine);
         fmt::print("{}: written\n", options.machine);

@@ -45,6 +45,8 @@ class Answers {
     /// From now on what has no answer is asked for here. Both outlive this.
     void ask_on(std::istream& in, std::ostream& out);
 
+    [[nodiscard]] bool asks() const { return in_ != nullptr; }
+
     /// NaN where the answer is missing. Throws InputError where it is out of range.
     double number(const NumberQuestion& question);
     std::int64_t integer(const NumberQuestion& question);

@@ -64,7 +64,7 @@ void Commissioning::prepare() {
         entry_ = library_entry(plan_.database, plan_.entry);
     }
     std::ostringstream advice;
-    tool_ = first_tool_file(answers_, advice, KnownLaw{entry_.law, entry_.source});
+    tool_ = first_tool_file(answers_, answers_.asks() ? out_ : advice, KnownLaw{entry_.law, entry_.source});
     answers_.require_all();
     out_ << advice.str();
     refuse_changed_plan();
