@@ -66,8 +66,8 @@ void Commissioning::prepare() {
     std::ostringstream advice;
     tool_ = first_tool_file(answers_, answers_.asks() ? out_ : advice, KnownLaw{entry_.law, entry_.source});
     answers_.require_all();
-    out_ << advice.str();
     refuse_changed_plan();
+    out_ << (session_.has("answers.toml") ? "" : advice.str());
     session_.write("answers.toml", answers_.text());
     save_first_files();
     write_programs();
