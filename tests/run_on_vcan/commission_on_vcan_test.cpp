@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto patience = 60s;
+constexpr auto patience = 20s;
 
 /// A simulated machine on vcan0, and the commissioning that measures it, as two processes in lock-step. They share
 /// frames, and the programs that the commissioning writes for the machine.
@@ -51,7 +51,8 @@ TEST_GROUP(CommissionOnVcan) {
         CHECK_TEXT(commissioning.prints(step + ": run ", patience), (step + ": not asked for").c_str());
         const auto machine = folder.machine_for(step, start_x_mm);
         machine->wait();
-        CHECK_TEXT(commissioning.prints(next, patience), (step + ":\n" + commissioning.out()).c_str());
+        const std::string ended = machine->out() + machine->error();
+        CHECK_TEXT(commissioning.prints(next, patience), (step + ":\n" + commissioning.out() + ended).c_str());
     }
 };
 
