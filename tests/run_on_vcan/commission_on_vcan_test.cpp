@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto patience = 20s;
+constexpr auto patience = 60s;
 
 /// A simulated machine on vcan0, and the commissioning that measures it, as two processes in lock-step. They share
 /// frames, and the programs that the commissioning writes for the machine.
@@ -48,7 +48,11 @@ TEST_GROUP(CommissionOnVcan) {
 
     /// The step of the commissioning, from the request to run its program to its end.
     void run_step(Program & commissioning, const std::string& step, double start_x_mm, const std::string& next) {
-        CHECK_TEXT(commissioning.prints(step + ": run ", patience), (step + ": not asked for").c_str());
+        if (!commissioning.prints(step + ": run ", patience)) {
+            commissioning.interrupt(SIGKILL);
+            commissioning.wait();
+            FAIL((step + ":\n" + commissioning.out() + commissioning.error()).c_str());
+        }
         const auto machine = folder.machine_for(step, start_x_mm);
         machine->wait();
         const std::string ended = machine->out() + machine->error();

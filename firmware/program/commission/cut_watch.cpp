@@ -26,7 +26,7 @@ CutWatch::CutWatch(const CutWatchSettings& settings) : settings_(settings), bloc
 
 void CutWatch::add(const TimedSample& timed) {
     if (const auto block = blocks_.add(timed)) {
-        take(*block);
+        take_block(*block);
     }
 }
 
@@ -37,7 +37,7 @@ bool CutWatch::is_in_run(const RevolutionBlock& block) const {
            std::abs(block.spindle_rad_s - speed_rad_s_) <= 0.02 * speed_rad_s_;
 }
 
-void CutWatch::take(const RevolutionBlock& block) {
+void CutWatch::take_block(const RevolutionBlock& block) {
     constexpr double at_rest_mm_s = 0.2;
     double others_mm_s = 0.0;
     for (std::size_t axis = 0; axis < block.velocity_mm_s.size(); ++axis) {
@@ -45,11 +45,11 @@ void CutWatch::take(const RevolutionBlock& block) {
     }
     const bool feeds = std::abs(block.velocity_mm_s.at(settings_.axis)) > at_rest_mm_s;
     if (!feeds || others_mm_s > at_rest_mm_s) {
-        end_run();
+        end_part();
         return;
     }
     if (!is_in_run(block)) {
-        end_run();
+        end_part();
         speed_rad_s_ = block.spindle_rad_s;
         begin_part(block, knows_air_ && block.spindle_current_A > air_A_ + 0.5 * settings_.smallest_rise_A);
         return;
@@ -82,8 +82,9 @@ void CutWatch::end_part() {
     has_part_ = false;
 }
 
-void CutWatch::end_run() {
+void CutWatch::end() {
     end_part();
+    blocks_.reset();
 }
 
 FoundStretch CutWatch::middle_of(const Part& part, const CutPass& pass) const {

@@ -42,7 +42,7 @@ class CutWatch final : public StepWatch {
     explicit CutWatch(const CutWatchSettings& settings);
 
     void add(const TimedSample& timed) override;
-    void end() override { end_run(); }
+    void end() override;
     [[nodiscard]] bool is_enough() const override { return next_ == settings_.passes.size(); }
     [[nodiscard]] std::string lacks() const override;
 
@@ -61,10 +61,9 @@ class CutWatch final : public StepWatch {
         double feed_mm_s = 0.0;
         long blocks = 0;
     };
-    void take(const RevolutionBlock& block);
+    void take_block(const RevolutionBlock& block);
     void begin_part(const RevolutionBlock& block, bool in_cut);
     void end_part();
-    void end_run();
     void use(const Part& part);
     [[nodiscard]] bool is_in_run(const RevolutionBlock& block) const;
     /// The middle of a part, in whole turns of the screw; empty (start = end) where it is too short.

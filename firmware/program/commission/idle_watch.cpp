@@ -31,16 +31,16 @@ IdleWatch::IdleWatch(std::uint32_t counts_per_rev, std::size_t speeds, double dw
 
 void IdleWatch::add(const TimedSample& timed) {
     if (const auto block = blocks_.add(timed)) {
-        take(*block);
+        take_block(*block);
     }
 }
 
-void IdleWatch::take(const RevolutionBlock& block) {
+void IdleWatch::take_block(const RevolutionBlock& block) {
     constexpr double steady = 0.01;
     const bool goes_on =
         now_.blocks > 0 && std::abs(block.spindle_rad_s - now_.spindle_rad_s) < steady * std::abs(now_.spindle_rad_s);
     if (!goes_on || !do_axes_rest(block)) {
-        end();
+        end_plateau();
         if (do_axes_rest(block) && std::abs(block.spindle_rad_s) > 1.0) {
             now_ = {block.spindle_rad_s, 0.0, 0.0, 0.0, 1};  // its own current may be that of the start
         }
@@ -63,6 +63,11 @@ void IdleWatch::take(const RevolutionBlock& block) {
 }
 
 void IdleWatch::end() {
+    end_plateau();
+    blocks_.reset();
+}
+
+void IdleWatch::end_plateau() {
     if (now_.duration_s >= dwell_s_) {
         found_.push_back(now_);
     }

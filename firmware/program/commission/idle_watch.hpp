@@ -46,7 +46,8 @@ class IdleWatch final : public StepWatch {
     [[nodiscard]] std::optional<IdleFit> fit() const;
 
   private:
-    void take(const RevolutionBlock& block);
+    void take_block(const RevolutionBlock& block);
+    void end_plateau();
 
     RevolutionBlocks blocks_;
     std::size_t speeds_;

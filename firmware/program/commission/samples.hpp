@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,15 @@ class StepWatch {
     StepWatch(const StepWatch&) = delete;
     StepWatch& operator=(const StepWatch&) = delete;
 
+    /// The next sample. A step back in time, or forward by more than half a second, is a gap.
+    void take(const TimedSample& timed) {
+        constexpr double gap_s = 0.5;
+        if (last_s_ && (timed.time_s < *last_s_ || timed.time_s > *last_s_ + gap_s)) {
+            end();
+        }
+        last_s_ = timed.time_s;
+        add(timed);
+    }
     virtual void add(const TimedSample& timed) = 0;
     /// The samples end here, or there is a gap.
     virtual void end() = 0;
@@ -39,6 +49,7 @@ class StepWatch {
 
   private:
     std::vector<std::string> news_;
+    std::optional<double> last_s_{};
 };
 
 }  // namespace millforce::host

@@ -32,7 +32,7 @@ bool StepRecorder::add(const hal::DriveSample& sample) {
     from_zero.spindle_index_count -= first_->spindle_count;
     const double time_s = 1e-6 * static_cast<double>(time_us_);
     steps_.push_back({from_zero, {}, 1.0F});
-    watch_.add({time_s, from_zero});
+    watch_.take({time_s, from_zero});
     note_rest(time_s, sample);
     if (++samples_ % samples_between_looks == 0) {
         is_enough_.store(watch_.is_enough(), std::memory_order_relaxed);
@@ -81,16 +81,10 @@ void StepRecorder::finish() {
 }
 
 void feed_recordings(const std::vector<std::filesystem::path>& files, std::uint32_t counts_per_rev, StepWatch& watch) {
-    double last_s = 0.0;
     for (const auto& file : files) {
         RecordingReader reader(file, counts_per_rev);
         while (reader.next()) {
-            constexpr double gap_s = 0.5;
-            if (reader.time_s() < last_s || reader.time_s() > last_s + gap_s) {
-                watch.end();
-            }
-            last_s = reader.time_s();
-            watch.add({reader.time_s(), reader.sample()});
+            watch.take({reader.time_s(), reader.sample()});
         }
     }
     watch.end();

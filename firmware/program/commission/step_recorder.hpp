@@ -52,7 +52,7 @@ class StepRecorder {
     std::future<void> writing_{};
 };
 
-/// Feeds the recordings of a step to its watch, as if the machine ran. A step back in time is a gap.
+/// Feeds the recordings of a step to its watch, as if the machine ran.
 void feed_recordings(const std::vector<std::filesystem::path>& files, std::uint32_t counts_per_rev, StepWatch& watch);
 
 }  // namespace millforce::host
