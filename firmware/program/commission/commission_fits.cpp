@@ -11,10 +11,27 @@
 #include "check/check_recording.hpp"
 #include "commission/commission_page.hpp"
 #include "commission/commissioning.hpp"
+#include "commission/fitted_values.hpp"
 #include "files/input_error.hpp"
 #include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
+
+namespace {
+
+constexpr double largest_gain_relative_se = 0.05;
+
+/// Relative standard error of the gain that is known least.
+double largest_gain_error(const std::filesystem::path& gains) {
+    double largest = 0.0;
+    for (const FittedKey& key : fitted_keys(gains)) {
+        const bool is_gain = key.key == "K_t1_Nm_per_A" || key.key == "K_x4_N_per_A";
+        largest = is_gain ? std::max(largest, key.standard_error.value_or(0.0) / key.value) : largest;
+    }
+    return largest;
+}
+
+}  // namespace
 
 std::vector<std::filesystem::path> Commissioning::recordings_of(const std::string& kind) const {
     std::vector<std::filesystem::path> files;
@@ -60,7 +77,13 @@ bool Commissioning::fit() {
     machine_.set("spindle", "idle_torque_sd_Nm",
                  std::max(moved_Nm, static_cast<double>(MachineParameters{}.spindle.idle_torque_sd_Nm)),
                  "how far it moved from the idling to the cuts, or the usual value");
-    judge("fit", true, "the drives' gains follow from the standard cuts", report.str());
+    const double largest_error = largest_gain_error(session_.file("gains.toml"));
+    const bool is_known = largest_error <= largest_gain_relative_se;
+    judge("fit", is_known,
+          fmt::format("the gains follow from the standard cuts to {:.1f} % (standard error, bound {:.0f} %){}",
+                      100.0 * largest_error, 100.0 * largest_gain_relative_se,
+                      is_known ? "" : "; wider or longer cuts are needed: another session with other answers"),
+          report.str());
     return true;
 }
 
@@ -145,6 +168,9 @@ void Commissioning::write_page() {
         if (air_watch_) {
             page.air.emplace_back(axis, air_watch_->found(axis_number(axis)));
         }
+    }
+    if (session_.has("before_cuts.toml")) {
+        page.machine = read_machine_parameters(session_.file("before_cuts.toml").string());
     }
     page.validated = validated_;
     page.files = {"friction.toml", "gains.toml"};

@@ -63,20 +63,32 @@ std::string steps_html(const std::vector<StepVerdict>& verdicts) {
     return text;
 }
 
+std::string value_row(const FittedKey& key) {
+    return fmt::format(
+        "<tr><td>{}.{}</td><td class=\"number\">{:.4g}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
+        html_escaped(key.table), html_escaped(key.key), key.value,
+        key.standard_error ? fmt::format("{:.2g}", *key.standard_error) : "", html_escaped(key.unit),
+        html_escaped(key.sentence));
+}
+
+std::string idle_rows(const IdleFit& fit) {
+    return value_row({"idle", "current at rest", fit.offset_A, fit.offset_se, "A", "Of the line over the speed."}) +
+           value_row(
+               {"idle", "slope", fit.slope_A_s, fit.slope_se, "A·s/rad", "Growth of the idle current with speed."}) +
+           value_row({"idle", "residual", fit.residual_A, {}, "A", "Of the line, rms."}) +
+           value_row({"idle", "noise", fit.noise_A, {}, "A", "Of one sample of the spindle current."});
+}
+
 std::string values_html(const CommissionPage& page, const Session& session) {
     std::string text =
         "<table><tr><th>key</th><th>value</th><th>standard error</th><th>unit</th><th>meaning</th></tr>\n";
+    text += page.idle_fit ? idle_rows(*page.idle_fit) : "";
     for (const std::string& name : page.files) {
         if (!session.has(name)) {
             continue;
         }
         for (const FittedKey& key : fitted_keys(session.file(name))) {
-            text += fmt::format(
-                "<tr><td>{}.{}</td><td class=\"number\">{:.4g}</td><td "
-                "class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
-                html_escaped(key.table), html_escaped(key.key), key.value,
-                key.standard_error ? fmt::format("{:.2g}", *key.standard_error) : "", html_escaped(key.unit),
-                html_escaped(key.sentence));
+            text += value_row(key);
         }
     }
     return text + "</table>\n";
@@ -98,12 +110,32 @@ std::string idle_plot(const CommissionPage& page) {
     return plot_html(plot);
 }
 
+/// By the fit, from the fastest feed in − to the fastest in +, with the jump at rest.
+std::vector<std::pair<double, double>> friction_line(const MachineParameters& machine, std::size_t axis,
+                                                     const std::vector<SteadyFeed>& feeds) {
+    const auto [slowest, fastest] = std::minmax_element(
+        feeds.begin(), feeds.end(),
+        [](const SteadyFeed& a, const SteadyFeed& b) { return a.feed_m_per_min < b.feed_m_per_min; });
+    std::vector<std::pair<double, double>> line;
+    constexpr int steps = 40;
+    for (int k = 0; k <= steps; ++k) {
+        const double share = static_cast<double>(k) / steps;
+        const double feed = slowest->feed_m_per_min + share * (fastest->feed_m_per_min - slowest->feed_m_per_min);
+        line.emplace_back(feed, signed_friction_current_A(machine, axis, feed) +
+                                    static_cast<double>(machine.axes.at(axis).gravity_A));
+    }
+    return line;
+}
+
 std::string plots_html(const CommissionPage& page) {
     std::string text = page.idle.empty() ? "" : idle_plot(page);
     for (const auto& [axis, feeds] : page.air) {
         ScatterPlot plot{"Friction of " + axis, "feed, m/min", "current, A", {}, {}};
         for (const SteadyFeed& feed : feeds) {
             plot.points.emplace_back(feed.feed_m_per_min, feed.current_A);
+        }
+        if (page.machine && !feeds.empty()) {
+            plot.line = friction_line(*page.machine, axis == "x" ? 0 : axis == "y" ? 1 : 2, feeds);
         }
         text += feeds.empty() ? "" : plot_html(plot);
     }

@@ -20,6 +20,7 @@ struct CommissionPage {
     std::vector<IdlePlateau> idle;
     std::optional<IdleFit> idle_fit;
     std::vector<std::pair<std::string, std::vector<SteadyFeed>>> air;  ///< by axis
+    std::optional<MachineParameters> machine;                          ///< with the fitted friction
     std::vector<ValidatedCut> validated;
     std::vector<std::string> files;  ///< of the session: fits with their standard errors
 };

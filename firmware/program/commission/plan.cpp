@@ -33,6 +33,7 @@ constexpr double clear_mm = 2.0;
 constexpr double safe_height_mm = 5.0;
 constexpr double entry_margin_mm = 6.0;  // two changes of the cut, each with 2 mm, and one more
 
+// Each program waits two seconds after M3, for the spindle to reach its speed.
 constexpr const char* program_head = "G21 G90 G17 G40 G49 G80 G94\n";
 
 std::string upper(const std::string& axis) {
@@ -110,7 +111,7 @@ std::string idle_program(const CommissionPlan& plan) {
 }
 
 std::string air_program(const CommissionPlan& plan) {
-    std::string text = fmt::format("%\n(Air cuts: {:g} mm to and fro from here, at {} feeds)\n{}S{:.0f} M3\n",
+    std::string text = fmt::format("%\n(Air cuts: {:g} mm to and fro from here, at {} feeds)\n{}S{:.0f} M3\nG4 P2\n",
                                    plan.air_travel_mm, plan.air_feeds_mm_min.size(), program_head, plan.air_rpm);
     for (const std::string& axis : plan.axes) {
         for (const double feed : plan.air_feeds_mm_min) {
@@ -134,8 +135,8 @@ std::string cut_program(const CommissionPlan& plan, const std::string& axis, con
     const std::string along = along_x ? "X" : "Y";
     const std::string across = along_x ? "Y" : "X";
     std::string text =
-        fmt::format("%\n(Down milling along +{}: {} passes on a block {:.1f} mm long)\n{}S{:.0f} M3\nG0 Z{:g}\n", axis,
-                    passes.size(), block_length_mm(plan), program_head, plan.cut_rpm, safe_height_mm);
+        fmt::format("%\n(Down milling along +{}: {} passes on a block {:.1f} mm long)\n{}S{:.0f} M3\nG4 P2\nG0 Z{:g}\n",
+                    axis, passes.size(), block_length_mm(plan), program_head, plan.cut_rpm, safe_height_mm);
     double taken_mm = 0.0;
     for (const CutPass& pass : passes) {
         taken_mm += pass.radial_width_mm;

@@ -41,6 +41,8 @@ class StepWatch {
     [[nodiscard]] virtual bool is_enough() const = 0;
     /// What is still missing, in words for the operator; empty where nothing is.
     [[nodiscard]] virtual std::string lacks() const = 0;
+    /// Says in the news what is still missing.
+    void remind() { tell("  still missing: " + lacks() + "; run the program again"); }
     /// Lines since the last call: what was found, and the fit as it forms.
     std::vector<std::string> take_news() { return std::exchange(news_, {}); }
 

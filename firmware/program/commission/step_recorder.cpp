@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commission/step_recorder.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace millforce::host {
@@ -8,6 +9,7 @@ namespace millforce::host {
 namespace {
 constexpr double piece_s = 10.0;
 constexpr double rest_at_end_s = 1.0;
+constexpr double rest_after_program_s = 5.0;
 constexpr std::uint32_t samples_between_looks = 64;
 }  // namespace
 
@@ -30,25 +32,40 @@ bool StepRecorder::add(const hal::DriveSample& sample) {
     from_zero.time_us = static_cast<std::uint32_t>(time_us_);
     from_zero.spindle_count -= first_->spindle_count;
     from_zero.spindle_index_count -= first_->spindle_count;
-    const double time_s = 1e-6 * static_cast<double>(time_us_);
+    const double time_s = static_cast<double>(time_us_) / 1e6;  // as in the file: the watch finds the same in it
     steps_.push_back({from_zero, {}, 1.0F});
     watch_.take({time_s, from_zero});
     note_rest(time_s, sample);
     if (++samples_ % samples_between_looks == 0) {
-        is_enough_.store(watch_.is_enough(), std::memory_order_relaxed);
+        look(time_s);
     }
     if (in_pieces_ && rests_since_s_ && time_s - piece_start_s_ >= piece_s) {
         write_piece();
         piece_start_s_ = time_s;
     }
-    return is_enough() && rests_since_s_ && time_s - *rests_since_s_ >= rest_at_end_s;
+    return rests_since_s_ && enough_since_s_ && time_s - std::max(*rests_since_s_, *enough_since_s_) >= rest_at_end_s;
+}
+
+void StepRecorder::look(double time_s) {
+    const bool is_enough = watch_.is_enough();
+    is_enough_.store(is_enough, std::memory_order_relaxed);
+    if (is_enough && !enough_since_s_) {
+        enough_since_s_ = time_s;
+    }
 }
 
 void StepRecorder::note_rest(double time_s, const hal::DriveSample& sample) {
     if (!hal::axes_rest(sample.axis_velocity_mm_s)) {
         rests_since_s_.reset();
+        has_moved_ = true;
     } else if (!rests_since_s_) {
         rests_since_s_ = time_s;
+    }
+    if (has_moved_ && rests_since_s_ && time_s - *rests_since_s_ >= rest_after_program_s) {
+        has_moved_ = false;
+        if (!watch_.is_enough()) {
+            watch_.remind();
+        }
     }
 }
 

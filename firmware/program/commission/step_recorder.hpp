@@ -23,7 +23,7 @@ class StepRecorder {
     StepRecorder(const Session& session, std::string step, std::uint32_t counts_per_rev, StepWatch& watch,
                  bool in_pieces);
 
-    /// Returns whether the step is over: there is enough, and the axes have rested for a second.
+    /// Returns whether the step is over: there has been enough, and the axes have rested, for a second.
     bool add(const hal::DriveSample& sample);
     /// There is enough. May be called by another thread.
     [[nodiscard]] bool is_enough() const { return is_enough_.load(std::memory_order_relaxed); }
@@ -31,6 +31,7 @@ class StepRecorder {
     void finish();
 
   private:
+    void look(double time_s);
     void note_rest(double time_s, const hal::DriveSample& sample);
     void write_piece();
     static void write_file(const std::filesystem::path& file, std::uint32_t counts_per_rev,
@@ -47,6 +48,8 @@ class StepRecorder {
     std::uint32_t last_time_us_ = 0;
     double piece_start_s_ = 0.0;
     std::optional<double> rests_since_s_{};
+    std::optional<double> enough_since_s_{};
+    bool has_moved_ = false;
     std::uint32_t samples_ = 0;
     std::atomic<bool> is_enough_{false};
     std::future<void> writing_{};
