@@ -110,3 +110,36 @@ TEST(Commission, without_answers_names_all_that_are_missing) {
                                  {"missing answers: ", "standard_cut.feed_mm_min in mm/min", "tool.overhang_mm in mm"})
                          .c_str());
 }
+
+TEST_GROUP(Init) {
+    TemporaryFolder folder;
+    const std::vector<std::string> tool{
+        "tool.teeth=4",        "tool.diameter_mm=10",      "tool.flute_length_mm=22",
+        "tool.overhang_mm=35", "tool.workpiece=aluminium", "control.max_feed_per_tooth_mm=0.1"};
+
+    Ended init(const std::vector<std::string>& more) {
+        std::vector<std::string> words{"init", "--tool", folder.path("tool.toml")};
+        words.insert(words.end(), tool.begin(), tool.end());
+        words.insert(words.end(), more.begin(), more.end());
+        return run_millforce(words);
+    }
+};
+
+TEST(Init, writes_a_tool_with_the_reasons_for_its_limit_and_never_over_a_file) {
+    const Ended first = init({});
+    CHECK_EQUAL_TEXT(0, first.exit_code, first.error.c_str());
+    CHECK_TEXT(contains(first.out, "bending: "), first.out.c_str());
+    CHECK_TEXT(contains(first.out, "advised: "), first.out.c_str());
+    STRCMP_EQUAL("", not_refused(init({}), {"tool.toml: exists already", "--force"}).c_str());
+    const Ended other = init({"--force", "tool.tooth_force_limit_N=123"});
+    CHECK_EQUAL_TEXT(0, other.exit_code, other.error.c_str());
+    DOUBLES_EQUAL(123.0, toml_value(text_of(folder.path("tool.toml")), "tool", "tooth_force_limit_N"), 0.0);
+}
+
+TEST(Init, leaves_no_file_where_an_answer_is_missing_or_wrong) {
+    STRCMP_EQUAL("", not_refused(run_millforce({"init", "--tool", folder.path("tool.toml"), "tool.teeth=4"}),
+                                 {"missing answers: ", "tool.diameter_mm in mm", "control.max_feed_per_tooth_mm"})
+                         .c_str());
+    STRCMP_EQUAL("", not_refused(init({"tool.helix_deg=90"}), {"tool.helix_deg", "60"}).c_str());
+    UNSIGNED_LONGS_EQUAL(0, folder.file_count());
+}

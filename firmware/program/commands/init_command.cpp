@@ -73,7 +73,8 @@ int init(InitOptions options) {
     if (!options.tool.empty()) {
         tool = first_tool_file(answers, answers.asks() ? std::cout : advice);
     }
-    answers.require_all();
+    // A file of answers may be for both files, of which one is written.
+    answers.require_all(!options.machine.empty() && !options.tool.empty());
     std::cout << advice.str() << std::flush;
     if (machine) {
         machine->save(options.machine);
