@@ -26,8 +26,8 @@ struct ToothForceAdvice {
     std::vector<std::string> reasons;  ///< lines for the user, each with its source
 };
 
-/// Strengths to begin with, N/mm². Carbide: transverse rupture strength of a fine-grained grade by ISO 3327. HSS: yield
-/// strength of M2 at 64 HRC.
+/// Strengths to begin with, N/mm². Carbide: transverse rupture strength of a fine-grained grade, as ISO 3327 measures
+/// it. HSS: compressive yield strength of M2 by AZoM's data sheet. The maker's own is better.
 inline constexpr double carbide_strength_N_per_mm2 = 3500.0;
 inline constexpr double hss_strength_N_per_mm2 = 3250.0;
 
