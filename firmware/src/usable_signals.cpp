@@ -8,6 +8,15 @@ namespace millforce::firmware {
 /// No axis of a machine tool is faster.
 static constexpr float fastest_mm_s = 10'000.0F;
 
+bool has_impossible_velocity(const hal::DriveSample& sample) {
+    for (std::size_t k = 0; k < hal::axis_count; ++k) {
+        if ((sample.present & hal::axis_mask(k)) != 0 && !hal::is_smaller(sample.axis_velocity_mm_s[k], fastest_mm_s)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 hal::DriveSample usable_drives_of(const hal::DriveSample& sample) {
     const auto is_present = [&](std::uint8_t mask) { return (sample.present & mask) != 0; };
     hal::DriveSample usable;

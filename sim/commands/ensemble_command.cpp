@@ -44,7 +44,7 @@ int ensemble(const EnsembleOptions& options) {
     const Scenario scenario = read_scenario(options.scenario);
     std::vector<RunFigures> runs;
     {
-        host::Progress progress(fmt::format("milling {} plants", options.runs));
+        host::Progress progress(fmt::format("milling {} plants", options.runs), 1);
         runs = run_ensemble(scenario, options.runs, [&](double share) {
             progress.update(share);
             return true;

@@ -60,7 +60,7 @@ bool exchange(host::UnixServer& server, LinuxCncPlant& plant) {
 
 /// Returns whether the run keeps the bounds.
 bool report(const Scenario& scenario, const std::filesystem::path& out, const RunResult& result) {
-    const ScenarioInfo info = info_of(scenario, 1.0);
+    const ScenarioInfo info = info_of(scenario, {});
     const std::vector<RunResult> results{result};
     fmt::print("{}", summary_table(info, results));
     write_report(out, info, results);

@@ -10,7 +10,7 @@
 
 namespace millforce::sim {
 
-ScenarioInfo info_of(const Scenario& scenario, double constant_ratio) {
+ScenarioInfo info_of(const Scenario& scenario, const ConstantFeeds& feeds) {
     ScenarioInfo info;
     info.name = scenario.name;
     info.title = scenario.title;
@@ -24,8 +24,14 @@ ScenarioInfo info_of(const Scenario& scenario, double constant_ratio) {
     for (const Move& move : moves_of(scenario)) {
         const double feed_mm_s = move.kind == MoveKind::rapid ? 0.0 : move.feed_mm_s;
         info.spindle_speed_rad_s = std::max(info.spindle_speed_rad_s, move.spindle_speed_rad_s);
-        info.constant_feed_mm_s = std::max(info.constant_feed_mm_s, feed_mm_s * constant_ratio);
+        info.constant_feed_mm_s = std::max(info.constant_feed_mm_s, feed_mm_s * feeds.safe_ratio);
+        info.hindsight_feed_mm_s = std::max(info.hindsight_feed_mm_s, feed_mm_s * feeds.hindsight_ratio);
     }
+    info.origin = {{"Machine", scenario.machine_file}, {"Tool", scenario.tool_file}};
+    const host::Facts process = host::facts_of_this_process();
+    info.origin.insert(info.origin.end(), process.begin(), process.end());
+    info.origin.emplace_back("Date", host::date_and_time());
+    info.hardest_material = feeds.hardest;
     info.has_top_view = scenario.has_program();
     info.stock_min_x_mm = scenario.stock.block.min_x_mm;
     info.stock_min_y_mm = scenario.stock.block.min_y_mm;

@@ -6,7 +6,14 @@
 
 namespace millforce::sim {
 
-/// What a report says about the scenario. `constant_ratio`: override of the constant feed that is safe everywhere.
-ScenarioInfo info_of(const Scenario& scenario, double constant_ratio);
+/// Overrides of the constant feeds that a run is compared with; 0: none.
+struct ConstantFeeds {
+    double safe_ratio = 0.0;       ///< safe everywhere, even where K_s is `hardest` times as high
+    double hindsight_ratio = 0.0;  ///< safe for exactly this material
+    double hardest = 1.0;
+};
+
+/// What a report says about the scenario.
+ScenarioInfo info_of(const Scenario& scenario, const ConstantFeeds& feeds);
 
 }  // namespace millforce::sim

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "bus/plant_on_can.hpp"
 #include "bus/plant_wiring.hpp"
@@ -24,6 +25,7 @@
 #include "preview/clairvoyant.hpp"
 #include "preview/preview.hpp"
 #include "recording/recording.hpp"
+#include "remote/socket_controller.hpp"
 #include "report/report.hpp"
 #include "report/summary.hpp"
 
@@ -34,6 +36,7 @@ namespace {
 struct SimulateOptions {
     std::string scenario;
     std::string controller = "millforce";
+    double controller_timeout_s = 10.0;
     std::optional<std::uint64_t> seed;
     std::string out = "out";
     bool record = false;
@@ -48,7 +51,8 @@ struct SimulateOptions {
     host::BusPace pace{};
 };
 
-constexpr const char* baseline = "constant";
+constexpr const char* baseline = constant_feed;
+constexpr std::string_view at_socket = "socket:";
 
 Scenario scenario_of(const SimulateOptions& options) {
     Scenario scenario = read_scenario(options.scenario);
@@ -63,20 +67,6 @@ Scenario scenario_of(const SimulateOptions& options) {
     deviation.friction_scale = options.friction_scale.value_or(deviation.friction_scale);
     deviation.current_noise_share = options.current_noise_share.value_or(deviation.current_noise_share);
     return scenario;
-}
-
-std::unique_ptr<OverrideSource> controller_named(const std::string& name, const Scenario& scenario,
-                                                 double constant_ratio) {
-    if (name == baseline) {
-        return std::make_unique<ConstantFeed>(scenario.parameters, constant_ratio);
-    }
-    if (name == "constant_load") {
-        return std::make_unique<ConstantLoad>(scenario.parameters, constant_load_reference_N(scenario.parameters));
-    }
-    if (name == "millforce_fixed") {
-        return std::make_unique<FixedPointController>(scenario.parameters);
-    }
-    return std::make_unique<MillforceController>(scenario.parameters);
 }
 
 SimulationSettings settings_with(host::Progress& progress) {
@@ -113,8 +103,10 @@ host::PartMap map_of(const SimulateOptions& options, const Scenario& scenario) {
     return std::move(file.map);
 }
 
-double safe_override_of(const Scenario& scenario, double hardest) {
-    host::Progress progress("finding the constant feed that is safe everywhere", 1);
+double constant_override_of(const Scenario& scenario, double hardest) {
+    host::Progress progress(hardest > 1.0 ? "finding the constant feed that is safe everywhere"
+                                          : "finding the best constant feed in hindsight",
+                            1);
     return safe_constant_override(scenario, hardest, settings_with(progress));
 }
 
@@ -150,6 +142,16 @@ void print_plan(const Scenario& scenario, const RunFigures& figures) {
         plan.time_s, 100.0 * plan.peak_over_limit, figures.time_s / plan.time_s);
 }
 
+/// The controller is another process, behind a Unix socket.
+RunResult run_with_socket(const SimulateOptions& options, const Scenario& scenario,
+                          const std::optional<std::filesystem::path>& recording) {
+    SocketController controller(scenario, options.controller.substr(at_socket.size()),
+                                LineSocket::Patience(options.controller_timeout_s));
+    RunResult result = run(scenario, controller.name(), controller, recording);
+    controller.end(result.figures);
+    return result;
+}
+
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
     const std::filesystem::path out = host::results_folder(options.out, "summary.json");
@@ -166,17 +168,25 @@ int simulate_scenario(const SimulateOptions& options) {
     } else if (options.preview || !options.map.empty()) {
         MappedController controller(scenario.parameters, map_of(options, scenario));
         results.push_back(run(scenario, "millforce", controller, recording));
+    } else if (options.controller.starts_with(at_socket)) {
+        results.push_back(run_with_socket(options, scenario, recording));
     } else if (!is_baseline) {
-        results.push_back(
-            run(scenario, options.controller, *controller_named(options.controller, scenario, 0.0), recording));
+        results.push_back(run(scenario, options.controller,
+                              *controller_named(options.controller, scenario.parameters, 0.0), recording));
     }
-    double ratio = 0.0;
+    ConstantFeeds feeds;
     if (options.interface.empty()) {
-        ratio = safe_override_of(scenario, options.hardest);
-        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario, ratio),
+        feeds.hardest = options.hardest;
+        feeds.safe_ratio = constant_override_of(scenario, options.hardest);
+        results.push_back(run(scenario, baseline, *controller_named(baseline, scenario.parameters, feeds.safe_ratio),
                               is_baseline ? recording : std::nullopt));
     }
-    const ScenarioInfo info = info_of(scenario, ratio);
+    if (options.interface.empty() && !is_baseline && options.hardest > 1.0) {
+        feeds.hindsight_ratio = constant_override_of(scenario, 1.0);
+        results.push_back(run(scenario, constant_feed_in_hindsight,
+                              *controller_named(baseline, scenario.parameters, feeds.hindsight_ratio), std::nullopt));
+    }
+    const ScenarioInfo info = info_of(scenario, feeds);
     fmt::print("{}", summary_table(info, results));
     if (options.preview || !options.map.empty()) {
         print_plan(scenario, results.front().figures);
@@ -198,16 +208,22 @@ void add_simulate(host::Command& program) {
     host::Command command = program.subcommand(
         "simulate", "Mill a scenario in closed loop on the simulated machine: summary table, traces, report");
     command.footer(
-        "The baseline for comparison is the largest constant feed with which no tooth exceeds its limit even if the "
-        "material\n"
-        "is harder (--hardest).\n"
+        "Compared with two constant feeds: the largest with which no tooth exceeds its limit even if the material is\n"
+        "harder (--hardest), and in hindsight the largest for exactly this material.\n"
+        "socket:PATH is a controller in another process, in any language, that listens at a Unix socket: a line of JSON\n"
+        "for each sample, a line back (sim/python/README.md).\n"
         "Exit code 1: a tooth broke, the peak went beyond 110 % of the tooth's limit or above the limit later than "
         "the\n"
         "reaction time after the engagement grew, or the program did not finish.");
     command.option("scenario", options->scenario, "Scenario to mill").required().value_name("SCENARIO.toml");
     host::Option controller = command.option("--controller", options->controller, "Controller that sets the override")
-                                  .one_of(controller_names())
+                                  .one_of_or(controller_names(), std::string(at_socket), "socket:PATH")
                                   .shows_default();
+    command
+        .option("--controller-timeout", options->controller_timeout_s,
+                "With socket:PATH: longest wait in s for the controller to listen, and for each of its answers")
+        .within(0.01, 3600.0)
+        .shows_default();
     command.option("--seed", options->seed, "Seed of all noise; default: the scenario's").within(0.0, 4294967295.0);
     command.option("--out", options->out, "Folder for summary.json, trace.csv and report.html")
         .value_name("DIR")

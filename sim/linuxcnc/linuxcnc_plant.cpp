@@ -15,10 +15,9 @@ constexpr double trace_interval_s = 0.02;
 constexpr std::int32_t rapid_motion = 1;
 
 /// LinuxCNC's controller is connected by HAL pins: its estimates as the pins show them.
-class EstimatesOnPins : public OverrideSource {
+class EstimatesOnPins : public TraceSource {
   public:
     explicit EstimatesOnPins(const millforce_plant_command& pins) : pins_(pins) {}
-    hal::FeedOverride step(const hal::DriveSample&, const hal::ProgramStatus&) override { return {}; }
     void describe(TracePoint& point) const override {
         point.state = static_cast<std::uint8_t>(pins_.state_code);
         point.limit = static_cast<std::uint8_t>(pins_.limit_code);

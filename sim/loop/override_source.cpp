@@ -6,14 +6,10 @@
 
 namespace millforce::sim {
 
-namespace {
-
 firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters) {
     parameters.tool.monitor_only = true;
     return parameters;
 }
-
-}  // namespace
 
 template <typename Scalar>
 hal::FeedOverride TickController<Scalar>::step(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
@@ -98,6 +94,20 @@ double constant_load_reference_N(const firmware::Parameters<float>& parameters) 
 
 std::vector<std::string> controller_names() {
     return {"millforce", "millforce_fixed", "constant", "constant_load"};
+}
+
+std::unique_ptr<OverrideSource> controller_named(const std::string& name, const firmware::Parameters<float>& parameters,
+                                                 double constant_ratio) {
+    if (name == "constant") {
+        return std::make_unique<ConstantFeed>(parameters, constant_ratio);
+    }
+    if (name == "constant_load") {
+        return std::make_unique<ConstantLoad>(parameters, constant_load_reference_N(parameters));
+    }
+    if (name == "millforce_fixed") {
+        return std::make_unique<FixedPointController>(parameters);
+    }
+    return std::make_unique<MillforceController>(parameters);
 }
 
 }  // namespace millforce::sim

@@ -16,14 +16,19 @@
 
 namespace millforce::sim {
 
-/// Who sets the feed override: the project's own tick, or a baseline to compare it with. It sees what a controller on
-/// the machine sees, drive samples and the program's status, and nothing of the plant.
-class OverrideSource {
+/// Who can say what a controller knew.
+class TraceSource {
   public:
-    virtual ~OverrideSource() = default;
-    virtual hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) = 0;
+    virtual ~TraceSource() = default;
     /// Writes the estimates of this moment into a trace point.
     virtual void describe(TracePoint& point) const = 0;
+};
+
+/// Who sets the feed override: the project's own tick, or a baseline to compare it with. It sees what a controller on
+/// the machine sees, drive samples and the program's status, and nothing of the plant.
+class OverrideSource : public TraceSource {
+  public:
+    virtual hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) = 0;
 
     /// Before it is, the spindle turns and the program waits.
     [[nodiscard]] virtual bool is_ready() const { return true; }
@@ -34,6 +39,9 @@ class OverrideSource {
     };
     [[nodiscard]] virtual PlantSteps plant_steps(const PlantSteps& usual) { return usual; }
 };
+
+/// The parameters with which a tick only watches.
+[[nodiscard]] firmware::Parameters<float> monitoring(firmware::Parameters<float> parameters);
 
 /// What a tick knew. Its total force, that a trace shows as well, is left to the caller.
 void describe(const firmware::TickRecord& tick, TracePoint& point);
@@ -117,5 +125,8 @@ double constant_load_reference_N(const firmware::Parameters<float>& parameters);
 
 /// The controllers by name: "millforce", "millforce_fixed", "constant", "constant_load".
 std::vector<std::string> controller_names();
+/// One of them. `constant_ratio`: the override of "constant".
+std::unique_ptr<OverrideSource> controller_named(const std::string& name, const firmware::Parameters<float>& parameters,
+                                                 double constant_ratio);
 
 }  // namespace millforce::sim

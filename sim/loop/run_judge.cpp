@@ -95,7 +95,7 @@ bool RunJudge::engagement_has_grown(double within_s) const {
     return true;  // the run has only begun
 }
 
-void RunJudge::follow(double time_s, const hal::FeedOverride& output, const OverrideSource& controller,
+void RunJudge::follow(double time_s, const hal::FeedOverride& output, const TraceSource& controller,
                       double trace_interval_s) {
     constexpr double stands_mm = 0.05;  // cutting forces shake a machine that stands
     const bool stands = output.fault != 0 && motion_.path_mm - stopped_at_mm_ < stands_mm;
@@ -109,7 +109,7 @@ void RunJudge::follow(double time_s, const hal::FeedOverride& output, const Over
     }
 }
 
-void RunJudge::close_interval(double time_s, const hal::FeedOverride& output, const OverrideSource& controller) {
+void RunJudge::close_interval(double time_s, const hal::FeedOverride& output, const TraceSource& controller) {
     TracePoint point;
     point.time_s = time_s;
     point.path_mm = motion_.path_mm;

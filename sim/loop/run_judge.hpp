@@ -30,15 +30,14 @@ class RunJudge {
 
     void observe(double dt_s, const Motion& motion, const CuttingLoad& load, const TrueEngagement& truth);
     void observe_peak(double total_in_plane_N) { peak_total_N_ = std::max(peak_total_N_, total_in_plane_N); }
-    void follow(double time_s, const hal::FeedOverride& output, const OverrideSource& controller,
-                double trace_interval_s);
+    void follow(double time_s, const hal::FeedOverride& output, const TraceSource& controller, double trace_interval_s);
 
     /// A latched fault has stopped the feed: the run is over.
     [[nodiscard]] bool fault_stopped() const { return stopped_s_ > 2.0; }
     [[nodiscard]] RunResult result(const std::string& controller, bool finished) const;
 
   private:
-    void close_interval(double time_s, const hal::FeedOverride& output, const OverrideSource& controller);
+    void close_interval(double time_s, const hal::FeedOverride& output, const TraceSource& controller);
     void judge_estimate(const TracePoint& point);
     void close_revolution(bool cutting);
     [[nodiscard]] bool engagement_has_grown(double within_s) const;

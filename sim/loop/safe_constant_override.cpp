@@ -44,6 +44,18 @@ double feed_factor(const CuttingForce& force, const HardestCut& cut, double toot
     return low;
 }
 
+/// Each round makes half of the progress that was left: how many there will be is not known.
+SimulationSettings settings_of_round(const SimulationSettings& settings, int round) {
+    SimulationSettings of_round = settings;
+    if (settings.progress) {
+        const double left = std::ldexp(1.0, -round);
+        of_round.progress = [&settings, left](double share) {
+            return settings.progress(1.0 - left + 0.5 * left * share);
+        };
+    }
+    return of_round;
+}
+
 }  // namespace
 
 double safe_constant_override(const Scenario& scenario, double hardest, const SimulationSettings& settings) {
@@ -58,7 +70,7 @@ double safe_constant_override(const Scenario& scenario, double hardest, const Si
     // hardest cut.
     for (int round = 0; round < 4; ++round) {
         SteadyOverride steady(ratio);
-        const Simulated run = simulate(hard, steady, "constant", settings);
+        const Simulated run = simulate(hard, steady, "constant", settings_of_round(settings, round));
         const double share = run.hardest_cut.tooth_force_N / limit_N;
         if (run.interrupted || !(share > 0.0)) {
             return ratio;

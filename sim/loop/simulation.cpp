@@ -60,92 +60,92 @@ CncSettings cnc_settings(const Scenario& scenario, const SimulationSettings& set
 /// Long enough for the override to rise from its minimum in the first rapid, even over a bus that is still starting.
 constexpr double spindle_start_s = 2.0;
 
-class Loop {
-  public:
-    Loop(const Scenario& scenario, OverrideSource& controller, const SimulationSettings& settings)
-        : settings_(settings),
-          controller_(controller),
-          cnc_(cnc_settings(scenario, settings), moves_of(scenario)),
-          plant_(scenario) {
-        plant_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
-        plant_.set_clock(-spindle_start_s);
-        const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
-        usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
-        usual_.step_s = settings.plant_step_s;
-        steps_ = usual_;
-    }
-
-    Simulated run(const std::string& name) {
-        const auto started = std::chrono::steady_clock::now();
-        Simulated simulated;
-        double next_report_s = 1.0;
-        start_spindle();
-        while (!cnc_.finished() && plant_.time_s() < settings_.longest_run_s && !plant_.judge().fault_stopped()) {
-            step_plant();
-            if (--steps_.count <= 0) {
-                sample();
-            }
-            if (settings_.progress && plant_.time_s() > next_report_s) {
-                next_report_s += 1.0;
-                if (!settings_.progress(cnc_.path_mm() / std::max(cnc_.total_path_mm(), 1e-9))) {
-                    simulated.interrupted = true;
-                    break;
-                }
-            }
-        }
-        simulated.result = plant_.judge().result(name, cnc_.finished());
-        simulated.hardest_cut = plant_.hardest_cut();
-        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-        simulated.result.figures.real_time_factor = plant_.time_s() / std::max(wall.count(), 1e-9);
-        return simulated;
-    }
-
-  private:
-    /// Spindle on, axes at rest: for the time that a CNC waits for its spindle, and until the controller has answered.
-    void start_spindle() {
-        const MachinePlant::Command standing{cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()};
-        while (!controller_.is_ready() || plant_.time_s() < -0.5 * steps_.step_s) {
-            plant_.idle(steps_.step_s, standing);
-            if (--steps_.count <= 0) {
-                override_ = controller_.step(plant_.sample(), program_status());
-                steps_ = controller_.plant_steps(usual_);
-            }
-        }
-    }
-
-    void step_plant() {
-        const double dt_s = steps_.step_s;
-        cnc_.step(static_cast<double>(override_.ratio), override_.hold);
-        plant_.advance(
-            dt_s, {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(), cnc_.path_mm(),
-                   cnc_.is_rapid(), cnc_.spindle_speed_rad_s(), static_cast<double>(override_.ratio)});
-    }
-
-    [[nodiscard]] hal::ProgramStatus program_status() const {
-        hal::ProgramStatus program;
-        program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
-        program.rapid = cnc_.is_rapid();
-        program.line = static_cast<std::uint32_t>(cnc_.line());
-        program.distance_to_go_mm = static_cast<float>(cnc_.distance_to_go_mm());
-        return program;
-    }
-
-    void sample() {
-        override_ = controller_.step(plant_.sample(), program_status());
-        steps_ = controller_.plant_steps(usual_);
-        plant_.judge().follow(plant_.time_s(), override_, controller_, settings_.trace_interval_s);
-    }
-
-    SimulationSettings settings_;
-    OverrideSource& controller_;
-    Cnc cnc_;
-    MillingPlant plant_;
-    hal::FeedOverride override_{};
-    OverrideSource::PlantSteps usual_{};
-    OverrideSource::PlantSteps steps_{};  ///< left until the next sample
-};
-
 }  // namespace
+
+SteppedSimulation::SteppedSimulation(const Scenario& scenario, const SimulationSettings& settings)
+    : settings_(settings),
+      cnc_(cnc_settings(scenario, settings), moves_of(scenario)),
+      plant_(scenario),
+      started_(std::chrono::steady_clock::now()) {
+    plant_.start_at(cnc_.position_mm(), cnc_.spindle_speed_rad_s());
+    plant_.set_clock(-spindle_start_s);
+    const double rate_hz = static_cast<double>(scenario.parameters.machine.cnc.sample_rate_hz);
+    usual_.count = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * settings.plant_step_s))));
+    usual_.step_s = settings.plant_step_s;
+    steps_ = usual_;
+}
+
+bool SteppedSimulation::next_sample(bool is_ready) {
+    do {
+        has_begun_ = has_begun_ || (is_ready && plant_.time_s() >= -0.5 * steps_.step_s);
+        if (!has_begun_) {
+            turn_spindle();
+        } else if (has_ended()) {
+            return false;
+        } else {
+            step_plant();
+        }
+    } while (--steps_.count > 0);
+    sample_ = plant_.sample();
+    return true;
+}
+
+void SteppedSimulation::answer(const hal::FeedOverride& output, const TraceSource& controller,
+                               const OverrideSource::PlantSteps& steps) {
+    override_ = output;
+    steps_ = steps;
+    if (has_begun_) {
+        plant_.judge().follow(plant_.time_s(), override_, controller, settings_.trace_interval_s);
+    }
+}
+
+bool SteppedSimulation::has_ended() {
+    return cnc_.finished() || plant_.time_s() >= settings_.longest_run_s || plant_.judge().fault_stopped() ||
+           is_stopped_by_progress();
+}
+
+bool SteppedSimulation::is_stopped_by_progress() {
+    if (settings_.progress && plant_.time_s() > next_report_s_) {
+        next_report_s_ += 1.0;
+        was_stopped_ = was_stopped_ || !settings_.progress(path_share());
+    }
+    return was_stopped_;
+}
+
+double SteppedSimulation::path_share() const {
+    return cnc_.path_mm() / std::max(cnc_.total_path_mm(), 1e-9);
+}
+
+Simulated SteppedSimulation::result(const std::string& controller_name) {
+    Simulated simulated;
+    simulated.result = plant_.judge().result(controller_name, cnc_.finished());
+    simulated.hardest_cut = plant_.hardest_cut();
+    simulated.interrupted = was_stopped_;
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started_;
+    simulated.result.figures.real_time_factor = plant_.time_s() / std::max(wall.count(), 1e-9);
+    return simulated;
+}
+
+/// Spindle on, axes at rest: for the time that a CNC waits for its spindle, and until the controller has answered.
+void SteppedSimulation::turn_spindle() {
+    plant_.idle(steps_.step_s, {cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()});
+}
+
+void SteppedSimulation::step_plant() {
+    cnc_.step(static_cast<double>(override_.ratio), override_.hold);
+    plant_.advance(steps_.step_s,
+                   {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(), cnc_.path_mm(),
+                    cnc_.is_rapid(), cnc_.spindle_speed_rad_s(), static_cast<double>(override_.ratio)});
+}
+
+hal::ProgramStatus SteppedSimulation::program() const {
+    hal::ProgramStatus program;
+    program.programmed_feed_mm_s = static_cast<float>(cnc_.programmed_feed_mm_s());
+    program.rapid = cnc_.is_rapid();
+    program.line = static_cast<std::uint32_t>(cnc_.line());
+    program.distance_to_go_mm = static_cast<float>(cnc_.distance_to_go_mm());
+    return program;
+}
 
 namespace {
 
@@ -197,7 +197,12 @@ std::vector<Move> moves_of(const Scenario& scenario) {
 
 Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,
                    const SimulationSettings& settings) {
-    return Loop(scenario, controller, settings).run(controller_name);
+    SteppedSimulation run(scenario, settings);
+    while (run.next_sample(controller.is_ready())) {
+        const hal::FeedOverride output = controller.step(run.sample(), run.program());
+        run.answer(output, controller, controller.plant_steps(run.usual_steps()));
+    }
+    return run.result(controller_name);
 }
 
 }  // namespace millforce::sim

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <vector>
 
+#include "cnc/cnc.hpp"
 #include "cnc/gcode.hpp"
 #include "loop/milling_plant.hpp"
 #include "loop/override_source.hpp"
@@ -30,9 +32,58 @@ struct Simulated {
 GcodeProgram program_of(const Scenario& scenario);
 std::vector<Move> moves_of(const Scenario& scenario);
 
+/// A run, sample by sample, for whoever works out the override in a loop of his own:
+///
+///     while (run.next_sample()) {
+///         run.answer(override_for(run.sample(), run.program()), controller);
+///     }
+///
+/// The spindle turns for two seconds before the program begins, at time 0; the figures leave it out. Throws InputError
+/// for a program that cannot be read. One thread.
+class SteppedSimulation {
+  public:
+    explicit SteppedSimulation(const Scenario& scenario, const SimulationSettings& settings = {});
+
+    /// Lets the plant run up to its next sample. False: the run has ended, or its progress callback has stopped it.
+    /// `is_ready`: the program may begin.
+    bool next_sample(bool is_ready = true);
+    [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
+    [[nodiscard]] hal::ProgramStatus program() const;
+
+    /// The override that is in force until the next sample. `controller` describes what led to it.
+    void answer(const hal::FeedOverride& output, const TraceSource& controller) { answer(output, controller, usual_); }
+    /// `steps`: of the plant until the next sample.
+    void answer(const hal::FeedOverride& output, const TraceSource& controller,
+                const OverrideSource::PlantSteps& steps);
+    /// As the machine's sample rate gives them.
+    [[nodiscard]] const OverrideSource::PlantSteps& usual_steps() const { return usual_; }
+
+    [[nodiscard]] double time_s() const { return plant_.time_s(); }
+    [[nodiscard]] double path_share() const;
+    /// What has been cut so far.
+    [[nodiscard]] Simulated result(const std::string& controller_name);
+
+  private:
+    [[nodiscard]] bool has_ended();
+    [[nodiscard]] bool is_stopped_by_progress();
+    void turn_spindle();
+    void step_plant();
+
+    SimulationSettings settings_;
+    Cnc cnc_;
+    MillingPlant plant_;
+    hal::DriveSample sample_{};
+    hal::FeedOverride override_{};
+    OverrideSource::PlantSteps usual_{};
+    OverrideSource::PlantSteps steps_{};  ///< left until the next sample
+    bool has_begun_ = false;              ///< the program
+    bool was_stopped_ = false;
+    double next_report_s_ = 1.0;
+    std::chrono::steady_clock::time_point started_;
+};
+
 /// Runs a scenario against a controller, in closed loop: CNC → drives → tool and workpiece → cutting force → drives →
 /// samples → controller → override → CNC. Deterministic: the same scenario, deviation and seed give the same bits.
-/// The spindle turns for two seconds before the program begins, at time 0; the figures leave it out.
 Simulated simulate(const Scenario& scenario, OverrideSource& controller, const std::string& controller_name,
                    const SimulationSettings& settings = {});
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/csv.hpp"
+#include "report/page_origin.hpp"
 
 /// What a simulated run leaves behind: a trace, one point per interval, and its figures. Reports, CSV and JSON are
 /// written from it and from nothing else.
@@ -78,7 +79,7 @@ struct RunFigures {
 };
 
 struct RunResult {
-    std::string controller;  ///< "millforce", "millforce_fixed", "constant", "constant_load"
+    std::string controller;  ///< "millforce", "millforce_fixed", "constant", "constant_hindsight", "constant_load"
     std::vector<TracePoint> trace;
     RunFigures figures;
 };
@@ -94,8 +95,11 @@ struct ScenarioInfo {
     double tooth_force_limit_N = 0.0;
     double cutter_diameter_mm = 0.0;
     double spindle_speed_rad_s = 0.0;
-    double constant_feed_mm_s = 0.0;  ///< the constant feed that is safe everywhere, the baseline's
-    bool has_top_view = false;        ///< the path is a real one in x and y
+    double constant_feed_mm_s = 0.0;   ///< the constant feed that is safe everywhere, the baseline's
+    double hardest_material = 1.0;     ///< for a K_s so many times as high, too
+    double hindsight_feed_mm_s = 0.0;  ///< the best constant feed for exactly this material; 0: not sought
+    host::Facts origin{};              ///< machine, tool, program, command, date
+    bool has_top_view = false;         ///< the path is a real one in x and y
     double stock_min_x_mm = 0.0;
     double stock_min_y_mm = 0.0;
     double stock_max_x_mm = 0.0;

@@ -38,6 +38,8 @@ void write_summary_scenario(host::JsonWriter& json, const ScenarioInfo& info) {
     json.key("cutter_diameter_mm").number(info.cutter_diameter_mm);
     json.key("spindle_speed_rad_s").number(info.spindle_speed_rad_s);
     json.key("constant_feed_mm_s").number(info.constant_feed_mm_s);
+    json.key("hardest_material").number(info.hardest_material);
+    json.key("hindsight_feed_mm_s").number(info.hindsight_feed_mm_s);
     json.key("stock");
     if (info.has_top_view) {
         json.begin_object();
@@ -56,6 +58,8 @@ void write_run(host::JsonWriter& json, const RunResult& run, std::span<const Run
     json.key("finished").boolean(run.figures.finished);
     json.key("fault").text(run.figures.fault);
     json.key("time_saved_percent").number(time_saved_percent(run, runs).value_or(host::no_estimate));
+    json.key("time_saved_in_hindsight_percent")
+        .number(time_saved_percent(run, runs, constant_feed_in_hindsight).value_or(host::no_estimate));
     json.key("teeth_broken").integer(run.figures.teeth_broken);
     for (const auto& [key, value] : figure_keys) {
         json.key(key).number(run.figures.*value);

@@ -35,54 +35,58 @@ std::string csv_text(std::string_view text) {
     return out += '"';
 }
 
-struct TraceColumn {
-    const char* name;
-    void (*cell)(std::string& line, const TracePoint& point);
-};
-
 template <double TracePoint::*Value>
-void number(std::string& line, const TracePoint& point) {
-    append(line, point.*Value);
+constexpr TraceColumn number(const char* name) {
+    return {name, [](const TracePoint& point) { return point.*Value; }, nullptr};
 }
 
 template <typename Enumeration, std::uint8_t TracePoint::*Code>
-void code_name(std::string& line, const TracePoint& point) {
-    line += control::name(static_cast<Enumeration>(point.*Code));
+constexpr TraceColumn code_name(const char* name) {
+    return {name, nullptr,
+            [](const TracePoint& point) { return control::name(static_cast<Enumeration>(point.*Code)); }};
 }
 
 /// In the order of the file. The column `controller` is between the two lists: it belongs to the run.
-constexpr TraceColumn estimate_columns[] = {
-    {"time_s", number<&TracePoint::time_s>},
-    {"state", code_name<control::CutState, &TracePoint::state>},
-    {"tangential_force_N", number<&TracePoint::tangential_force_N>},
-    {"feed_force_N", number<&TracePoint::feed_force_N>},
-    {"radial_immersion", number<&TracePoint::radial_immersion>},
-    {"radial_immersion_sd", number<&TracePoint::radial_immersion_sd>},
-    {"axial_depth_mm", number<&TracePoint::axial_depth_mm>},
-    {"axial_depth_sd_mm", number<&TracePoint::axial_depth_sd_mm>},
-    {"peak_force_N", number<&TracePoint::peak_force_N>},
-    {"force_limit_N", number<&TracePoint::force_limit_N>},
-    {"override", number<&TracePoint::override_ratio>},
+constexpr TraceColumn estimates[] = {
+    number<&TracePoint::time_s>("time_s"),
+    code_name<control::CutState, &TracePoint::state>("state"),
+    number<&TracePoint::tangential_force_N>("tangential_force_N"),
+    number<&TracePoint::feed_force_N>("feed_force_N"),
+    number<&TracePoint::radial_immersion>("radial_immersion"),
+    number<&TracePoint::radial_immersion_sd>("radial_immersion_sd"),
+    number<&TracePoint::axial_depth_mm>("axial_depth_mm"),
+    number<&TracePoint::axial_depth_sd_mm>("axial_depth_sd_mm"),
+    number<&TracePoint::peak_force_N>("peak_force_N"),
+    number<&TracePoint::force_limit_N>("force_limit_N"),
+    number<&TracePoint::override_ratio>("override"),
 };
 
-constexpr TraceColumn simulation_columns[] = {
-    {"path_mm", number<&TracePoint::path_mm>},
-    {"x_mm", number<&TracePoint::x_mm>},
-    {"y_mm", number<&TracePoint::y_mm>},
-    {"z_mm", number<&TracePoint::z_mm>},
-    {"feed_mm_s", number<&TracePoint::feed_mm_s>},
-    {"programmed_feed_mm_s", number<&TracePoint::programmed_feed_mm_s>},
-    {"rapid", [](std::string& line, const TracePoint& point) { line += point.rapid ? '1' : '0'; }},
-    {"limit", code_name<control::Limit, &TracePoint::limit>},
-    {"fault", code_name<control::Fault, &TracePoint::fault>},
-    {"tooth_force_N", number<&TracePoint::tooth_force_N>},
-    {"true_tooth_force_N", number<&TracePoint::true_tooth_force_N>},
-    {"true_peak_force_N", number<&TracePoint::true_peak_force_N>},
-    {"true_tangential_force_N", number<&TracePoint::true_tangential_force_N>},
-    {"true_feed_force_N", number<&TracePoint::true_feed_force_N>},
-    {"true_radial_immersion", number<&TracePoint::true_radial_immersion>},
-    {"true_axial_depth_mm", number<&TracePoint::true_axial_depth_mm>},
+constexpr TraceColumn simulation[] = {
+    number<&TracePoint::path_mm>("path_mm"),
+    number<&TracePoint::x_mm>("x_mm"),
+    number<&TracePoint::y_mm>("y_mm"),
+    number<&TracePoint::z_mm>("z_mm"),
+    number<&TracePoint::feed_mm_s>("feed_mm_s"),
+    number<&TracePoint::programmed_feed_mm_s>("programmed_feed_mm_s"),
+    {"rapid", [](const TracePoint& point) { return point.rapid ? 1.0 : 0.0; }, nullptr},
+    code_name<control::Limit, &TracePoint::limit>("limit"),
+    code_name<control::Fault, &TracePoint::fault>("fault"),
+    number<&TracePoint::tooth_force_N>("tooth_force_N"),
+    number<&TracePoint::true_tooth_force_N>("true_tooth_force_N"),
+    number<&TracePoint::true_peak_force_N>("true_peak_force_N"),
+    number<&TracePoint::true_tangential_force_N>("true_tangential_force_N"),
+    number<&TracePoint::true_feed_force_N>("true_feed_force_N"),
+    number<&TracePoint::true_radial_immersion>("true_radial_immersion"),
+    number<&TracePoint::true_axial_depth_mm>("true_axial_depth_mm"),
 };
+
+void append_cell(std::string& line, const TraceColumn& column, const TracePoint& point) {
+    if (column.number != nullptr) {
+        append(line, column.number(point));
+    } else {
+        line += column.text(point);
+    }
+}
 
 bool stays_in_file_name(char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
@@ -91,26 +95,34 @@ bool stays_in_file_name(char character) {
 
 }  // namespace
 
+std::span<const TraceColumn> estimate_columns() {
+    return estimates;
+}
+
+std::span<const TraceColumn> simulation_columns() {
+    return simulation;
+}
+
 std::string trace_csv(const RunResult& run) {
     const std::string controller = csv_text(run.controller);
     std::string out;
-    for (const TraceColumn& column : estimate_columns) {
+    for (const TraceColumn& column : estimates) {
         out += fmt::format("{},", column.name);
     }
     out += "controller";
-    for (const TraceColumn& column : simulation_columns) {
+    for (const TraceColumn& column : simulation) {
         out += fmt::format(",{}", column.name);
     }
     out += '\n';
     for (const TracePoint& point : run.trace) {
-        for (const TraceColumn& column : estimate_columns) {
-            column.cell(out, point);
+        for (const TraceColumn& column : estimates) {
+            append_cell(out, column, point);
             out += ',';
         }
         out += controller;
-        for (const TraceColumn& column : simulation_columns) {
+        for (const TraceColumn& column : simulation) {
             out += ',';
-            column.cell(out, point);
+            append_cell(out, column, point);
         }
         out += '\n';
     }

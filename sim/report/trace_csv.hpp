@@ -9,6 +9,16 @@
 
 namespace millforce::sim {
 
+/// A column of the trace: numbers, or text; the other one is null.
+struct TraceColumn {
+    const char* name;
+    double (*number)(const TracePoint& point);
+    const char* (*text)(const TracePoint& point);
+};
+/// Those of every table of estimates, and those that only a simulation knows; each in the order of the file.
+std::span<const TraceColumn> estimate_columns();
+std::span<const TraceColumn> simulation_columns();
+
 /// The trace of a run as CSV, one line per point. The first columns are those of every file of estimates: time_s,
 /// state, tangential_force_N, feed_force_N, radial_immersion, radial_immersion_sd, axial_depth_mm, axial_depth_sd_mm,
 /// peak_force_N, force_limit_N, override. Then what only a simulation knows: controller, path and position, feed, limit

@@ -178,6 +178,9 @@ Reproduction reproduce_guan() {
     Reproduction result;
     result.name = "guan";
     result.title = "The cutting force of a flat end mill, flank and bottom edge (Guan et al.)";
+    result.source = {
+        "Y. Guan, H. Guan, G. Wang, P. Yuan: The 3D Modeling of Cutting Force in High-speed Milling for Flat Mill. "
+        "Institute of Advanced Engineering and Science, 2014. Volume and pages are not known here."};
     result.summary = summary;
     add_chisel_edge(result);
     add_curves(result);

@@ -126,6 +126,9 @@ Reproduction reproduce_hwang() {
     Reproduction out;
     out.name = "hwang";
     out.title = "Radial immersion from force drops (Hwang, Oh, Kwon, Chu)";
+    out.source = {
+        "J. H. Hwang, Y. T. Oh, W. T. Kwon, C. N. Chu: In-process estimation of radial immersion ratio in face milling "
+        "using cutting force. The International Journal of Advanced Manufacturing Technology 22 (2003) 313–320."};
     out.summary = hwang_summary;
     const HwangLaws laws = calibrated_laws();
     const std::vector<TableRow> rows = table_rows();

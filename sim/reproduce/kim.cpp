@@ -49,6 +49,8 @@ void add_largest_force(Reproduction& result) {
          "little beyond its design."});
 }
 
+constexpr const char* pressure_unit = "N/mm²";
+
 /// The constants of the paper's drives beside those of the first simulated machine.
 void add_drive_constants(const KimCampaign& campaign, Reproduction& result) {
     using Published = KimPublishedDrives;
@@ -60,20 +62,20 @@ void add_drive_constants(const KimCampaign& campaign, Reproduction& result) {
         result.figures.push_back({name, unit, published, ours, Judged::shown, 0.0, 0.0, reason});
     };
     show(
-        "Eq. 8: K_t1", "", Published::K_t1, spindle.gain * per_Nm,
+        "Eq. 8: K_t1", "N per A", Published::K_t1, spindle.gain * per_Nm,
         "a constant of each machine, in N per unit of current: ours is the ampere, the paper's is not printed. Ours is "
         "judged against the simulated motor's, below.");
     show("Eq. 8: K_t2", "N", Published::K_t2_N, spindle.offset * per_Nm,
          "the idle torque of each spindle, at the radius of 4 mm. Ours is judged below.");
-    show("Table 3: K_x1", "", Published::K_x1, static_cast<double>(axis.positive.K_x1_A_min2_per_m2),
+    show("Table 3: K_x1", "A·min²/m²", Published::K_x1, static_cast<double>(axis.positive.K_x1_A_min2_per_m2),
          "friction of each axis, its current in ampere here; the paper's unit is not printed. There the current "
          "falls with the feed.");
-    show("Table 3: K_x2", "", Published::K_x2, static_cast<double>(axis.positive.K_x2_A_min_per_m), "as K_x1.");
-    show("Table 3: K_x3", "", Published::K_x3, static_cast<double>(axis.K_x3_A), "as K_x1.");
+    show("Table 3: K_x2", "A·min/m", Published::K_x2, static_cast<double>(axis.positive.K_x2_A_min_per_m), "as K_x1.");
+    show("Table 3: K_x3", "A", Published::K_x3, static_cast<double>(axis.K_x3_A), "as K_x1.");
     const char* copied =
         "Table 3 repeats K_t1 and K_t2 of Eq. 8 to the digit. With them the feed force is −7644 N at 0.25 m/min where "
         "the axis only overcomes its friction: they cannot be the feed drive's.";
-    show("Table 3: K_x4", "", Published::K_x4, feed.gain, copied);
+    show("Table 3: K_x4", "N per A", Published::K_x4, feed.gain, copied);
     show("Table 3: K_x5", "N·m/min", Published::K_x5, feed.offset,
          "as K_x4. In the plant it has no counterpart: ours is what the quadratic friction leaves at low feed.");
 }
@@ -98,15 +100,15 @@ struct KimTallies {
 
 void add_law_against_forces(const KimPublishedTool& tool, const KimUnknownTool& found, Reproduction& result) {
     const auto& fit = found.fit;
-    const auto add = [&](const char* what, double published, double ours, double se, double bound) {
+    const auto add = [&](const char* what, const char* unit, double published, double ours, double se, double bound) {
         result.figures.push_back({fmt::format("{}, {}: {} by forces; ours from currents alone (standard error {:.2g})",
                                               tool.table, tool.name, what, se),
-                                  "", published, ours, Judged::relative_difference, bound});
+                                  unit, published, ours, Judged::relative_difference, bound});
     };
-    add("k_s", tool.law.k_s, fit.law.k_s_N_per_mm2, fit.k_s_standard_error(), 0.045);
-    add("p_s", tool.law.p_s, fit.law.p_s, fit.standard_error(estimation::cutting_p_s), 0.06);
-    add("k_1", tool.law.k_1, fit.law.k_1, fit.k_1_standard_error(), 0.045);
-    add("p_1", tool.law.p_1, fit.law.p_1, fit.standard_error(estimation::cutting_p_1), 0.06);
+    add("k_s", pressure_unit, tool.law.k_s, fit.law.k_s_N_per_mm2, fit.k_s_standard_error(), 0.045);
+    add("p_s", "", tool.law.p_s, fit.law.p_s, fit.standard_error(estimation::cutting_p_s), 0.06);
+    add("k_1", "", tool.law.k_1, fit.law.k_1, fit.k_1_standard_error(), 0.045);
+    add("p_1", "", tool.law.p_1, fit.law.p_1, fit.standard_error(estimation::cutting_p_1), 0.06);
 }
 
 void add_law_by_currents(const KimPublishedTool& tool, const KimUnknownTool& found, const KimTallies& tallies,
@@ -116,16 +118,16 @@ void add_law_by_currents(const KimPublishedTool& tool, const KimUnknownTool& fou
     };
     const double k_s_percent = deviation_percent(tool.k_s_by_currents, tool.law.k_s);
     const double p_s_percent = deviation_percent(tool.p_s_by_currents, tool.law.p_s);
-    const auto by_currents = [&](const char* what, double published, double ours, double percent) {
+    const auto by_currents = [&](const char* what, const char* unit, double published, double ours, double percent) {
         result.figures.push_back(
-            {fmt::format("Table 5, {}: {} by motor currents", tool.name, what), "", published, ours, Judged::shown, 0.0,
-             0.0,
+            {fmt::format("Table 5, {}: {} by motor currents", tool.name, what), unit, published, ours, Judged::shown,
+             0.0, 0.0,
              fmt::format("the paper's lies {:.1f} % from its own by forces ({}). Ours is judged against "
                          "the one by forces, above.",
                          percent, tool.table)});
     };
-    by_currents("k_s", tool.k_s_by_currents, found.fit.law.k_s_N_per_mm2, k_s_percent);
-    by_currents("p_s", tool.p_s_by_currents, found.fit.law.p_s, p_s_percent);
+    by_currents("k_s", pressure_unit, tool.k_s_by_currents, found.fit.law.k_s_N_per_mm2, k_s_percent);
+    by_currents("p_s", "", tool.p_s_by_currents, found.fit.law.p_s, p_s_percent);
     const auto worst = [&](const char* what, const KimTally& tally, double percent, double bound) {
         result.figures.push_back(
             {fmt::format("Table 5 against {}, {}: deviation of {}; ours: the largest of {} machines", tool.table,
@@ -211,6 +213,11 @@ Reproduction reproduce_kim() {
     Reproduction result;
     result.name = "kim";
     result.title = "Rapid calibration from motor currents: friction, gains, cutting coefficients (Kim & Chung)";
+    result.source = {
+        "S.-C. Kim, S.-C. Chung: Rapid Calibration of Cutting Force Control System Using Motor Currents in End Milling "
+        "Processes. Hanyang University, Department of Mechanical Design & Production Engineering, Seoul. Venue and "
+        "year "
+        "are not printed on the copy used; its newest reference is of 1999."};
     result.summary = summary;
     add_table_1(result);
     add_largest_force(result);

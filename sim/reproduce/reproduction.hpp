@@ -15,7 +15,7 @@ namespace millforce::sim {
 /// One published figure and ours, or a check of our own.
 struct Figure {
     std::string name;  ///< name of a published value: first where the paper prints it, "Table 5, carbide: k_s"
-    std::string unit;  ///< "" for a ratio
+    std::string unit;  ///< "" for a ratio, a count, an exponent
     double published;  ///< NaN in a check of our own
     double ours;
     enum class Judged {
@@ -61,9 +61,16 @@ struct NotReproduced {
     std::string why;
 };
 
+/// A paper in full.
+struct PaperSource {
+    std::string citation{};
+    std::string doi{};  ///< empty: not known
+};
+
 struct Reproduction {
-    std::string name;              ///< as typed: "hwang"
-    std::string title;             ///< what the system is, with the paper's authors
+    std::string name;   ///< as typed: "hwang"
+    std::string title;  ///< what the system is, with the paper's authors
+    PaperSource source{};
     std::string summary{};         ///< one paragraph: what the system does, readable without the paper
     std::vector<Figure> figures;   ///< each with a published value; one that is only shown has a reason
     std::vector<Figure> checks{};  ///< figures of our own, without a published value

@@ -312,6 +312,10 @@ Reproduction reproduce_roughness() {
     result.name = "roughness";
     result.title =
         "Surface roughness from the cutting force ratio in ball-end milling (Tangjitsitcharoen & Senjuntichaj)";
+    result.source = {
+        "S. Tangjitsitcharoen, A. Senjuntichaj: In-process Monitoring and Prediction of Surface Roughness in Ball-End "
+        "Milling Process. Venue and year are not printed on the copy used; the work was funded from October 2008 to "
+        "September 2010."};
     result.summary = summary;
     const auto papers = published();
     for (const Published& paper : papers) {

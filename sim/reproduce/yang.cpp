@@ -250,12 +250,17 @@ constexpr const char* summary =
 }  // namespace yang
 
 Reproduction reproduce_yang() {
-    Reproduction r{.name = "yang",
-                   .title = "Depth-of-cut variation from the shape of the cutting force (Yang, DeVor, Kapoor)",
-                   .summary = yang::summary,
-                   .figures = {},
-                   .plots = {},
-                   .deviations = yang::deviations()};
+    Reproduction r{
+        .name = "yang",
+        .title = "Depth-of-cut variation from the shape of the cutting force (Yang, DeVor, Kapoor)",
+        .source = {"L. Yang, R. E. DeVor, S. G. Kapoor: Analysis of Force Shape Characteristics and Detection "
+                   "of Depth-of-Cut Variations in End Milling. ASME Journal of Manufacturing Science and "
+                   "Engineering 127(3) (2005) 454–462.",
+                   "10.1115/1.1947207"},
+        .summary = yang::summary,
+        .figures = {},
+        .plots = {},
+        .deviations = yang::deviations()};
     std::vector<yang::Series> all;
     for (std::size_t type = 0; type < 3; ++type) {
         for (std::size_t mill = 0; mill < 2; ++mill) {

@@ -59,6 +59,7 @@ void write_figures(host::JsonWriter& json, const char* key, const std::vector<Fi
 void write_reproduction(host::JsonWriter& json, const Reproduction& reproduction) {
     json.begin_object();
     json.key("name").text(reproduction.name).key("title").text(reproduction.title);
+    json.key("source").text(reproduction.source.citation).key("doi").text(reproduction.source.doi);
     json.key("holds").boolean(reproduction.holds());
     write_figures(json, "figures", reproduction.figures);
     write_figures(json, "checks", reproduction.checks);

@@ -36,9 +36,8 @@ std::string row_html(const Figure& figure, const FigureTable& table, Rows rows) 
     const char* style = is_shown ? "shown" : (figure.holds() ? "held" : "broken");
     const char* judgement = is_shown ? "–" : (figure.holds() ? "ok" : "broken");
     std::string name = host::html_escaped(name_in_table(figure, table));
-    if (!figure.unit.empty()) {
-        name += fmt::format(" <span class=\"unit\">in {}</span>", host::html_escaped(figure.unit));
-    }
+    name += fmt::format(" <span class=\"unit\">{}</span>",
+                        figure.unit.empty() ? "(no unit)" : "in " + host::html_escaped(figure.unit));
     if (!figure.reason.empty()) {
         name += fmt::format("<span class=\"reason\">{}</span>", host::html_escaped(figure.reason));
     }
@@ -123,11 +122,23 @@ std::string verdict_html(const Reproduction& reproduction) {
                        whole_verdict(reproduction));
 }
 
+/// The link is for a reader to follow: the page itself loads nothing.
+std::string source_html(const PaperSource& source) {
+    if (source.citation.empty()) {
+        return {};
+    }
+    const std::string doi = host::html_escaped(source.doi);
+    return fmt::format(
+        "<p class=\"source\">{} {}</p>\n", host::html_escaped(source.citation),
+        doi.empty() ? "No DOI is known here." : fmt::format("<a href=\"https://doi.org/{0}\">doi:{0}</a>", doi));
+}
+
 std::string section_html(const Reproduction& reproduction) {
     const std::string name = host::html_escaped(reproduction.name);
     std::string html = fmt::format(
-        "<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n<p class=\"description\">{}</p>\n{}", name,
-        host::html_escaped(reproduction.title), host::html_escaped(reproduction.summary), verdict_html(reproduction));
+        "<section id=\"paper-{}\" class=\"reproduction\">\n<h2>{}</h2>\n{}<p class=\"description\">{}</p>\n{}", name,
+        host::html_escaped(reproduction.title), source_html(reproduction.source),
+        host::html_escaped(reproduction.summary), verdict_html(reproduction));
     html += tables_html("Figures", reproduction.figures, Rows::published);
     html += plots_html(reproduction);
     html += tables_html("Checks of our own", reproduction.checks, Rows::own);

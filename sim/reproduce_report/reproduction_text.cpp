@@ -56,10 +56,13 @@ std::string paragraph(std::string_view text, std::size_t indent) {
 
 std::string figure_text(const Figure& figure, const std::string& name, std::size_t indent) {
     const bool is_shown = figure.judged == Figure::Judged::shown;
-    const std::vector<std::string> lines = wrapped(name, name_width, indent);
+    constexpr std::size_t unit_width = 4;
+    const bool is_long_unit = width_of(figure.unit) > unit_width;
+    const std::vector<std::string> lines =
+        wrapped(is_long_unit ? fmt::format("{} in {}", name, figure.unit) : name, name_width, indent);
     std::string text = row_text(lines.front(), std::isfinite(figure.published) ? value_text(figure.published) : "",
-                                value_text(figure.ours), figure.unit, figure.difference(), figure.bound_text(),
-                                is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
+                                value_text(figure.ours), is_long_unit ? "" : figure.unit, figure.difference(),
+                                figure.bound_text(), is_shown ? "" : (figure.holds() ? "ok" : "BROKEN"));
     for (std::size_t k = 1; k < lines.size(); ++k) {
         text += lines[k] + '\n';
     }
@@ -97,6 +100,11 @@ std::string figures_text(std::span<const Figure> figures, bool every_row) {
     return text;
 }
 
+std::string source_text(const PaperSource& source) {
+    const std::string doi = source.doi.empty() ? "" : " doi:" + source.doi;
+    return source.citation.empty() ? "" : paragraph(source.citation + doi, 2);
+}
+
 std::string not_reproduced_text(const std::vector<NotReproduced>& list) {
     std::string text = list.empty() ? "" : "\nnot reproduced\n";
     for (const NotReproduced& one : list) {
@@ -108,7 +116,8 @@ std::string not_reproduced_text(const std::vector<NotReproduced>& list) {
 }  // namespace
 
 std::string reproduction_text(const Reproduction& reproduction, bool every_row) {
-    std::string text = paragraph(reproduction.name + ": " + reproduction.title, 0) + '\n';
+    std::string text =
+        paragraph(reproduction.name + ": " + reproduction.title, 0) + source_text(reproduction.source) + '\n';
     text += row_text("figure", "paper", "ours", "", "difference", "bound", "");
     text += figures_text(reproduction.figures, every_row);
     if (!reproduction.checks.empty()) {

@@ -128,6 +128,19 @@ TEST(TickOnBadSamples,
     }
 }
 
+TEST(TickOnBadSamples, holds_the_feed_in_a_cut_whose_feed_is_not_known_because_no_axis_is_that_fast) {
+    ForceControlTick<float> tick = fresh_tick();
+    for (int k = 0; k < 600; ++k) {
+        step_and_work(tick, sample_of(k), program());
+    }
+    for (int k = 600; k < 700; ++k) {
+        hal::DriveSample sample = sample_of(k);
+        sample.axis_velocity_mm_s[0] *= 1e6F;
+        CHECK_EQUAL(k - 600 >= 50, step_and_work(tick, sample, program()).hold);
+    }
+    CHECK(tick.control().fault == Fault::stale_input);
+}
+
 TEST(TickOnBadSamples, waits_for_the_first_whole_sample_without_a_fault) {
     ForceControlTick<float> tick = fresh_tick();
     const float at_rest = tick.control().ratio;

@@ -56,7 +56,7 @@ void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::st
 void ends_with_hold_and_complete_files(int signal) {
     const LiveFolder folder;
     const Candump candump("vcan0");
-    test::Program controller(folder.run_words());
+    test::Program controller(with(folder.run_words(), {"--report", folder.file("page")}));
     test::Program plant(folder.plant_words());
     CHECK(folder.logged("\"type\":\"estimate\""));
     controller.interrupt(signal);
@@ -76,6 +76,11 @@ void ends_with_hold_and_complete_files(int signal) {
     STRCMP_EQUAL("01", last_override.substr(8, 2).c_str());  // hold
     CHECK(folder.text("run.jsonl").ends_with("}\n"));
     CHECK(folder.text("run.log").ends_with("\n"));
+    const std::string page = folder.text("page/report.html");
+    CHECK(page.ends_with("</html>\n"));
+    CHECK(has(page, "Run on vcan0"));
+    CHECK(has(page, "drive_preparing (spindle, x, y, z): waiting for a drive to answer"));
+    CHECK(has(page, "tooth_<wbr>force_<wbr>limit_<wbr>N") || has(page, "override_<wbr>min"));
 }
 
 }  // namespace

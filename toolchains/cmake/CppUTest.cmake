@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-# The target `cpputest`: the distribution's library on the host; elsewhere built from its sources, which
-# toolchains/fetch-cpputest puts into build/cpputest.
+# The target `cpputest`: the distribution's library on the host, if it is installed; elsewhere built from its sources,
+# which toolchains/fetch-cpputest puts into build/cpputest.
 if(NOT CMAKE_CROSSCOMPILING)
     # Debian ships no usable CMake config for CppUTest: it is found by name.
-    find_library(CPPUTEST_LIBRARY CppUTest REQUIRED)
-    find_library(CPPUTEST_EXT_LIBRARY CppUTestExt REQUIRED)
-    find_path(CPPUTEST_INCLUDE_DIR CppUTest/TestHarness.h REQUIRED)
+    find_library(CPPUTEST_LIBRARY CppUTest)
+    find_library(CPPUTEST_EXT_LIBRARY CppUTestExt)
+    find_path(CPPUTEST_INCLUDE_DIR CppUTest/TestHarness.h)
+    if(NOT CPPUTEST_LIBRARY OR NOT CPPUTEST_EXT_LIBRARY OR NOT CPPUTEST_INCLUDE_DIR)
+        message(STATUS "No CppUTest, no tests: toolchains/install-dependencies --tests installs it")
+        return()
+    endif()
     add_library(cpputest INTERFACE)
     target_include_directories(cpputest SYSTEM INTERFACE ${CPPUTEST_INCLUDE_DIR})
     if(MILLFORCE_SANITIZE)
@@ -16,7 +20,7 @@ if(NOT CMAKE_CROSSCOMPILING)
     return()
 endif()
 
-set(CPPUTEST_SOURCE ${CMAKE_SOURCE_DIR}/build/cpputest CACHE PATH "Sources of CppUTest 4.0")
+set(CPPUTEST_SOURCE ${PROJECT_SOURCE_DIR}/build/cpputest CACHE PATH "Sources of CppUTest 4.0")
 if(NOT EXISTS ${CPPUTEST_SOURCE}/include/CppUTest/TestHarness.h)
     message(FATAL_ERROR "${CPPUTEST_SOURCE} has no CppUTest: toolchains/fetch-cpputest build/cpputest")
 endif()

@@ -5,13 +5,16 @@
 # for folders of the host check-includes does.
 
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
-if(NOT CMAKE_CROSSCOMPILING)
+if(MILLFORCE_BUILD_PROGRAM AND NOT CMAKE_CROSSCOMPILING)
     find_package(fmt REQUIRED)
 endif()
 
 set(MILLFORCE_WARNINGS
     -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Wold-style-cast
-    -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Werror)
+    -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference)
+if(PROJECT_IS_TOP_LEVEL)
+    list(APPEND MILLFORCE_WARNINGS -Werror)  # another project's compiler may know more warnings
+endif()
 
 # One rounding per operation on every processor, so that golden vectors compare bit for bit.
 add_compile_options(-ffp-contract=off)
@@ -30,10 +33,10 @@ if(MILLFORCE_FUZZ)
     add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
-add_custom_target(core_rules ALL
+add_custom_target(millforce_core_rules
     COMMAND ${CMAKE_COMMAND}
-            -DSOURCE_DIR=${CMAKE_SOURCE_DIR}
-            -P ${CMAKE_SOURCE_DIR}/toolchains/cmake/CoreRules.cmake
+            -DSOURCE_DIR=${PROJECT_SOURCE_DIR}
+            -P ${PROJECT_SOURCE_DIR}/toolchains/cmake/CoreRules.cmake
     COMMENT "Searching the core for heap, exceptions, RTTI and double"
     VERBATIM)
 
@@ -52,18 +55,48 @@ function(millforce_joined_sources target)
     endif()
 endfunction()
 
+# millforce_names(<name>): the library millforce_lib_<name> is millforce::<name> for every project that builds or installs
+# it, and <name> inside this one. Another project may have a target `control` of its own.
+function(millforce_names name)
+    add_library(millforce::${name} ALIAS millforce_lib_${name})
+    set_target_properties(millforce_lib_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME millforce_${name})
+    if(PROJECT_IS_TOP_LEVEL)
+        add_library(${name} ALIAS millforce_lib_${name})
+    endif()
+endfunction()
+
+# Headers that are included as "folder/header.hpp", in the tree and where they are installed (package/Library.cmake); and
+# what compiles them as this project does.
+function(millforce_public_headers target visibility folder)
+    target_compile_features(${target} ${visibility} cxx_std_20)
+    target_compile_options(${target} INTERFACE -ffp-contract=off)
+    target_include_directories(${target} ${visibility}
+        $<BUILD_INTERFACE:${folder}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/millforce>)
+endfunction()
+
+# In place of names of this project's targets, those that hold in every project.
+function(millforce_link target)
+    foreach(link IN LISTS ARGN)
+        if(TARGET millforce::${link})
+            set(link millforce::${link})
+        endif()
+        target_link_libraries(${target} PUBLIC ${link})
+    endforeach()
+endfunction()
+
 # millforce_core(<folder> SOURCES ... LINKS ...)
-function(millforce_core target)
+function(millforce_core name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+    set(target millforce_lib_${name})
     add_library(${target} STATIC ${ARG_SOURCES})
-    add_library(millforce::${target} ALIAS ${target})
-    target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    millforce_names(${name})
+    millforce_public_headers(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
     target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno)
-    target_link_libraries(${target} PUBLIC ${ARG_LINKS})
+    millforce_link(${target} ${ARG_LINKS})
     millforce_target_warnings(${target})
-    add_dependencies(${target} core_rules)
+    add_dependencies(${target} millforce_core_rules)
     # The estimator is where a tick's time goes. With an FPU the rest has time, and flash is scarce.
-    if(MILLFORCE_CPU STREQUAL "cortex-m4f" AND NOT target STREQUAL "estimation")
+    if(MILLFORCE_CPU STREQUAL "cortex-m4f" AND NOT name STREQUAL "estimation")
         target_compile_options(${target} PRIVATE -Os)
     endif()
     if(CMAKE_CROSSCOMPILING)
@@ -81,7 +114,7 @@ function(millforce_host_library prefix folder)
     set(target ${prefix}_${folder})
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
-    target_link_libraries(${target} PUBLIC fmt::fmt ${ARG_LINKS})
+    millforce_link(${target} fmt::fmt ${ARG_LINKS})
     millforce_target_warnings(${target})
     set(hot)
     if(ARG_HOT)

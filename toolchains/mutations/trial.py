@@ -69,7 +69,7 @@ class Build:
         own = [str(path.relative_to(self.root)) for path in sorted((self.root / library / "src").glob("*.cpp"))]
         objects = [str(changed.get(source) or self.unchanged_object(source)) for source in own]
         words = self.link_command(f"tests/{subject.executable}")
-        words = [word for word in words if word != f"{library}/lib{library}.a"]
+        words = [word for word in words if word != f"{library}/libmillforce_{library}.a"]
         for source, changed_object in changed.items():
             if source.startswith("tests/"):
                 words = [str(changed_object) if word.endswith(source.removeprefix("tests/") + ".o") else word for word in words]

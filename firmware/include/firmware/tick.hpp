@@ -9,6 +9,7 @@
 #include "firmware/parameters.hpp"
 #include "firmware/settled_feed.hpp"
 #include "firmware/signal_supervisor.hpp"
+#include "firmware/steady_cut.hpp"
 #include "firmware/surface_monitor.hpp"
 #include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"
@@ -124,6 +125,7 @@ class ForceControlTick {
     void rezero_in_air();
     [[nodiscard]] bool is_idle(const estimation::Measurement<Scalar>& tangential_N) const;
     void set_cut();
+    void allow_for_drift();
     void set_motion(Velocity velocity);
     void run_law(const hal::ProgramStatus& program);
     [[nodiscard]] bool belongs_to_this_feed() const;
@@ -133,6 +135,7 @@ class ForceControlTick {
     estimation::CutEstimator<Scalar> estimator_;
     WideBand wide_band_;
     CarriedImmersion<Scalar> drops_{};
+    SteadyCut<Scalar> steady_cut_{};
     SurfaceMonitor<Scalar> surface_;
     SignalSupervisor<Scalar> supervisor_;
     control::FeedController<Scalar> controller_;

@@ -5,6 +5,7 @@
 
 #include "estimation/engagement/side_choice.hpp"
 #include "firmware/carried_immersion_impl.hpp"
+#include "firmware/steady_cut_impl.hpp"
 #include "firmware/surface_monitor_impl.hpp"
 #include "firmware/tick.hpp"
 #include "firmware/usable_signals.hpp"
@@ -54,14 +55,14 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     watch_sample(sample, signals, dt_s);
 }
 
-/// Without encoder or spindle current there is no force: such a sample is discarded. The tick waits for the first
-/// complete one.
+/// Without encoder or spindle current there is no force, and with a velocity that no axis has the feed is not known:
+/// such a sample is discarded. The tick waits for the first complete one.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::watch_sample(const hal::DriveSample& sample, const Signals& signals,
                                                       Scalar dt_s) {
     const bool has_count = (sample.present & hal::mask(hal::Present::spindle_count)) != 0;
     const bool has_current = (signals.present & Signals::spindle_present) != 0 || !(K_t1_Nm_per_A_ > Scalar(0));
-    const bool is_whole = has_count && has_current;
+    const bool is_whole = has_count && has_current && !has_impossible_velocity(sample);
     has_begun_ = has_begun_ || is_whole;
     since_whole_sample_s_ = is_whole || !has_begun_ ? Scalar(0) : since_whole_sample_s_ + dt_s;
     input_.time_since_sample_s = is_whole ? dt_s : since_whole_sample_s_;
@@ -281,6 +282,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const int enough = 2 * static_cast<int>(controller_.parameters().teeth) + 1;
     if (air_periods_ >= enough) {
         was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
+        steady_cut_.clear();
         air_periods_ = enough;
     } else {
         estimator_.leave_air();
@@ -305,6 +307,7 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.law_is_refuted = estimation::is_refuted(e.engagement);
     cut.tooth_force_N =
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
+    allow_for_drift();
     // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
     if (e.newest_tangential_N > Scalar(0)) {
         const Scalar lead_s = reaction_s_ + estimation::halved(e.window_s);
@@ -322,6 +325,21 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.feed_mm_s = e.feed_mm_s;
     cut.spindle_speed_rad_s = e.spindle_speed_rad_s;
     input_.surface = surface_.for_control();
+}
+
+/// Of currents, within the cut.
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::allow_for_drift() {
+    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+    control::CutEstimateForControl<Scalar>& cut = input_.cut;
+    if (is_in_cut()) {
+        steady_cut_.follow(e);
+    } else if (!control::is_cutting(control_.state)) {
+        steady_cut_.leave_cut();
+    }
+    const Scalar largest_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
+    cut.tooth_force_is_bound = cut.tooth_force_is_bound || largest_N > cut.tooth_force_N;
+    cut.tooth_force_N = largest_N;
 }
 
 // What is shown

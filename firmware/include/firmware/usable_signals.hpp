@@ -10,6 +10,9 @@ namespace millforce::firmware {
 /// sensor are left out.
 [[nodiscard]] hal::DriveSample usable_drives_of(const hal::DriveSample& sample);
 
+/// A velocity is there, and is not finite or faster than 10 m/s: how the axes move is not known.
+[[nodiscard]] bool has_impossible_velocity(const hal::DriveSample& sample);
+
 template <typename Scalar>
 [[nodiscard]] estimation::DriveSignals<Scalar> usable_signals_of(const hal::DriveSample& sample) {
     const hal::DriveSample usable = usable_drives_of(sample);

@@ -46,20 +46,19 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     if (const auto error = decode(bytes, message); error != local_link::MessageError::none) {
         return error;
     }
-    const hal::ProgramStatus program = program_of(message);
-    bridge_gap(message.time_us, program);
+    program_ = program_of(message);
+    bridge_gap(message.time_us, program_);
     reset_where_asked(message);
     finish_work(tick_);  // what was not done in time
     tick_.follow_tool(message.tool, hal::axes_rest(message.axis_velocity_mm_s));
     drives_.on_message(message);
-    hal::DriveSample sample;
-    (void)drives_.take_sample(sample);  // each message is one
-    tick_.take(sample);
+    (void)drives_.take_sample(sample_);  // each message is one
+    tick_.take(sample_);
     finish_estimate(tick_);
     if (way_ != nullptr) {
-        way_->look_ahead(tick_.of_tool(), program);
+        way_->look_ahead(tick_.of_tool(), program_);
     }
-    output_ = tick_.answer(program);
+    output_ = tick_.answer(program_);
     answer = encode(answer_to(message.sequence));
     return local_link::MessageError::none;
 }
@@ -90,7 +89,7 @@ local_link::OverrideMessage LinkController::answer_to(std::uint32_t sequence) co
     m.sequence = sequence;
     m.heartbeat = output_.heartbeat;
     m.ratio = std::min(output_.ratio, largest_override_);
-    m.hold = output_.hold || is_held_outside_;
+    m.hold = is_held();
     m.tool_unknown = !tick_.is_tool_known();
     m.state = output_.state;
     m.fault = output_.fault;

@@ -7,15 +7,15 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
     const auto& axes = parameters.machine.axes;
     const bool has_axes = axes[0].K_x4_N_per_A > 0.0F || axes[1].K_x4_N_per_A > 0.0F;
     std::vector<std::string> faults;
-    faults.emplace_back(
-        "a spindle current that drifts slowly within one cut looks like a cut that changes; it is found in the next "
-        "air, and until then the tooth may carry more than its limit");
     if (has_axes) {
         faults.emplace_back(
-            "the current of an axis that drifts slowly in a straight move along it looks like an immersion that "
-            "changes; "
-            "it is found where the forces contradict the law of the cut, or in the next air");
+            "a current that drifts within one cut looks like a cut that changes in width and depth; the larger of the "
+            "forces by the spindle and by the axes counts then, and may still be too small: the drift is found in the "
+            "next air");
     } else {
+        faults.emplace_back(
+            "a spindle current that drifts slowly within one cut looks like a cut that changes; it is found in the "
+            "next air, and until then the tooth may carry more than its limit");
         faults.emplace_back(
             "a spindle current that is too small in the cut, though its idle current is right, is contradicted by no "
             "second current");

@@ -91,6 +91,16 @@ Option& Option::one_of(const std::vector<std::string>& names) {
     return *this;
 }
 
+Option& Option::one_of_or(const std::vector<std::string>& names, const std::string& prefix, const std::string& shown) {
+    std::vector<std::string> all = names;
+    all.push_back(shown);
+    const CLI::Validator is_member = CLI::IsMember(all);
+    option_->type_name(list_of(all))->check([is_member, prefix](const std::string& value) {
+        return value.starts_with(prefix) ? std::string() : is_member(value);
+    });
+    return *this;
+}
+
 Option& Option::shows_default() {
     option_->capture_default_str();
     return *this;

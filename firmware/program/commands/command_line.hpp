@@ -34,6 +34,8 @@ class Option {
     /// A finite number from `low` to `high`.
     Option& within(double low, double high);
     Option& one_of(const std::vector<std::string>& names);
+    /// Or a text that begins with `prefix`, as "socket:PATH": `--help` shows the latter.
+    Option& one_of_or(const std::vector<std::string>& names, const std::string& prefix, const std::string& shown);
     /// `--help` shows the variable's present value as the default.
     Option& shows_default();
     Option& needs(const Option& other);

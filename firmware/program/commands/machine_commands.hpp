@@ -16,5 +16,7 @@ void add_import(Command& program);
 void add_check(Command& program);
 void add_init(Command& program);
 void add_commission(Command& program);
+void add_telemetry(Command& program);
+void add_gateway(Command& program);
 
 }  // namespace millforce::host

@@ -20,6 +20,7 @@
 #include "replay/estimate_table.hpp"
 #include "replay/replay_candump.hpp"
 #include "replay/replay_findings.hpp"
+#include "replay/replay_mcap.hpp"
 #include "run_log/tool_forces.hpp"
 #include "run_report/run_report.hpp"
 
@@ -37,6 +38,7 @@ struct ReplayOptions {
     std::string interface;
     std::string run_log;
     std::string report;
+    std::string mcap;
     BusPace pace{};
 };
 
@@ -80,6 +82,7 @@ int replay_table(const ReplayOptions& options) {
     firmware::ToolTick tick(parameters, tools.source());
     EstimateTable table({options.log, options.output, options.interval_s}, tools,
                         recording.has_force_sensor() ? WideBandSource::force_sensor : WideBandSource::drives);
+    ReplayMcap mcap(options.mcap, tools);
     ReplayFindings findings(parameters.machine.encoder_counts_per_rev);
     while (recording.next()) {
         table.show_progress(recording.fraction_read());
@@ -94,6 +97,11 @@ int replay_table(const ReplayOptions& options) {
         if (table.is_due(recording.time_s())) {
             table.write(
                 {recording.time_s(), record, tick.tool(), tick.of_tool().roughness(), tick.of_tool().wide_band()});
+            mcap.write(recording.time_s(), {.tick = record,
+                                            .tool = tick.tool(),
+                                            .is_held = output.hold,
+                                            .drives = recording.sample(),
+                                            .program = program_of(recording, options)});
         }
     }
     if (table.is_empty()) {
@@ -101,6 +109,7 @@ int replay_table(const ReplayOptions& options) {
     }
     show_findings(recording, findings, options.log);
     table.show_notes();
+    mcap.commit();
     table.commit("", tick.of_tool().wide_band());
     return finish_report(report.get(), stderr) ? 0 : 1;
 }
@@ -110,6 +119,10 @@ int replay(const ReplayOptions& options) {
     std::vector<std::filesystem::path> inputs = options.tools.files();
     inputs.insert(inputs.end(), {options.log, options.machine, options.run_log});
     refuse_overwriting(options.output, inputs);
+    refuse_overwriting(options.mcap, inputs);
+    if (!options.mcap.empty() && options.mcap == options.output) {
+        throw InputError(fmt::format("--output, --mcap: both are {}, expected two files", options.mcap));
+    }
     if (!is_candump_log(options.log)) {
         if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
             throw InputError(fmt::format(
@@ -122,7 +135,7 @@ int replay(const ReplayOptions& options) {
                                      options.log));
     }
     return replay_candump({options.log, options.machine, options.tools, options.output, options.interface,
-                           options.interval_s, options.run_log, options.pace, options.report});
+                           options.interval_s, options.run_log, options.mcap, options.pace, options.report});
 }
 
 }  // namespace
@@ -149,6 +162,8 @@ void add_replay(Command& program) {
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
     add_tools(command, options->tools);
     command.option("-o,--output", options->output, "Estimates; default: standard output").value_name("OUT.csv");
+    command.option("--mcap", options->mcap, "The same rows with what went in, as MCAP for Foxglove and PlotJuggler")
+        .value_name("OUT.mcap");
     command
         .option("--programmed-feed", options->programmed_feed_mm_min,
                 "Programmed feed F in mm/min, for the override; default: from the recording, else unknown")

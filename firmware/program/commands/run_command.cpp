@@ -11,6 +11,7 @@
 #include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/watch_options.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
 #include "daemon/run_recorder.hpp"
@@ -35,6 +36,7 @@ struct RunOptions {
     std::string record;
     std::string report;
     BusPace pace{};
+    WatchOptions watch{};
 };
 
 MachineBus bus_of(const std::string& machine_file) {
@@ -59,10 +61,15 @@ socketcan::CanSocketSettings socket_on(const std::string& interface) {
 
 void check_outputs(const RunOptions& options) {
     const auto plain = [](const std::string& name) { return std::filesystem::absolute(name).lexically_normal(); };
-    if (!options.log.empty() && !options.record.empty() && plain(options.log) == plain(options.record)) {
-        throw InputError(fmt::format("--log, --record: both are {}, expected two files", options.log));
-    }
-    for (const std::string& output : {options.log, options.record}) {
+    const auto refuse_same = [&plain](const char* names, const std::string& one, const std::string& other) {
+        if (!one.empty() && !other.empty() && plain(one) == plain(other)) {
+            throw InputError(fmt::format("{}: both are {}, expected two files", names, one));
+        }
+    };
+    refuse_same("--log, --record", options.log, options.record);
+    refuse_same("--log, --mcap", options.log, options.watch.mcap);
+    refuse_same("--record, --mcap", options.record, options.watch.mcap);
+    for (const std::string& output : {options.log, options.record, options.watch.mcap}) {
         refuse_overwriting(output, {options.machine, options.tools.file});
     }
 }
@@ -112,10 +119,13 @@ int run_on_bus(const RunOptions& options) {
         started_report({RunKind::run, options.interface, options.machine, options.tools, options.report}, tools);
     const auto page = report != nullptr ? std::make_unique<RunRecorder>(report->history()) : nullptr;
     const std::atomic<bool>& stop = stop_on_signal();
-    const auto journal = std::make_unique<Journal>(JournalSettings{
-        options.interface, options.record, options.log, isatty(STDOUT_FILENO) != 0, ToolForces(tools), page.get()});
-    const auto daemon = std::make_unique<CanDaemon>(interface, bus, tools, *journal,
-                                                    CanDaemonSettings{!options.record.empty(), time, page.get()});
+    const auto journal = std::make_unique<Journal>(
+        JournalSettings{options.interface, options.record, options.log,
+                        isatty(STDOUT_FILENO) != 0 && !options.watch.view, ToolForces(tools), page.get()});
+    const auto hub = watch(options.watch, tools, options.interface);
+    const auto daemon =
+        std::make_unique<CanDaemon>(interface, bus, tools, *journal,
+                                    CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed()});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }
@@ -127,8 +137,10 @@ int run_on_bus(const RunOptions& options) {
     notify_service_manager("READY=1");
     daemon->run(stop);
     notify_service_manager("STOPPING=1");
+    notify_service_manager(time_for_the_report);
     leave_real_time();
     journal->finish();
+    hub->finish();
     print_summary(options, *daemon, *journal);
     if (page != nullptr) {
         page->finish();
@@ -137,6 +149,10 @@ int run_on_bus(const RunOptions& options) {
     if (!journal->failed_file().empty()) {
         print_line(stderr,
                    fmt::format("millforce: {}: a write failed; the file is incomplete", journal->failed_file()));
+        return 1;
+    }
+    if (!hub->failed_file().empty()) {
+        print_line(stderr, fmt::format("millforce: {}: a write failed; the file is incomplete", hub->failed_file()));
         return 1;
     }
     if (journal->lost() > 0) {
@@ -168,6 +184,7 @@ void add_run(Command& program) {
         .value_name("FILE.log");
     add_report(command, options->report);
     add_bus_pace(command, options->pace);
+    add_watch(command, options->watch);
     command.on_run([options] { return run_on_bus(*options); });
 }
 

@@ -10,6 +10,7 @@
 #include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/watch_options.hpp"
 #include "control/cut_state.hpp"
 #include "daemon/line_printer.hpp"
 #include "daemon/pause_watch.hpp"
@@ -18,6 +19,7 @@
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "firmware_link/link_controller.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
@@ -38,6 +40,7 @@ struct ServeOptions {
     std::string map;
     std::string program;
     std::string report;
+    WatchOptions watch{};
 };
 
 /// The page of the run, if one is asked for.
@@ -156,8 +159,41 @@ class Turns final : public TurnListener {
     bool is_held_ = false;
 };
 
+/// Hands each tick to whoever watches.
+class TickWatcher {
+  public:
+    explicit TickWatcher(TelemetryFeed* feed) : feed_(feed) {}
+
+    void follow(const firmware::LinkController& controller, bool was_stopped) {
+        if (feed_ == nullptr) {
+            return;
+        }
+        const std::uint32_t sample_us = controller.sample().time_us;
+        time_us_ += has_time_ ? sample_us - last_us_ : 0;  // the sample's clock wraps
+        last_us_ = sample_us;
+        has_time_ = true;
+        TelemetrySample sample{.monotonic_us = socketcan::monotonic_us(),
+                               .tick = firmware::tick_record(controller.tick(), controller.output(), time_us_),
+                               .tool = controller.tool(),
+                               .is_held = controller.is_held(),
+                               .drives = controller.sample(),
+                               .program = controller.program()};
+        sample.conditions.set(firmware::Condition::tool_unknown, !controller.is_tool_known());
+        sample.conditions.set(firmware::Condition::tool_change_due, controller.is_tool_change_due());
+        sample.conditions.set(firmware::Condition::process_paused, was_stopped);
+        feed_->put(sample);
+    }
+
+  private:
+    TelemetryFeed* feed_;
+    std::uint64_t time_us_ = 0;
+    std::uint32_t last_us_ = 0;
+    bool has_time_ = false;
+};
+
 void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller,
-                const MapFollower* follower, LinePrinter& printer, Page& page) {
+                const MapFollower* follower, LinePrinter& printer, Page& page, TelemetryFeed* feed) {
+    TickWatcher watcher(feed);
     FaultReporter faults;
     MapReporter maps;
     ToolReporter tools;
@@ -177,6 +213,7 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
             return;
         }
         server.send(answer);
+        watcher.follow(controller, turns.is_held());
         firmware::finish_work(controller);
         page.tick(controller);
         faults.follow(controller.output(), printer);
@@ -204,6 +241,7 @@ std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Param
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
+    refuse_overwriting(options.watch.mcap, {options.machine, options.tools.file, options.map, options.program});
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
@@ -215,6 +253,7 @@ int serve(const ServeOptions& options) {
     LinePrinter printer(stderr);
     Turns turns(printer, page);
     UnixServer server(options.socket, &turns);
+    const auto hub = watch(options.watch, tools, options.socket);
     for (const std::string& note : become_real_time()) {
         printer.print(fmt::format("millforce: note: {}", note));
     }
@@ -231,16 +270,19 @@ int serve(const ServeOptions& options) {
         const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller =
             std::make_unique<firmware::LinkController>(parameters, largest_override, follower.get(), tools.source());
-        serve_peer(server, turns, *controller, follower.get(), printer, page);
+        serve_peer(server, turns, *controller, follower.get(), printer, page, hub->feed());
         server.drop_peer();
         page.note("The CNC disconnected.");
         notify_service_manager("STATUS=waiting for a CNC");
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
     notify_service_manager("STOPPING=1");
+    notify_service_manager(time_for_the_report);
     leave_real_time();
+    hub->finish();
     page.finish();
-    return finish_report(report.get(), stderr) ? 0 : 1;
+    const bool is_reported = finish_report(report.get(), stderr);
+    return is_reported && hub->failed_file().empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -267,6 +309,7 @@ void add_serve(Command& program) {
         .value_name("PART.map")
         .needs(program_file);
     add_report(command, options->report);
+    add_watch(command, options->watch);
     command.on_run([options] { return serve(*options); });
 }
 

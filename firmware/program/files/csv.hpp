@@ -4,20 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace millforce::host {
+#include "files/number_table.hpp"
 
-/// A column that has been found in a CSV file; given to CsvReader::number().
-struct CsvColumn {
-    std::size_t index = 0;
-};
+namespace millforce::host {
 
 /// Reads a CSV file of numbers, one row at a time.
 ///
@@ -31,36 +26,17 @@ struct CsvColumn {
 /// beyond double in a column that is read, an open quote, a line of more than 1 MiB, a NUL byte.
 ///
 /// One line is held in memory, whatever the size of the file.
-class CsvReader {
+class CsvReader : public NumberTable {
   public:
     explicit CsvReader(const std::filesystem::path& file);
 
-    const std::vector<std::string>& column_names() const { return names_; }
     const std::string& header_text() const { return header_text_; }
-    const std::string& file_name() const { return file_; }
     /// The comments, without # and the spaces around.
     const std::vector<std::string>& comments() const { return comments_; }
 
-    /// The column of this name, or InputError. `reason` ends the message: why it is needed.
-    CsvColumn require(std::string_view name, std::string_view reason = {}) const;
-
-    /// The column of this name, if there is one. Named twice: InputError.
-    std::optional<CsvColumn> find(std::string_view name) const;
-
-    /// Advances to the next row; false at the end of the file.
-    bool next_row();
-
-    /// The number in this column of the current row; NaN where the cell is empty.
-    double number(CsvColumn column) const;
-
-    /// The same for a column that may be missing: NaN.
-    double number(std::optional<CsvColumn> column) const;
-
-    /// The number in this column, or InputError where the cell is empty.
-    double required_number(CsvColumn column) const;
-
-    /// As required_number, and within [low, high].
-    double required_number(CsvColumn column, double low, double high) const;
+    bool next_row() override;
+    using NumberTable::number;
+    double number(CsvColumn column) const override;
 
     /// The cell's text, unquoted and trimmed.
     std::string_view text(CsvColumn column) const { return cells_[column.index]; }
@@ -70,11 +46,12 @@ class CsvReader {
 
     std::size_t line_number() const { return line_number_; }
 
-    /// Share of the file that has been read, 0…1: for a progress display.
-    double fraction_read() const;
+    double fraction_read() const override;
 
-    /// Throws InputError "FILE:LINE: column 'NAME': MESSAGE" about the current row.
-    [[noreturn]] void fail(CsvColumn column, std::string_view message) const;
+  protected:
+    std::string place_of_names() const override;
+    std::string place_of_row() const override;
+    std::string shown(CsvColumn column) const override;
 
   private:
     [[noreturn]] void fail_line(std::string_view message) const;
@@ -83,9 +60,7 @@ class CsvReader {
     void drop_last_cell();
     void read_header();
 
-    std::string file_;
     std::ifstream in_;
-    std::vector<std::string> names_;
     std::string header_text_;
     std::vector<std::string> comments_;
     std::string line_;
@@ -116,7 +91,4 @@ class CsvWriter {
 
 /// Beyond it a number is no measurement, and CsvReader refuses it: far more than a time since 1970 in nanoseconds.
 inline constexpr double largest_number = 1e18;
-
-inline constexpr double no_estimate = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace millforce::host

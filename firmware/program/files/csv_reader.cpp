@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/csv.hpp"
 #include "files/input_error.hpp"
-#include "files/nearest_name.hpp"
 #include "files/printable.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +29,8 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-CsvReader::CsvReader(const std::filesystem::path& file) : file_(file.string()) {
+CsvReader::CsvReader(const std::filesystem::path& file) {
+    file_ = file.string();
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) {
         throw InputError(fmt::format("{}: is a folder; expected a CSV file", file_));
@@ -77,28 +77,6 @@ void CsvReader::read_header() {
         !first.empty()) {
         fail_line(fmt::format("'{}' is a number; expected a line of column names", printable(first)));
     }
-}
-
-std::optional<CsvColumn> CsvReader::find(std::string_view name) const {
-    const auto first = std::find(names_.begin(), names_.end(), name);
-    if (first == names_.end()) {
-        return std::nullopt;
-    }
-    if (std::find(first + 1, names_.end(), name) != names_.end()) {
-        throw InputError(fmt::format("{}:1: column '{}' stands there twice; expected once", file_, name));
-    }
-    return CsvColumn{static_cast<std::size_t>(first - names_.begin())};
-}
-
-CsvColumn CsvReader::require(std::string_view name, std::string_view reason) const {
-    if (const auto column = find(name)) {
-        return *column;
-    }
-    const std::string nearest = nearest_name(name, names_);
-    const std::string hint = nearest.empty() ? fmt::format("found only: {}", name_list(names_))
-                                             : fmt::format("the nearest is '{}'", printable(nearest));
-    throw InputError(
-        fmt::format("{}:1: no column '{}'{}{}; {}", file_, name, reason.empty() ? "" : ", ", reason, hint));
 }
 
 bool CsvReader::read_line() {
@@ -220,34 +198,20 @@ double CsvReader::number(CsvColumn column) const {
     return value;
 }
 
-double CsvReader::number(std::optional<CsvColumn> column) const {
-    return column ? number(*column) : no_estimate;
+std::string CsvReader::place_of_names() const {
+    return fmt::format("{}:1", file_);
 }
 
-double CsvReader::required_number(CsvColumn column) const {
-    const double value = number(column);
-    if (std::isnan(value)) {
-        fail(column, "the cell is empty; expected a number");
-    }
-    return value;
+std::string CsvReader::place_of_row() const {
+    return fmt::format("{}:{}", file_, line_number_);
 }
 
-double CsvReader::required_number(CsvColumn column, double low, double high) const {
-    const double value = required_number(column);
-    if (!(value >= low && value <= high)) {
-        fail(column,
-             fmt::format("'{}' is out of range; expected {} to {}", printable(cells_[column.index]), low, high));
-    }
-    return value;
-}
-
-void CsvReader::fail(CsvColumn column, std::string_view message) const {
-    throw InputError(
-        fmt::format("{}:{}: column '{}': {}", file_, line_number_, printable(names_[column.index]), message));
+std::string CsvReader::shown(CsvColumn column) const {
+    return printable(cells_[column.index]);
 }
 
 void CsvReader::fail_line(std::string_view message) const {
-    throw InputError(fmt::format("{}:{}: {}", file_, line_number_, message));
+    throw InputError(fmt::format("{}: {}", place_of_row(), message));
 }
 
 }  // namespace millforce::host

@@ -5,7 +5,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 namespace millforce::host {
@@ -14,6 +16,18 @@ namespace {
 
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Empty while it is too early to say.
+std::string time_left(double passed_s, double fraction) {
+    constexpr double early_s = 3.0;
+    constexpr double early_share = 0.02;
+    if (passed_s < early_s || fraction < early_share) {
+        return {};
+    }
+    const double left_s = passed_s * std::max(1.0 - fraction, 0.0) / fraction;
+    return left_s < 90.0 ? fmt::format(", about {:.0f} s left", left_s)
+                         : fmt::format(", about {:.0f} min left", std::ceil(left_s / 60.0));
 }
 
 }  // namespace
@@ -46,7 +60,7 @@ bool Progress::is_time_to_show() {
 
 void Progress::update(double fraction) {
     if (++calls_ % calls_per_look_ == 0 && is_time_to_show()) {
-        fmt::print(stderr, "\r{}: {:.0f} %\x1b[K", what_, 100.0 * fraction);
+        fmt::print(stderr, "\r{}: {:.0f} %{}\x1b[K", what_, 100.0 * fraction, time_left(last_s_ - start_s_, fraction));
         std::fflush(stderr);
     }
 }

@@ -6,7 +6,7 @@
 namespace millforce::host {
 
 /// One line on the terminal that says how far long work has come; silent where standard error is not a terminal, and
-/// for the first half second. The line is removed in the end.
+/// for the first half second. After some seconds it also says how many are left. The line is removed in the end.
 class Progress {
   public:
     explicit Progress(std::string what, unsigned calls_per_look = 256);

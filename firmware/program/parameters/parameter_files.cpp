@@ -123,8 +123,7 @@ struct MachineFileParts {
     LocalIoKeys local{};
 };
 
-MachineFileParts read_file(ParameterFile file, const std::string& path, firmware::Parameters<float>& parameters) {
-    TomlFile toml = TomlFile::open(path);
+MachineFileParts read_file(ParameterFile file, TomlFile toml, firmware::Parameters<float>& parameters) {
     TomlFile::Table root = toml.root();
     root.text("name", "");  // free text: it belongs to the file, but to no algorithm
     root.text("description", "");
@@ -165,21 +164,30 @@ firmware::Parameters<float> read_parameters(const std::string& machine_path, con
 }
 
 firmware::MachineParameters<float> read_machine_parameters(const std::string& machine_path) {
-    firmware::Parameters<float> parameters;
-    read_file(ParameterFile::machine, machine_path, parameters);
-    return parameters.machine;
+    return machine_parameters_in(TomlFile::open(machine_path));
 }
 
 firmware::ToolParameters<float> read_tool_parameters(const std::string& tool_path) {
+    return tool_parameters_in(TomlFile::open(tool_path));
+}
+
+firmware::MachineParameters<float> machine_parameters_in(TomlFile file) {
     firmware::Parameters<float> parameters;
-    read_file(ParameterFile::tool, tool_path, parameters);
-    refuse_a_limit_that_cannot_be_kept(tool_path, parameters.tool);
+    read_file(ParameterFile::machine, std::move(file), parameters);
+    return parameters.machine;
+}
+
+firmware::ToolParameters<float> tool_parameters_in(TomlFile file) {
+    const std::string path = file.path();
+    firmware::Parameters<float> parameters;
+    read_file(ParameterFile::tool, std::move(file), parameters);
+    refuse_a_limit_that_cannot_be_kept(path, parameters.tool);
     return parameters.tool;
 }
 
 std::optional<MachineBus> read_machine_bus(const std::string& machine_path) {
     firmware::Parameters<float> parameters;
-    const MachineFileParts parts = read_file(ParameterFile::machine, machine_path, parameters);
+    const MachineFileParts parts = read_file(ParameterFile::machine, TomlFile::open(machine_path), parameters);
     return machine_bus(machine_path, parameters.machine, parts.objects, parts.local);
 }
 

@@ -9,6 +9,7 @@
 namespace millforce::host {
 
 struct MachineBus;
+class TomlFile;
 
 /// Reads machine.toml and tool.toml by the parameter tables: every key has its type and range there; an unknown key is
 /// an error that names the nearest known one, a missing required key is named. Standard errors (KEY_se) and what a
@@ -21,6 +22,10 @@ firmware::MachineParameters<float> read_machine_parameters(const std::string& ma
 
 /// Reads tool.toml alone, by the same rules.
 firmware::ToolParameters<float> read_tool_parameters(const std::string& tool_path);
+
+/// The same of files that are parsed already, e.g. from text.
+firmware::MachineParameters<float> machine_parameters_in(TomlFile file);
+firmware::ToolParameters<float> tool_parameters_in(TomlFile file);
 
 /// The [bus] of machine.toml; nothing where no drive has a node id. Throws InputError as above, and where the settings
 /// do not fit together.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
 #include <type_traits>
 
-#include "firmware/parameter_fields.hpp"
+#include "firmware/file_tables.hpp"
 
 /// The table of all keys of machine.toml and tool.toml: what the TOML reader and writer, the calibrations and
 /// `millforce parameters` are made from. Fields and ranges come from firmware/parameter_fields.hpp, defaults from the
@@ -13,8 +12,8 @@
 
 namespace millforce::host {
 
-inline constexpr std::array<const char*, 3> axis_tables{"x", "y", "z"};
-inline constexpr std::array<const char*, 4> drive_tables{"bus.spindle", "bus.x", "bus.y", "bus.z"};
+using firmware::axis_tables;
+using firmware::drive_tables;
 
 enum class ParameterType : unsigned char {
     number,

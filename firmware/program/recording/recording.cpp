@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "estimation/number/circle.hpp"
 #include "files/input_error.hpp"
@@ -30,22 +31,8 @@ bool has(const hal::DriveSample& sample, std::uint8_t mask) {
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev,
                                  bool has_force_sensor)
-    : file_(file), counts_per_rev_(static_cast<double>(encoder_counts_per_rev)), has_force_sensor_(has_force_sensor) {
+    : file_(file), counts_(encoder_counts_per_rev), has_force_sensor_(has_force_sensor) {
     file_.stream() << header << (has_force_sensor_ ? ",fx_N,fy_N\n" : "\n");
-}
-
-double RecordingWriter::angle_rad(std::int64_t count) const {
-    return static_cast<double>(count) / counts_per_rev_ * turn_rad;
-}
-
-/// Time and count of the sample wrap at 2³²; those of the file go on.
-void RecordingWriter::follow(const hal::DriveSample& sample) {
-    time_us_ += static_cast<std::int32_t>(sample.time_us - last_time_us_);
-    last_time_us_ = sample.time_us;
-    if (has(sample, hal::mask(hal::Present::spindle_count))) {
-        count_ += static_cast<std::int32_t>(sample.spindle_count - last_count_);
-        last_count_ = sample.spindle_count;
-    }
 }
 
 template <typename Value>
@@ -58,11 +45,10 @@ void RecordingWriter::cell(Value value, bool present) {
 
 void RecordingWriter::add(const RecordedStep& step) {
     const hal::DriveSample& s = step.sample;
-    follow(s);
-    const bool has_count = has(s, hal::mask(hal::Present::spindle_count));
+    counts_.follow(s);
     const bool has_force = has_force_sensor_ && has(s, hal::mask(hal::Present::force_sensor));
-    line_ = CsvWriter::cell(static_cast<double>(time_us_) / 1e6);
-    cell(angle_rad(count_), has_count);
+    line_ = CsvWriter::cell(counts_.time_s());
+    cell(counts_.angle_rad(), ContinuousCounts::has_count(s));
     cell(s.spindle_current_A, has(s, hal::mask(hal::Present::spindle_current)));
     for (std::size_t k = 0; k < hal::axis_count; ++k) {
         cell(s.axis_current_A[k], has(s, hal::axis_mask(k)));
@@ -71,8 +57,7 @@ void RecordingWriter::add(const RecordedStep& step) {
         cell(s.axis_velocity_mm_s[k], has(s, hal::axis_mask(k)) || (k < s.force_N.size() && has_force));
     }
     cell(step.override_ratio);
-    cell(angle_rad(count_ + static_cast<std::int32_t>(s.spindle_index_count - s.spindle_count)),
-         has_count && s.spindle_index_number != 0);
+    cell(counts_.index_angle_rad(s), ContinuousCounts::has_index(s));
     cell(step.program.programmed_feed_mm_s);
     line_ += step.program.rapid ? ",1" : ",0";
     for (std::size_t k = 0; has_force_sensor_ && k < s.force_N.size(); ++k) {
@@ -83,20 +68,23 @@ void RecordingWriter::add(const RecordedStep& step) {
 }
 
 RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev)
-    : csv_(file),
+    : RecordingReader(std::make_unique<CsvReader>(file), encoder_counts_per_rev) {}
+
+RecordingReader::RecordingReader(std::unique_ptr<NumberTable> rows, std::uint32_t encoder_counts_per_rev)
+    : rows_(std::move(rows)),
       counts_per_rev_(encoder_counts_per_rev),
-      time_(csv_.require("time_s")),
-      angle_(csv_.require("spindle_angle_rad", "averages are taken over the spindle's angle")),
-      spindle_current_(csv_.find("spindle_current_A")),
-      fx_(csv_.find("fx_N")),
-      fy_(csv_.find("fy_N")),
-      index_angle_(csv_.find("spindle_index_angle_rad")),
-      programmed_feed_(csv_.find("programmed_feed_mm_s")),
-      rapid_(csv_.find("rapid")),
-      tool_(csv_.find("tool")) {
+      time_(rows_->require("time_s")),
+      angle_(rows_->require("spindle_angle_rad", "averages are taken over the spindle's angle")),
+      spindle_current_(rows_->find("spindle_current_A")),
+      fx_(rows_->find("fx_N")),
+      fy_(rows_->find("fy_N")),
+      index_angle_(rows_->find("spindle_index_angle_rad")),
+      programmed_feed_(rows_->find("programmed_feed_mm_s")),
+      rapid_(rows_->find("rapid")),
+      tool_(rows_->find("tool")) {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
-        axes_[k].current = csv_.find(fmt::format("{}_current_A", axis_names[k]));
-        axes_[k].velocity = csv_.find(fmt::format("{}_velocity_mm_s", axis_names[k]));
+        axes_[k].current = rows_->find(fmt::format("{}_current_A", axis_names[k]));
+        axes_[k].velocity = rows_->find(fmt::format("{}_velocity_mm_s", axis_names[k]));
     }
     require_drives();
 }
@@ -104,7 +92,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, std::uint32_
 /// A force sensor replaces the currents, but not the velocities.
 void RecordingReader::require_drives() const {
     if (!has_force_sensor()) {
-        csv_.require("spindle_current_A", "the tangential force comes from it");
+        rows_->require("spindle_current_A", "the tangential force comes from it");
     }
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         const bool gives_feed = has_force_sensor() ? k < 2 : axes_[k].current.has_value();
@@ -117,16 +105,16 @@ void RecordingReader::require_drives() const {
                                  "direction come from the velocities"
                                : "expected the columns x_current_A and x_velocity_mm_s, or those of y or z: the feed "
                                  "per tooth comes from the velocities";
-    throw InputError(fmt::format("{}:1: {}", csv_.file_name(), expected));
+    rows_->fail_names(expected);
 }
 
 bool RecordingReader::next() {
-    if (!csv_.next_row()) {
+    if (!rows_->next_row()) {
         return false;
     }
-    const double time_s = csv_.required_number(time_, -1e9, 1e9);
+    const double time_s = rows_->required_number(time_, -1e9, 1e9);
     if (time_s <= time_s_) {
-        csv_.fail(time_, fmt::format("{} after {}, expected a time that grows", time_s, time_s_));
+        rows_->fail(time_, fmt::format("{} after {}, expected a time that grows", time_s, time_s_));
     }
     time_s_ = time_s;
     sample_ = {};
@@ -141,12 +129,12 @@ bool RecordingReader::next() {
 
 /// The encoder's count at an angle; the tolerance is for the angle's last digit.
 std::optional<std::uint32_t> RecordingReader::count_at(std::optional<CsvColumn> column) const {
-    const double angle = csv_.number(column);
+    const double angle = rows_->number(column);
     if (std::isnan(angle)) {
         return std::nullopt;
     }
     if (std::abs(angle) > 1e7) {
-        csv_.fail(*column, fmt::format("{}, expected an angle within ±1e7 rad", angle));
+        rows_->fail(*column, fmt::format("{}, expected an angle within ±1e7 rad", angle));
     }
     return static_cast<std::uint32_t>(
         static_cast<std::int64_t>(std::floor(angle / turn_rad * static_cast<double>(counts_per_rev_) + 1e-6)));
@@ -166,14 +154,14 @@ std::optional<std::uint32_t> RecordingReader::index_of_zero() const {
     if ((sample_.present & hal::mask(hal::Present::spindle_count)) == 0) {
         return std::nullopt;
     }
-    const double turns = std::floor(csv_.number(angle_) / turn_rad + 1e-9) + whole_turns_;
+    const double turns = std::floor(rows_->number(angle_) / turn_rad + 1e-9) + whole_turns_;
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(turns) * static_cast<std::int64_t>(counts_per_rev_));
 }
 
 void RecordingReader::read_spindle() {
     if (const auto count = count_at(angle_)) {
         if (!index_angle_) {
-            follow_turns(csv_.number(angle_));
+            follow_turns(rows_->number(angle_));
         }
         sample_.spindle_count = *count + static_cast<std::uint32_t>(whole_turns_) * counts_per_rev_;
         sample_.present |= hal::mask(hal::Present::spindle_count);
@@ -185,7 +173,7 @@ void RecordingReader::read_spindle() {
     }
     sample_.spindle_index_count = index_count_;
     sample_.spindle_index_number = index_number_;
-    const double current = csv_.number(spindle_current_);
+    const double current = rows_->number(spindle_current_);
     if (std::isfinite(current)) {
         sample_.spindle_current_A = static_cast<float>(current);
         sample_.present |= hal::mask(hal::Present::spindle_current);
@@ -194,8 +182,8 @@ void RecordingReader::read_spindle() {
 
 void RecordingReader::read_axes() {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
-        const double current = csv_.number(axes_[k].current);
-        const double velocity = csv_.number(axes_[k].velocity);
+        const double current = rows_->number(axes_[k].current);
+        const double velocity = rows_->number(axes_[k].velocity);
         if (std::isfinite(current) && std::isfinite(velocity)) {
             sample_.axis_current_A[k] = static_cast<float>(current);
             sample_.axis_velocity_mm_s[k] = static_cast<float>(velocity);
@@ -208,10 +196,10 @@ void RecordingReader::read_force_sensor() {
     if (!has_force_sensor()) {
         return;
     }
-    const std::array<double, 2> force_N{csv_.number(fx_), csv_.number(fy_)};
+    const std::array<double, 2> force_N{rows_->number(fx_), rows_->number(fy_)};
     bool is_there = true;
     for (std::size_t k = 0; k < force_N.size(); ++k) {
-        const double velocity_mm_s = axes_[k].velocity ? csv_.number(axes_[k].velocity) : 0.0;
+        const double velocity_mm_s = axes_[k].velocity ? rows_->number(axes_[k].velocity) : 0.0;
         is_there = is_there && std::isfinite(force_N[k]) && std::isfinite(velocity_mm_s);
         sample_.force_N[k] = static_cast<float>(force_N[k]);
         sample_.axis_velocity_mm_s[k] = static_cast<float>(velocity_mm_s);
@@ -220,23 +208,23 @@ void RecordingReader::read_force_sensor() {
 }
 
 void RecordingReader::read_program() {
-    const double feed_mm_s = csv_.number(programmed_feed_);
+    const double feed_mm_s = rows_->number(programmed_feed_);
     if (feed_mm_s < 0.0 || feed_mm_s > 1e5) {
-        csv_.fail(*programmed_feed_, fmt::format("{}, expected a feed from 0 to 1e5 mm/s", feed_mm_s));
+        rows_->fail(*programmed_feed_, fmt::format("{}, expected a feed from 0 to 1e5 mm/s", feed_mm_s));
     }
     program_.programmed_feed_mm_s = std::isnan(feed_mm_s) ? 0.0F : static_cast<float>(feed_mm_s);
-    program_.rapid = csv_.number(rapid_) > 0.5;
+    program_.rapid = rows_->number(rapid_) > 0.5;
 }
 
 void RecordingReader::read_tool() {
-    const double number = csv_.number(tool_);
+    const double number = rows_->number(tool_);
     if (std::isnan(number)) {
         tool_number_ = 0;
         return;
     }
     constexpr double largest = std::numeric_limits<std::uint32_t>::max();
     if (!(number >= 0.0 && number <= largest) || number != std::floor(number)) {
-        csv_.fail(*tool_, fmt::format("{}, expected the number of a tool; 0 or nothing where there is none", number));
+        rows_->fail(*tool_, fmt::format("{}, expected the number of a tool; 0 or nothing where there is none", number));
     }
     tool_number_ = static_cast<std::uint32_t>(number);
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "files/atomic_file.hpp"
 #include "files/csv.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
+#include "recording/continuous_counts.hpp"
 
 namespace millforce::host {
 
@@ -31,19 +33,13 @@ class RecordingWriter {
     void commit() { file_.commit(); }
 
   private:
-    void follow(const hal::DriveSample& sample);
-    [[nodiscard]] double angle_rad(std::int64_t count) const;
     template <typename Value>
     void cell(Value value, bool present = true);
 
     AtomicFile file_;
-    double counts_per_rev_;
+    ContinuousCounts counts_;
     bool has_force_sensor_;
     std::string line_;
-    std::int64_t time_us_ = 0;
-    std::int64_t count_ = 0;
-    std::uint32_t last_time_us_ = 0;
-    std::uint32_t last_count_ = 0;
 };
 
 /// Reads a recording row by row as drive samples. Columns are found by name; a current or velocity that is missing, as
@@ -60,6 +56,8 @@ class RecordingWriter {
 class RecordingReader {
   public:
     RecordingReader(const std::filesystem::path& file, std::uint32_t encoder_counts_per_rev);
+    /// The same from other rows than those of a file.
+    RecordingReader(std::unique_ptr<NumberTable> rows, std::uint32_t encoder_counts_per_rev);
 
     bool next();
     [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
@@ -72,7 +70,7 @@ class RecordingReader {
     /// Whether index pulses are recorded; else the angle's zero stands for them.
     [[nodiscard]] bool has_index() const { return index_angle_.has_value(); }
     [[nodiscard]] bool has_one_force_only() const { return fx_.has_value() != fy_.has_value(); }
-    [[nodiscard]] double fraction_read() const { return csv_.fraction_read(); }
+    [[nodiscard]] double fraction_read() const { return rows_->fraction_read(); }
 
   private:
     struct Axis {
@@ -89,7 +87,7 @@ class RecordingReader {
     [[nodiscard]] std::optional<std::uint32_t> index_of_zero() const;
     [[nodiscard]] std::optional<std::uint32_t> count_at(std::optional<CsvColumn> angle) const;
 
-    CsvReader csv_;
+    std::unique_ptr<NumberTable> rows_;
     std::uint32_t counts_per_rev_;
     CsvColumn time_;
     CsvColumn angle_;

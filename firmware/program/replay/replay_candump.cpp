@@ -13,6 +13,7 @@
 #include "parameters/parameter_files.hpp"
 #include "replay/candump_replay.hpp"
 #include "replay/estimate_table.hpp"
+#include "replay/replay_mcap.hpp"
 #include "replay/run_check.hpp"
 #include "run_report/run_report.hpp"
 
@@ -69,6 +70,7 @@ int replay_candump(const ReplayCandumpOptions& options) {
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     CandumpReplay replay(settings_of(options, tools));
     EstimateTable table({options.log, options.output, options.interval_s}, tools, WideBandSource::none);
+    ReplayMcap mcap(options.mcap, tools);
     std::optional<RunCheck> check;
     if (!options.run_log.empty()) {
         check.emplace(options.run_log, ToolForces(tools));
@@ -88,6 +90,12 @@ int replay_candump(const ReplayCandumpOptions& options) {
             if (table.is_due(seconds_of(controller.tick_time_us()))) {
                 table.write({seconds_of(record.time_us), record, controller.tool(), controller.controller().roughness(),
                              controller.controller().wide_band()});
+                mcap.write(seconds_of(record.time_us), {.tick = record,
+                                                        .tool = controller.tool(),
+                                                        .is_held = controller.sent_override().hold,
+                                                        .drives = controller.sample(),
+                                                        .program = controller.program(),
+                                                        .conditions = controller.conditions()});
             }
         },
         [&](double share) { table.show_progress(share); });
@@ -102,6 +110,7 @@ int replay_candump(const ReplayCandumpOptions& options) {
     if (check) {
         fmt::print(exit_code == 0 && table.goes_to_a_file() ? stdout : stderr, "{}", check->summary());
     }
+    mcap.commit();
     table.commit("; " + summary_of(replay), {});
     return finish_report(report.get(), stderr) ? exit_code : 1;
 }

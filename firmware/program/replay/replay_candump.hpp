@@ -17,6 +17,7 @@ struct ReplayCandumpOptions {
     std::string interface;  ///< empty: the only one of the log
     double interval_s = 0.02;
     std::string run_log;  ///< file of `millforce run --log`, to compare with; empty: none
+    std::string mcap;     ///< file to write, too; empty: none
     BusPace pace{};
     std::string report{};  ///< folder for the page; empty: none
 };

@@ -41,6 +41,13 @@ void RunPeak::add(float new_share, double at_s) {
     }
 }
 
+void RunMean::add(float value, double step_s) {
+    if (!std::isnan(value)) {
+        integral += static_cast<double>(value) * step_s;
+        known_s += step_s;
+    }
+}
+
 void RunBin::add(const RunBin& later) {
     if (later.is_empty) {
         return;
@@ -106,23 +113,19 @@ float RunHistory::tooth_force_limit_N(std::uint32_t tool) const {
 
 void RunHistory::add_to_totals(double step_s, const firmware::TickRecord& tick, float limit_N) {
     const hal::FeedOverride& out = tick.feed_override;
-    const std::size_t limit = tick.limit % control::limit_count;
+    const auto state = static_cast<control::CutState>(out.state);
     totals_.in_state_s[out.state % control::state_count] += step_s;
-    totals_.held_s[limit] += step_s;
+    totals_.ceilings.add(step_s, static_cast<control::Limit>(tick.limit), state);
     totals_.hold_s += out.hold ? step_s : 0.0;
-    totals_.radial_immersion.add(tick.radial_immersion);
-    totals_.axial_depth_mm.add(tick.axial_depth_mm);
     RunPeak& peak = is_bound(tick) ? totals_.bound : totals_.peak;
     peak.add(tick.tooth_force_N / limit_N, totals_.length_s);
-    if (!control::is_cutting(static_cast<control::CutState>(out.state))) {
+    if (!control::is_cutting(state)) {
         return;
     }
-    totals_.cut_s += step_s;
-    totals_.held_in_cut_s[limit] += step_s;
-    totals_.with_immersion_s += std::isnan(tick.radial_immersion) ? 0.0 : step_s;
-    totals_.with_depth_s += std::isnan(tick.axial_depth_mm) ? 0.0 : step_s;
+    totals_.radial_immersion.add(tick.radial_immersion, step_s);
+    totals_.axial_depth_mm.add(tick.axial_depth_mm, step_s);
+    totals_.override_ratio.add(out.ratio, step_s);
     peak.over_limit_s += tick.tooth_force_N > limit_N ? step_s : 0.0;
-    totals_.override_s += static_cast<double>(out.ratio) * step_s;
 }
 
 void RunHistory::add_to_bin(double step_s, const firmware::TickRecord& tick, float limit_N) {

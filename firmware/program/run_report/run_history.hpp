@@ -14,6 +14,7 @@
 #include "control/cut_state.hpp"
 #include "firmware/tick_record.hpp"
 #include "parameters/tool_set.hpp"
+#include "run_report/ceiling_table.hpp"
 
 /// What the page of a run is made of, gathered tick by tick in memory that does not grow: 0.3 MB for a second or a
 /// week.
@@ -64,23 +65,28 @@ struct RunPeak {
     void add(float new_share, double at_s);
 };
 
+/// Mean over the time for which there was a value.
+struct RunMean {
+    double integral = 0.0;
+    double known_s = 0.0;
+
+    void add(float value, double step_s);
+    [[nodiscard]] double mean() const { return integral / known_s; }
+};
+
 /// Figures of the whole run.
 struct RunTotals {
     std::uint64_t ticks = 0;
     double length_s = 0.0;   ///< from the first tick to the last
     double missing_s = 0.0;  ///< of it without ticks: gaps longer than `longest_step_s`
-    double cut_s = 0.0;      ///< in the states entry and in_cut; all below this are of that time
-    double with_immersion_s = 0.0;
-    double with_depth_s = 0.0;
-    double override_s = 0.0;  ///< integral of the override
-    double hold_s = 0.0;      ///< feed held, in any state
-    std::array<double, control::limit_count> held_s{};
-    std::array<double, control::limit_count> held_in_cut_s{};
+    CeilingTimes ceilings;
+    RunMean radial_immersion;  ///< this and the next two: in the cut
+    RunMean axial_depth_mm;
+    RunMean override_ratio;
+    double hold_s = 0.0;  ///< feed held, in any state
     std::array<double, control::state_count> in_state_s{};
     RunPeak peak;   ///< where the immersion was known
     RunPeak bound;  ///< where it was not: the most that it can have been
-    ValueRange radial_immersion;
-    ValueRange axial_depth_mm;
 };
 
 struct RunEvent {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "report/page_assets.hpp"
 #include "report/page_parts.hpp"
@@ -18,35 +19,8 @@ namespace {
 using control::CutState;
 using control::Limit;
 
-double share_of(double part, double whole) {
-    return whole > 0.0 ? part / whole : 0.0;
-}
-
 std::string percent(float share) {
     return fmt::format("{:.0f} %", 100.0 * static_cast<double>(share));
-}
-
-/// Of the time with ticks.
-double measured_s(const RunTotals& totals) {
-    return totals.length_s - totals.missing_s;
-}
-
-/// In the order of the time for which they held the feed in the cut, then of all time.
-std::vector<Limit> ceilings_of(const RunTotals& totals) {
-    std::vector<Limit> ceilings;
-    for (unsigned k = 0; k < control::limit_count; ++k) {
-        if (totals.held_s[k] > 0.0) {
-            ceilings.push_back(static_cast<Limit>(k));
-        }
-    }
-    std::stable_sort(ceilings.begin(), ceilings.end(), [&](Limit a, Limit b) {
-        const auto times = [&](Limit limit) {
-            const auto k = static_cast<std::size_t>(limit);
-            return std::pair(totals.held_in_cut_s[k], totals.held_s[k]);
-        };
-        return times(a) > times(b);
-    });
-    return ceilings;
 }
 
 std::string above_words(const RunPeak& peak, const char* verb) {
@@ -72,12 +46,12 @@ std::string load_words(const RunTotals& totals) {
 }
 
 std::string ceiling_words(const RunTotals& totals, const RunOrigin& origin) {
-    const std::vector<Limit> ceilings = ceilings_of(totals);
+    const std::vector<Limit> ceilings = totals.ceilings.longest_first();
     if (origin.is_monitor_only) {
         return "The tool's file says monitor_only: the feed was the operator's. ";
     }
     const Limit first = ceilings.empty() ? Limit::none : ceilings.front();
-    const double share = share_of(totals.held_in_cut_s[static_cast<std::size_t>(first)], totals.cut_s);
+    const double share = share_of(totals.ceilings.in_cut(first), totals.ceilings.cut_s);
     return fmt::format("For {} of the cut the ceiling on the feed was: {}. ", readable_share(share),
                        words_of(first).label);
 }
@@ -96,10 +70,10 @@ std::string verdict_html(const RunHistory& history, const RunOrigin& origin) {
     if (history.is_empty()) {
         return "No complete sample of the drives came, so there is nothing to show.";
     }
-    if (!(totals.cut_s > 0.0)) {
+    if (!(totals.ceilings.cut_s > 0.0)) {
         return fmt::format("In {} no cut was seen. ", readable_time(totals.length_s)) + fault_words(history);
     }
-    return fmt::format("The tool was in the cut for {} of {}. ", readable_time(totals.cut_s, totals.length_s),
+    return fmt::format("The tool was in the cut for {} of {}. ", readable_time(totals.ceilings.cut_s, totals.length_s),
                        readable_time(totals.length_s)) +
            load_words(totals) + ceiling_words(totals, origin) + fault_words(history) +
            (origin.is_replay
@@ -108,21 +82,31 @@ std::string verdict_html(const RunHistory& history, const RunOrigin& origin) {
                 : "");
 }
 
+/// Single estimates scatter: one above the limit is not yet a tooth above it.
+const char* style_of_load(const RunTotals& totals, float share) {
+    constexpr double scatter_share = 0.01;
+    if (!(share > 1.0F)) {
+        return "hero held";
+    }
+    const bool has_fault = totals.in_state_s[static_cast<std::size_t>(CutState::fault)] > 0.0;
+    const bool stays_above = totals.peak.over_limit_s > scatter_share * totals.ceilings.cut_s;
+    return has_fault || stays_above ? "hero over" : "hero";
+}
+
 std::string stats_html(const RunTotals& totals, const RunOrigin& origin) {
-    if (!(totals.cut_s > 0.0)) {
+    if (!(totals.ceilings.cut_s > 0.0)) {
         return {};
     }
     const bool is_known = !std::isnan(totals.peak.share);
     const float share = is_known ? totals.peak.share : totals.bound.share;
-    const double mean_override = share_of(totals.override_s, totals.cut_s);
-    return stat_html(share > 1.0F ? "hero over" : "hero held", std::isnan(share) ? "–" : percent(share),
+    return stat_html(style_of_load(totals, share), std::isnan(share) ? "–" : percent(share),
                      is_known ? "of its limit: the largest load on one tooth, as estimated from the currents"
                               : "of its limit at most: the largest load on one tooth, by the currents") +
-           stat_html("", fmt::format("{:.0f} %", 100.0 * mean_override),
+           stat_html("", fmt::format("{:.0f} %", 100.0 * totals.override_ratio.mean()),
                      origin.is_replay
                          ? "of the programmed feed: what the controller would have sent in the cut, on average"
                          : "of the programmed feed: the override in the cut, on average") +
-           stat_html("", readable_time(totals.cut_s), "in the cut");
+           stat_html("", readable_time(totals.ceilings.cut_s), "in the cut");
 }
 
 std::string facts_html(const RunHistory& history, const RunOrigin& origin) {
@@ -132,43 +116,10 @@ std::string facts_html(const RunHistory& history, const RunOrigin& origin) {
         out += fact_html(name, value);
     }
     out += fact_html("Length", readable_time(totals.length_s));
+    out += fact_html("Feed held for", readable_time(totals.hold_s));
     out += fact_html("Samples", fmt::to_string(totals.ticks));
     out += fact_html("Time without samples", totals.missing_s > 0.0 ? readable_time(totals.missing_s) : "");
     return out + fact_html("Samples missing on this page", history.lost() > 0 ? fmt::to_string(history.lost()) : "");
-}
-
-/// Each key in a line of its own, which may break after an underscore.
-std::string keys_html(std::string_view keys) {
-    std::string out;
-    while (!keys.empty()) {
-        const std::size_t end = std::min(keys.find(", "), keys.size());
-        out += "<code>";
-        for (const char letter : keys.substr(0, end)) {
-            out += letter == '_' ? std::string("_<wbr>") : std::string(1, letter);
-        }
-        out += "</code>";
-        keys.remove_prefix(std::min(end + 2, keys.size()));
-    }
-    return out;
-}
-
-std::string ceilings_html(const RunTotals& totals) {
-    std::string out =
-        "<table class=\"figures\" style=\"--values: 2\">\n<thead><tr><th scope=\"col\">Ceiling and its key</th>"
-        "<th scope=\"col\">in the cut</th><th scope=\"col\">of all time</th>"
-        "<th scope=\"col\" class=\"explanation\">Why the feed was not higher</th></tr></thead>\n<tbody>\n";
-    for (const Limit limit : ceilings_of(totals)) {
-        const CeilingWords& words = words_of(limit);
-        const double in_cut_s = totals.held_in_cut_s[static_cast<std::size_t>(limit)];
-        const double held_s = totals.held_s[static_cast<std::size_t>(limit)];
-        out += fmt::format(
-            "<tr><th scope=\"row\"><span class=\"swatch\" style=\"background: var(--limit-{})\"></span>{} {}</th>"
-            "<td>{}<small>{}</small></td><td>{}<small>{}</small></td><td class=\"explanation\">{}</td></tr>\n",
-            static_cast<unsigned>(limit), words.label, keys_html(words.keys),
-            readable_share(share_of(in_cut_s, totals.cut_s)), readable_time(in_cut_s),
-            readable_share(share_of(held_s, measured_s(totals))), readable_time(held_s), words.meaning);
-    }
-    return out + "</tbody>\n</table>\n";
 }
 
 std::string states_html(const RunTotals& totals) {
@@ -185,19 +136,29 @@ std::string states_html(const RunTotals& totals) {
         out += fmt::format(
             "<tr><th scope=\"row\"><span class=\"swatch\" style=\"background: var(--state-{})\"></span>{}</th>"
             "<td>{}<small>{}</small></td><td class=\"explanation\">{}</td></tr>\n",
-            control::name(state), name, readable_share(share_of(totals.in_state_s[k], measured_s(totals))),
+            control::name(state), name, readable_share(share_of(totals.in_state_s[k], totals.ceilings.all_s)),
             readable_time(totals.in_state_s[k]), meaning_of(state));
     }
     return out + "</tbody>\n</table>\n";
 }
 
-std::string estimate_words(const RunTotals& totals) {
-    if (!(totals.cut_s > 0.0)) {
-        return "There was no cut to estimate.";
+/// `unit`: with the blank before it.
+std::string mean_words(const RunMean& mean, const RunTotals& totals, const char* unit) {
+    if (!(mean.known_s > 0.0)) {
+        return "In this run it was never known.";
     }
-    return fmt::format("There was an immersion in {} of the cut and a depth in {}.",
-                       readable_share(share_of(totals.with_immersion_s, totals.cut_s)),
-                       readable_share(share_of(totals.with_depth_s, totals.cut_s)));
+    return fmt::format("In this run it was known in {} of the cut, and was {:.2f}{} on average.",
+                       readable_share(share_of(mean.known_s, totals.ceilings.cut_s)), mean.mean(), unit);
+}
+
+/// Alike in all of a list: in a long run as hours, minutes and seconds.
+std::string time_of_event(double time_s, double length_s) {
+    constexpr double long_s = 600.0;
+    if (length_s < long_s) {
+        return fmt::format("{:.2f} s", time_s);
+    }
+    const auto seconds = static_cast<std::int64_t>(time_s);
+    return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
 std::string events_html(const RunHistory& history) {
@@ -207,8 +168,9 @@ std::string events_html(const RunHistory& history) {
     }
     std::string out = "<ol class=\"events\">\n";
     for (const RunEvent& event : events) {
-        out += fmt::format("<li{}><span class=\"when\">{:.2f} s</span> {}</li>\n",
-                           event.is_fault ? " class=\"fault\"" : "", event.time_s, html_escaped(event.text));
+        out += fmt::format("<li{}><span class=\"when\">{}</span><span>{}</span></li>\n",
+                           event.is_fault ? " class=\"fault\"" : "",
+                           time_of_event(event.time_s, history.totals().length_s), html_escaped(event.text));
     }
     out += "</ol>\n";
     return history.events_left_out() == 0
@@ -224,9 +186,10 @@ std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
     const std::string facts = facts_html(history, origin);
     const std::string stats = stats_html(totals, origin);
     const std::string verdict = verdict_html(history, origin);
-    const std::string ceilings = ceilings_html(totals);
+    const std::string ceilings = ceilings_html(totals.ceilings);
     const std::string states = states_html(totals);
-    const std::string estimates = estimate_words(totals);
+    const std::string immersion = mean_words(totals.radial_immersion, totals, "");
+    const std::string depth = mean_words(totals.axial_depth_mm, totals, " mm");
     const std::string events = events_html(history);
     const std::string data = run_page_json(history);
     return filled(run_page_assets::run_template(),
@@ -237,7 +200,8 @@ std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
                       {"verdict", verdict},
                       {"ceilings", ceilings},
                       {"states", states},
-                      {"estimates", estimates},
+                      {"immersion", immersion},
+                      {"depth", depth},
                       {"events", events},
                       {"data", data},
                       {"report_style", page_assets::report_style()},

@@ -5,16 +5,17 @@
 #include <utility>
 #include <vector>
 
+#include "report/page_origin.hpp"
 #include "run_report/run_history.hpp"
 
 namespace millforce::host {
 
 /// Where a run's data come from, as its page states it.
 struct RunOrigin {
-    std::string title;                                         ///< e.g. "Run on can0"
-    bool is_replay = false;                                    ///< the override did not act
-    bool is_monitor_only = false;                              ///< the tool's file leaves the override to the operator
-    std::vector<std::pair<std::string, std::string>> facts{};  ///< machine, tool, versions, command, dates
+    std::string title;             ///< e.g. "Run on can0"
+    bool is_replay = false;        ///< the override did not act
+    bool is_monitor_only = false;  ///< the tool's file leaves the override to the operator
+    Facts facts{};                 ///< machine, tool, versions, command, dates
 };
 
 /// report.html of a run: one page that asks the network for nothing. Words and tables are plain HTML and need no

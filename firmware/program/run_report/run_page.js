@@ -6,7 +6,10 @@
   const { LinkedCharts, drawBand, drawStrip, element, colour } = charts;
   const data = JSON.parse(document.getElementById("run-data").textContent);
   const byId = (id) => document.getElementById(id);
-  const axis = { ...data, name: "time, s", format: (value) => `${value.toFixed(2)} s` };
+  /** Seconds are no unit for a day. */
+  const [unit, unitSeconds] = data.length < 600 ? ["s", 1] : data.length < 18000 ? ["min", 60] : ["h", 3600];
+  const axis = { ...data, length: data.length / unitSeconds, name: `time, ${unit}`,
+    format: (value) => `${value.toFixed(2)} ${unit}` };
   const force = (value) => `${value.toFixed(0)} N`;
   const words = (name) => name.replaceAll("_", " ");
   const stateColour = (digit) => `state-${data.state_names[digit]}`;
@@ -36,7 +39,7 @@
   function drawFaults(context, area, graph) {
     context.fillStyle = colour("over");
     for (const event of data.events) {
-      if (event.fault) context.fillRect(graph.toDomXCoord(event.time_s) - 1, area.y, 2, area.h);
+      if (event.fault) context.fillRect(graph.toDomXCoord(event.time_s / unitSeconds) - 1, area.y, 2, area.h);
     }
   }
 

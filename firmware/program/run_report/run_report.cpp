@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_report/run_report.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <sys/utsname.h>
-
-#include <algorithm>
 #include <chrono>
-#include <ctime>
-#include <fstream>
-#include <iterator>
 
 #include "files/atomic_file.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
 #include "files/printable.hpp"
 #include "files/results_folder.hpp"
+#include "report/page_origin.hpp"
 #include "report/page_parts.hpp"
 
 namespace millforce::host {
@@ -25,34 +19,6 @@ namespace {
 
 double monotonic_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// By this computer's clock and in its time zone.
-std::string date_and_time() {
-    return fmt::format("{:%Y-%m-%d %H:%M:%S %z}", fmt::localtime(std::time(nullptr)));
-}
-
-/// As it was typed, but for the folder of the program; words with blanks in quotes.
-std::string command_of_this_process() {
-    std::ifstream in("/proc/self/cmdline", std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    std::string command;
-    for (std::size_t begin = 0; begin < bytes.size();) {
-        const std::size_t end = std::min(bytes.find('\0', begin), bytes.size());
-        std::string word = bytes.substr(begin, end - begin);
-        if (begin == 0) {
-            word = std::filesystem::path(word).filename().string();
-        }
-        const bool is_plain = !word.empty() && word.find_first_of(" '\"\\$") == std::string::npos;
-        command += (begin == 0 ? "" : " ") + (is_plain ? word : "'" + word + "'");
-        begin = end + 1;
-    }
-    return without_controls(command);
-}
-
-std::string system_of_this_computer() {
-    utsname name{};
-    return uname(&name) == 0 ? fmt::format("{} {}", name.sysname, name.release) : std::string();
 }
 
 std::string title_of(const RunReport::Settings& settings) {
@@ -100,9 +66,9 @@ RunReport::RunReport(const Settings& settings, const ToolSet& tools)
         {"Limit of a tooth (tooth_force_limit_N)", limit_text(tools)},
         {"Samples per second, by the machine's file",
          fmt::format("{:g}", tools.parameters().machine.cnc.sample_rate_hz)},
-        {"Program", fmt::format("millforce {}, {}", MILLFORCE_VERSION, system_of_this_computer())},
-        {"Command", command_of_this_process()},
     };
+    const Facts process = facts_of_this_process();
+    origin_.facts.insert(origin_.facts.end(), process.begin(), process.end());
 }
 
 std::filesystem::path RunReport::write() {

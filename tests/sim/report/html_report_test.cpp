@@ -9,6 +9,7 @@
 #include "firmware/program/report/json_check.hpp"
 #include "report/html_report.hpp"
 #include "report/report_data.hpp"
+#include "report/summary.hpp"
 #include "synthetic_run.hpp"
 
 using namespace millforce::sim;
@@ -40,6 +41,7 @@ TEST_GROUP(HtmlReport) {
 };
 
 TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
+    info.origin = {{"Command", "millforce simulate <part>"}};
     const std::string html = report_html(info, both_runs());
     const std::string data = embedded_data(html);
     CHECK(millforce::host::JsonCheck::valid(data));
@@ -48,6 +50,7 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
         LONGS_EQUAL(0, count_of(html, placeholder));
     }
     CHECK(html.find("Dygraph") != std::string::npos);
+    CHECK(html.find("<dt>Command</dt><dd>millforce simulate &lt;part&gt;</dd>") != std::string::npos);
 }
 
 TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
@@ -92,6 +95,39 @@ TEST(HtmlReport, TheHeadlineIsTheTimeSavedAndThePeakOverTheLimit) {
     CHECK(html.find("<strong>1 min 0 s</strong><span>instead of 2 min 30 s") != std::string::npos);
     CHECK(html.find("<div class=\"stat held\"><strong>98 %</strong>") != std::string::npos);
     CHECK(html.find("No tooth went over its limit; none broke.") != std::string::npos);
+}
+
+TEST(HtmlReport, TheHeadlineSaysAgainstWhichFeedsTheTimeCounts) {
+    std::vector<RunResult> runs = both_runs();
+    runs.push_back(synthetic::pocket_run("constant"));
+    runs[2].controller = constant_feed_in_hindsight;
+    runs[0].figures.time_s = 60.0;
+    runs[1].figures.time_s = 150.0;
+    runs[2].figures.time_s = 75.0;
+    info.constant_feed_mm_s = 10.0;
+    info.hindsight_feed_mm_s = 20.0;
+    info.hardest_material = 1.3;
+    const std::string html = report_html(info, runs);
+    CHECK(html.find("<strong>60.0 %</strong><span>less machining time than the fastest constant feed that is safe "
+                    "everywhere for material up to 30 % harder: 600 mm/min") != std::string::npos);
+    CHECK(html.find("<strong>20.0 %</strong><span>less machining time than the best constant feed for exactly this "
+                    "material, which is known only in hindsight: 1200 mm/min") != std::string::npos);
+}
+
+TEST(HtmlReport, ASlowerPartSaysHowManyTimesAndWhichCeilingCostTheTime) {
+    std::vector<RunResult> runs = both_runs();
+    runs[0].figures.time_s = 180.0;
+    runs[1].figures.time_s = 10.0;
+    for (TracePoint& point : runs[0].trace) {
+        point.feed_mm_s = point.time_s < 20.0 ? 0.5 : 2.0;
+        point.limit = static_cast<std::uint8_t>(point.time_s < 20.0 ? millforce::control::Limit::force
+                                                                    : millforce::control::Limit::air_feed);
+    }
+    const std::string html = report_html(info, runs);
+    CHECK(html.find("<strong>18.0 times</strong><span>the machining time of the fastest constant feed") !=
+          std::string::npos);
+    CHECK(html.find("Why it took longer:") != std::string::npos);
+    CHECK(html.find("the ceiling on the feed was “feed in air”") != std::string::npos);
 }
 
 TEST(HtmlReport, AnExceededLimitIsSaid) {

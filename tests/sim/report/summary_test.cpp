@@ -83,7 +83,7 @@ TEST(Summary, ARunThatStopsEarlyHasSavedNothing) {
 TEST(Summary, WithoutAConstantRunThereIsNoTimeSaved) {
     runs.erase(runs.begin() + 1);
     CHECK_FALSE(time_saved_percent(runs[0], runs).has_value());
-    CHECK(constant_feed_run(runs) == nullptr);
+    CHECK(run_named(constant_feed, runs) == nullptr);
 }
 
 TEST(Summary, TheTableHoldsTheFiguresOfEveryController) {

@@ -18,6 +18,7 @@ inline Reproduction paper_with_everything() {
                        .figures = {},
                        .plots = {},
                        .deviations = {"Printed with a slip."}};
+    paper.source = {"A. Nobody & B. Else: On a tool. Journal 3 (2001) 4–5.", "10.1000/182"};
     paper.summary = "What it does.";
     paper.figures = {{"Eq. 1: difference", "N", 10.0, 10.5, Judged::difference, 1.0},
                      {"Eq. 1: relative <difference>", "mm", 100.0, 98.0, Judged::relative_difference, 0.05},

@@ -51,6 +51,19 @@ TEST(ReproductionPage, keeps_checks_of_our_own_apart_and_gives_reasons) {
     CHECK(holds(page, "6 figures, 5 within their bound, 1 shown without one; 2 checks of our own, 1 within"));
 }
 
+TEST(ReproductionPage, cites_the_paper_in_full_with_the_doi_where_it_is_known) {
+    CHECK(holds(page,
+                "A. Nobody &amp; B. Else: On a tool. Journal 3 (2001) 4–5. "
+                "<a href=\"https://doi.org/10.1000/182\">doi:10.1000/182</a>"));
+    papers[0].source.doi.clear();
+    CHECK(holds(reproduction_page(papers), "4–5. No DOI is known here."));
+}
+
+TEST(ReproductionPage, gives_a_unit_in_each_row_or_says_that_there_is_none) {
+    CHECK(holds(page, "Eq. 1: difference <span class=\"unit\">in N</span>"));
+    CHECK(holds(page, "Eq. 3: a share <span class=\"unit\">(no unit)</span>"));
+}
+
 TEST(ReproductionPage, folds_a_long_table_unless_a_bound_in_it_is_broken) {
     CHECK(holds(page, "<details><summary><strong>Table 1</strong>: 20 figures, 20 within their bound"));
     const std::vector<Reproduction> broken{paper_with_a_long_table(true)};

@@ -36,6 +36,7 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
     : journal_(journal),
       watcher_(watcher),
       page_(settings.page),
+      telemetry_(settings.telemetry),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
       controller_(controller_settings(bus), tools.parameters(), this, tools.source()),
@@ -173,7 +174,17 @@ void CanDaemon::on_tick(const firmware::CanController& controller) {
     if (unrecorded_count_ == unrecorded_.size()) {
         record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
-    unrecorded_[unrecorded_count_++] = {controller.record(), controller.tool()};
+    unrecorded_[unrecorded_count_++] = sample_of(controller);
+}
+
+TelemetrySample CanDaemon::sample_of(const firmware::CanController& controller) const {
+    return {.monotonic_us = socketcan::monotonic_us(),
+            .tick = controller.record(),
+            .tool = controller.tool(),
+            .is_held = controller.sent_override().hold,
+            .drives = controller.sample(),
+            .program = controller.program(),
+            .conditions = reported_};
 }
 
 void CanDaemon::record_ticks() {
@@ -184,6 +195,9 @@ void CanDaemon::record_ticks() {
         }
         if (page_ != nullptr) {
             page_->tick(tick.time_us, tick, tool);
+        }
+        if (telemetry_ != nullptr) {
+            telemetry_->put(unrecorded_[k]);
         }
     }
     unrecorded_count_ = 0;

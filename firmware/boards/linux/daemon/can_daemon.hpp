@@ -14,6 +14,7 @@
 #include "parameters/machine_bus.hpp"
 #include "run_log/bus_clock.hpp"
 #include "socketcan/can_socket.hpp"
+#include "telemetry/telemetry_feed.hpp"
 
 namespace millforce::host {
 
@@ -21,6 +22,7 @@ struct CanDaemonSettings {
     bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
     BusTime time{};
     RunRecorder* page = nullptr;  ///< gets every tick; outlives the daemon
+    TelemetryFeed* telemetry = nullptr;  ///< for who watches; outlives the daemon
 };
 
 /// The controller on a CAN interface: socket, CanController and journal in one loop, until `stop` is set. Then the
@@ -50,6 +52,7 @@ class CanDaemon final : private firmware::TickListener {
     void send_all();
     void end(std::uint64_t duration_us);
     void record_ticks();
+    [[nodiscard]] TelemetrySample sample_of(const firmware::CanController& controller) const;
     void report(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
@@ -61,13 +64,10 @@ class CanDaemon final : private firmware::TickListener {
     Journal& journal_;
     firmware::TickListener* watcher_;
     RunRecorder* page_;
+    TelemetryFeed* telemetry_;
     std::uint32_t override_id_;
     TickEntries entries_;
-    struct RecordOfTool {
-        firmware::TickRecord tick{};
-        std::uint32_t tool = 0;
-    };
-    std::array<RecordOfTool, 16> unrecorded_{};  ///< ticks whose override is not out yet
+    std::array<TelemetrySample, 16> unrecorded_{};  ///< ticks whose override is not out yet
     std::size_t unrecorded_count_ = 0;
     firmware::CanController controller_;
     socketcan::CanSocket socket_;

@@ -11,9 +11,9 @@
 
 #include "daemon/log_file.hpp"
 #include "daemon/run_recorder.hpp"
-#include "daemon/spsc_ring.hpp"
 #include "daemon/status_lines.hpp"
 #include "run_log/estimate_entry.hpp"
+#include "run_log/spsc_ring.hpp"
 #include "run_log/tool_forces.hpp"
 
 namespace millforce::host {

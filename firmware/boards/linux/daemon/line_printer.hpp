@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "daemon/spsc_ring.hpp"
+#include "run_log/spsc_ring.hpp"
 
 namespace millforce::host {
 

@@ -25,6 +25,10 @@ bool take_reopen_request();
 /// Notifies a service manager (systemd, Type=notify) if there is one, e.g. "READY=1". Never waits for it. No heap.
 void notify_service_manager(const char* state);
 
+/// For notify_service_manager() once the override says hold: a slow disk may take its time for what is written at the
+/// end, and the service manager waits for it longer than for a loop that stands.
+inline constexpr const char* time_for_the_report = "EXTEND_TIMEOUT_USEC=20000000";
+
 /// Tells a service manager that the loop turns, if it wants to know (WATCHDOG_USEC, WATCHDOG_PID): twice in the time
 /// after which it ends the program.
 class ServiceWatchdog {

@@ -5,29 +5,18 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 
 #include "daemon/service.hpp"
+#include "daemon/unix_address.hpp"
 #include "files/input_error.hpp"
 
 namespace millforce::host {
 
 namespace {
-
-sockaddr_un address_of(const std::string& path) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path.empty() || path.size() >= sizeof address.sun_path) {
-        throw InputError(fmt::format("'{}': expected the path of a socket, at most {} characters", path,
-                                     sizeof address.sun_path - 1));
-    }
-    std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-    return address;
-}
 
 int new_socket() {
     return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
@@ -44,7 +33,7 @@ bool is_served(const sockaddr_un& address) {
 
 UnixServer::UnixServer(std::string path, TurnListener* listener)
     : path_(std::move(path)), turns_(listener), stop_(stop_on_signal()) {
-    const sockaddr_un address = address_of(path_);
+    const sockaddr_un address = unix_address(path_);
     struct stat status {};
     if (lstat(path_.c_str(), &status) == 0) {
         if (!S_ISSOCK(status.st_mode)) {

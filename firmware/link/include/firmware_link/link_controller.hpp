@@ -54,6 +54,11 @@ class LinkController {
     /// Number of the tool that the override is for; 0: without a tools, or not known.
     [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
+    /// The answer says hold: by the tick, or from outside.
+    [[nodiscard]] bool is_held() const { return output_.hold || is_held_outside_; }
+    /// What went into the newest tick.
+    [[nodiscard]] const hal::DriveSample& sample() const { return sample_; }
+    [[nodiscard]] const hal::ProgramStatus& program() const { return program_; }
 
   private:
     void bridge_gap(std::uint32_t time_us, const hal::ProgramStatus& program);
@@ -62,6 +67,8 @@ class LinkController {
 
     LinkDrives drives_{};
     ToolTick tick_;
+    hal::DriveSample sample_{};
+    hal::ProgramStatus program_{};
     hal::FeedOverride output_{};
     float largest_override_;
     WaySource<float>* way_;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+#include "estimation/cut_estimate.hpp"
+
+namespace millforce::firmware {
+
+/// The tooth force of a cut that seems to change slowly in width and depth at once.
+///
+/// A current that drifts within one cut looks like such a change: a smaller spindle current like a narrower and deeper
+/// cut, a smaller axis current like a wider and shallower one, and by either the force on a tooth seems to fall. No
+/// third signal tells a drift from a cut that really changes so. Both are thought possible, and the largest force
+/// counts:
+///
+///   F_tooth = max(F_tooth by the present immersion, F_at (F_tooth/F_at)₀, F_ax (F_tooth/F_ax)₀)
+///
+/// F_at is the force by the spindle's current, F_ax the one along the feed by the axes' currents: a drift of one leaves
+/// the other. ₀: 16 estimates after the cut had begun, or after both forces had changed by a quarter at once beyond
+/// what the feed explains, which no drift of one current does. The cut has changed in width and depth where the mean of
+/// 16 estimates has moved from ₀ by more than the immersion's standard deviation, and by more than 15 % of the depth
+/// and its deviation by the forces. A wall that converges changes the width alone, a ramp the depth alone: nothing is
+/// held against them.
+///
+/// Doubt outlasts the cut, until re-zeroing in air finds the currents as they should be.
+///
+/// Not seen: a drift of a machine that knows no force along the feed, and one before ₀.
+///
+/// Cost: some 40 operations, two square roots and two divisions an estimate. No heap. One thread.
+template <typename Scalar>
+class SteadyCut {
+  public:
+    /// The tool is out of the cut: what was known says nothing of the next one, unless a current may have drifted.
+    void leave_cut() { estimates_ = is_doubtful_ ? estimates_ : std::uint8_t{0}; }
+    /// Re-zeroing in air has found the currents to be as they should.
+    void clear() { *this = {}; }
+
+    /// A new estimate in a cut that neither begins nor ends.
+    void follow(const estimation::CutEstimate<Scalar>& e);
+    /// The tooth force that the new estimate leaves possible, not below `tooth_force_N`.
+    [[nodiscard]] Scalar largest_force_N(const estimation::CutEstimate<Scalar>& e, Scalar tooth_force_N) const;
+
+  private:
+    enum Quantity { spindle, axes, immersion, depth, quantities };
+    using Cut = Eigen::Matrix<Scalar, quantities, 1, Eigen::DontAlign>;
+
+    [[nodiscard]] static Scalar by_feed(const estimation::Measurement<Scalar>& force_N,
+                                        const estimation::CutEstimate<Scalar>& e);
+    [[nodiscard]] bool is_step(const Cut& cut) const;
+    void begin(const estimation::CutEstimate<Scalar>& e);
+    [[nodiscard]] bool has_moved(const estimation::EngagementEstimate<Scalar>& engagement) const;
+
+    static constexpr std::uint8_t settled = 16;  // estimates that the mean is of
+
+    std::uint8_t estimates_ = 0;  // since the last step, up to `settled`
+    bool is_doubtful_ = false;
+    Cut mean_ = Cut::Zero();
+    Scalar first_immersion_{0};  // when the mean had settled
+    Scalar first_depth_mm_{0};
+    Scalar tooth_per_tangential_{0};
+    Scalar tooth_per_feed_force_{0};  // 0: the feed force is too small to tell
+};
+
+}  // namespace millforce::firmware

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "estimation/number/literal.hpp"
+#include "firmware/steady_cut.hpp"
+
+namespace millforce::firmware {
+
+template <typename Scalar>
+static bool differs(Scalar value, Scalar from, Scalar by) {
+    return value - from > by || from - value > by;
+}
+
+template <typename Scalar>
+Scalar SteadyCut<Scalar>::largest_force_N(const estimation::CutEstimate<Scalar>& e, Scalar tooth_force_N) const {
+    if (!is_doubtful_ || !e.tangential_N.valid || !e.feed_N.valid) {
+        return tooth_force_N;
+    }
+    const Scalar by_spindle_N = tooth_per_tangential_ * e.tangential_N.value;
+    const Scalar by_axes_N = tooth_per_feed_force_ * e.feed_N.value;
+    const Scalar larger_N = by_spindle_N > by_axes_N ? by_spindle_N : by_axes_N;
+    return larger_N > tooth_force_N ? larger_N : tooth_force_N;
+}
+
+template <typename Scalar>
+void SteadyCut<Scalar>::follow(const estimation::CutEstimate<Scalar>& e) {
+    const bool is_whole = e.engagement.immersion_valid && e.engagement.depth_valid && e.feed_N.valid &&
+                          e.tangential_N.value > Scalar(0) && e.feed_per_tooth_mm > Scalar(0);
+    if (!is_whole) {
+        return;
+    }
+    const Cut cut{by_feed(e.tangential_N, e), by_feed(e.feed_N, e), e.engagement.radial_immersion,
+                  e.engagement.axial_depth_mm};
+    if (estimates_ == 0 || is_step(cut)) {
+        mean_ = cut;
+        estimates_ = 0;
+        is_doubtful_ = false;
+    }
+    mean_ += (cut - mean_) / Scalar(settled);
+    if (estimates_ < settled && ++estimates_ == settled) {
+        begin(e);
+    }
+    is_doubtful_ = estimates_ == settled && has_moved(e.engagement);
+}
+
+/// A force grows with the feed by a power between 0, of edge force alone, and 0.8: by 1/2, roughly.
+template <typename Scalar>
+Scalar SteadyCut<Scalar>::by_feed(const estimation::Measurement<Scalar>& force_N,
+                                  const estimation::CutEstimate<Scalar>& e) {
+    using std::sqrt;
+    const Scalar size_N = force_N.value < Scalar(0) ? -force_N.value : force_N.value;
+    return size_N / sqrt(e.feed_per_tooth_mm);
+}
+
+template <typename Scalar>
+bool SteadyCut<Scalar>::is_step(const Cut& cut) const {
+    constexpr Scalar step = Scalar(0.25F);
+    return differs(cut[spindle], mean_[spindle], step * mean_[spindle]) &&
+           differs(cut[axes], mean_[axes], step * mean_[axes]);
+}
+
+template <typename Scalar>
+void SteadyCut<Scalar>::begin(const estimation::CutEstimate<Scalar>& e) {
+    constexpr Scalar significant = Scalar(9);  // three standard deviations, squared
+    const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;
+    if (!tooth.valid || e.tooth_force_is_bound) {
+        estimates_ = 0;
+        return;
+    }
+    const bool has_feed_force = estimation::square(e.feed_N.value) > significant * e.feed_N.variance;
+    first_immersion_ = mean_[immersion];
+    first_depth_mm_ = mean_[depth];
+    tooth_per_tangential_ = tooth.value / e.tangential_N.value;
+    tooth_per_feed_force_ = has_feed_force ? tooth.value / e.feed_N.value : Scalar(0);
+}
+
+/// A wall that converges changes the immersion, a ramp the depth: one of them. A current that drifts changes both.
+template <typename Scalar>
+bool SteadyCut<Scalar>::has_moved(const estimation::EngagementEstimate<Scalar>& engagement) const {
+    constexpr Scalar least_share = estimation::literal<Scalar>(0.15L);
+    return differs(mean_[immersion], first_immersion_, engagement.radial_immersion_sd) &&
+           differs(mean_[depth], first_depth_mm_, least_share * first_depth_mm_ + engagement.axial_depth_force_sd_mm);
+}
+
+}  // namespace millforce::firmware

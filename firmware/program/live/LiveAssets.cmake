@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+# The web page's own files, in program_live.
+millforce_embed_assets(program_live live/live_assets.hpp millforce::host::live_assets
+    live_template ${CMAKE_CURRENT_LIST_DIR}/live_template.html
+    live_style ${CMAKE_CURRENT_LIST_DIR}/live.css
+    live_script ${CMAKE_CURRENT_LIST_DIR}/live.js)

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_report/run_page.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "firmware/program/report/json_check.hpp"
+#include "history_bench.hpp"
+#include "parameters/parameter_table.hpp"
+#include "run_report/run_words.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::host;
+using namespace millforce::host::test;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++count;
+    }
+    return count;
+}
+
+bool is_key(std::string_view key) {
+    const auto rows = parameter_table();
+    return std::any_of(rows.begin(), rows.end(), [&](const ParameterRow& row) { return key == row.key; });
+}
+
+}  // namespace
+
+TEST_GROUP(RunPage) {
+    RunHistory history{endmill()};
+    RunOrigin origin{"Run on can0", false, false, {{"Machine", "vmc.toml"}}};
+
+    /// 1 s in air, 1 s entering, 3 s in the cut.
+    void mill() {
+        for (int k = 0; k <= 5000; ++k) {
+            history.add(0.001 * k, k <= 1000 ? in_air() : k <= 2000 ? entering(1.1F) : in_cut(0.87F), 0);
+        }
+    }
+    [[nodiscard]] std::string page() const {
+        return run_page_html(history, origin);
+    }
+};
+
+TEST(RunPage, says_in_words_how_long_the_tool_cut_how_high_the_load_was_and_what_held_the_feed) {
+    mill();
+    const std::string html = page();
+    CHECK(has(html, "The tool was in the cut for 4.0 s of 5.0 s."));
+    CHECK(has(html, "reached 87 % of its limit"));
+    CHECK(has(html, "was at most 110 % of its limit, and can have been above it for 1.00 s"));
+    CHECK(has(html, "For 75 % of the cut the ceiling on the feed was: load on a tooth."));
+    CHECK(has(html, "There was no fault."));
+    CHECK(has(html, "In this run it was known in 75 % of the cut, and was 0.60 on average."));
+    CHECK(has(html, "In this run it was known in 75 % of the cut, and was 4.00 mm on average."));
+}
+
+TEST(RunPage, lists_the_ceilings_that_held_by_their_keys_and_no_other) {
+    mill();
+    const std::string html = page();
+    CHECK(has(html, "tooth_<wbr>force_<wbr>limit_<wbr>N"));
+    CHECK(has(html, "entry_<wbr>feed_<wbr>per_<wbr>tooth_<wbr>mm"));
+    CHECK(has(html, "<td>75 %<small>3.0 s</small></td><td>60 %<small>3.0 s</small></td>"));
+    CHECK_FALSE(has(html, "surge_<wbr>radial_<wbr>immersion"));
+}
+
+TEST(RunPage, names_keys_that_the_parameter_files_have) {
+    for (unsigned k = 0; k < control::limit_count; ++k) {
+        const CeilingWords& words = words_of(static_cast<control::Limit>(k));
+        CHECK(std::strlen(words.label) > 3 && std::strlen(words.meaning) > 20);
+        for (std::string_view keys = words.keys; !keys.empty();) {
+            const std::size_t end = std::min(keys.find(", "), keys.size());
+            const std::string key(keys.substr(0, end));
+            CHECK_TEXT(is_key(key), key.c_str());
+            keys.remove_prefix(std::min(end + 2, keys.size()));
+        }
+    }
+}
+
+TEST(RunPage, says_at_once_which_fault_came_and_when) {
+    mill();
+    auto tick = in_cut(1.4F);
+    tick.feed_override.fault = static_cast<std::uint8_t>(control::Fault::overload);
+    history.add(5.001, tick, 0);
+    const std::string html = page();
+    CHECK(has(html, "<strong class=\"fault\">Fault overload, at 5.0 s.</strong>"));
+    CHECK(has(html, meaning_of(control::Fault::overload)));
+}
+
+TEST(RunPage, embeds_valid_data_in_which_no_estimate_is_null) {
+    mill();
+    const std::string data = run_page_json(history);
+    CHECK(JsonCheck::valid(data));
+    CHECK(has(page(), data));
+    CHECK(has(data, "\"radial_immersion\":[null,null,"));
+    CHECK(has(data, "\"states\":\"000"));
+    CHECK_FALSE(has(data, "true_"));  // of a real run nobody knows the truth
+}
+
+TEST(RunPage, asks_the_network_for_nothing_and_leaves_no_placeholder) {
+    mill();
+    const std::string html = page();
+    CHECK(has(html, "default-src 'none'"));
+    for (const char* request :
+         {" src=", "<link", "@import", "url(http", "sourceMappingURL", "fetch(", "{{title}}", "{{data}}"}) {
+        CHECK_TEXT(!has(html, request), request);
+    }
+}
+
+TEST(RunPage, shows_text_from_outside_as_text) {
+    mill();
+    const std::string calm = page();
+    origin.title = "Run on </title><script>alert('x')</script>{{data}}";
+    origin.facts[0].second = "<img onerror=\"x\">";
+    history.note(1.0, "</script><b>");
+    const std::string html = page();
+    LONGS_EQUAL(count_of(calm, "</script"), count_of(html, "</script"));
+    LONGS_EQUAL(count_of(calm, "<img"), count_of(html, "<img"));
+    LONGS_EQUAL(count_of(calm, "<b>"), count_of(html, "<b>"));
+    CHECK(JsonCheck::valid(run_page_json(history)));
+}
+
+TEST(RunPage, of_a_run_without_a_sample_or_without_a_cut_says_so) {
+    CHECK(has(page(), "No complete sample of the drives came"));
+    CHECK(JsonCheck::valid(run_page_json(history)));
+    history.add(0.0, in_air(), 0);
+    history.add(0.4, in_air(), 0);
+    CHECK(has(page(), "In 0.4 s no cut was seen."));
+}
+
+TEST(RunPage, of_a_long_run_gives_times_in_hours_minutes_and_seconds) {
+    for (int k = 0; k <= 40'000; ++k) {
+        history.add(0.2 * k, k == 19'000 ? in_cut(0.5F) : in_air(), 0);
+    }
+    history.note(3725.0, "Something.");
+    const std::string html = page();
+    CHECK(has(html, "<span class=\"when\">1:02:05</span><span>Something.</span>"));
+    CHECK(has(html, "<dd>2 h 13 min</dd>"));
+}
+
+TEST(RunPage, of_a_replay_says_that_the_override_did_not_act) {
+    mill();
+    CHECK_FALSE(has(page(), "This is a replay"));
+    origin.is_replay = true;
+    CHECK(has(page(), "This is a replay"));
+}
