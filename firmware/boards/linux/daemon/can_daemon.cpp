@@ -189,15 +189,15 @@ TelemetrySample CanDaemon::sample_of(const firmware::CanController& controller) 
 
 void CanDaemon::record_ticks() {
     for (std::size_t k = 0; k < unrecorded_count_; ++k) {
-        const auto& [tick, tool] = unrecorded_[k];
-        if (entries_.add(tick, tool, newest_)) {
+        const TelemetrySample& sample = unrecorded_[k];
+        if (entries_.add(sample.tick, sample.tool, newest_)) {
             journal_.estimate(newest_);
         }
         if (page_ != nullptr) {
-            page_->tick(tick.time_us, tick, tool);
+            page_->tick(sample.tick.time_us, sample.tick, sample.tool);
         }
         if (telemetry_ != nullptr) {
-            telemetry_->put(unrecorded_[k]);
+            telemetry_->put(sample);
         }
     }
     unrecorded_count_ = 0;

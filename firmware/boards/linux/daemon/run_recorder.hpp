@@ -8,7 +8,7 @@
 #include <string_view>
 #include <thread>
 
-#include "daemon/spsc_ring.hpp"
+#include "run_log/spsc_ring.hpp"
 #include "firmware/tick_record.hpp"
 #include "run_report/run_history.hpp"
 
