@@ -60,6 +60,13 @@ void CanopenDrive::build_dictionary() {
     dictionary_[key(0x1000, 0)] = {0x00020192, 4, false, false};
     dictionary_[key(0x1001, 0)] = {0, 1, false, true};
     dictionary_[key(0x1017, 0)] = {settings_.heartbeat_ms, 2, true, false};
+    dictionary_[key(0x1018, 0)] = {2, 1};
+    dictionary_[key(0x1018, 1)] = {0, 4};  // no vendor: CAN in Automation assigns the numbers
+    dictionary_[key(0x1018, 2)] = {1, 4};
+    dictionary_[key(0x608F, 0)] = {2, 1};
+    dictionary_[key(0x608F, 1)] = {settings_.encoder_counts_per_rev, 4};
+    dictionary_[key(0x608F, 2)] = {1, 4};
+    dictionary_[key(0x60A9, 0)] = {settings_.velocity_unit, 4};
     dictionary_[key(0x6075, 0)] = {static_cast<std::uint32_t>(std::lround(settings_.rated_current_A * 1e3)), 4};
     dictionary_[key(0x6076, 0)] = {static_cast<std::uint32_t>(std::lround(settings_.rated_torque_Nm * 1e3)), 4};
     dictionary_[key(0x6041, 0)] = {0x0237, 2, false, true};

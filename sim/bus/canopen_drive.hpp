@@ -17,6 +17,8 @@ struct CanopenDriveSettings {
     std::uint8_t node_id = 1;
     double rated_current_A = 12.0;
     double rated_torque_Nm = 8.0;
+    std::uint32_t encoder_counts_per_rev = 8192;  ///< 0x608F
+    std::uint32_t velocity_unit = 0xFA010300;     ///< 0x60A9: µm/s
     std::uint16_t heartbeat_ms = 0;
     /// Objects of TPDO 1 as delivered: index << 16 | subindex << 8 | bits.
     std::vector<std::uint32_t> first_pdo{0x60640020, 0x60780010, 0x60410010};

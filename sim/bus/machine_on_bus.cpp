@@ -5,6 +5,21 @@
 
 namespace millforce::sim {
 
+namespace {
+
+/// 0x60A9 by CiA 402-2: m/s with a power of ten in the highest byte. A unit that is none has no such number: 0.
+std::uint32_t si_unit_of(double unit_mm_s) {
+    const double power = std::log10(unit_mm_s * 1e-3);
+    const double whole = std::round(power);
+    constexpr std::uint32_t metre_per_second = 0x00010300;
+    return std::abs(power - whole) < 1e-6
+               ? metre_per_second |
+                     static_cast<std::uint32_t>(static_cast<std::uint8_t>(static_cast<std::int8_t>(whole))) << 24U
+               : 0;
+}
+
+}  // namespace
+
 MachineOnBus::MachineOnBus(const MachineOnBusSettings& settings) : settings_(settings) {
     for (const DriveOnBus& wired : settings.drives) {
         CanopenDriveSettings drive;
@@ -12,6 +27,8 @@ MachineOnBus::MachineOnBus(const MachineOnBusSettings& settings) : settings_(set
         drive.rated_current_A = wired.rated_current_A;
         drive.rated_torque_Nm = wired.rated_torque_Nm;
         drive.heartbeat_ms = settings.heartbeat_ms;
+        drive.encoder_counts_per_rev = wired.encoder_counts_per_rev;
+        drive.velocity_unit = si_unit_of(wired.velocity_unit_mm_s);
         drives_.emplace_back(drive);
     }
 }

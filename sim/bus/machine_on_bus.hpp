@@ -21,6 +21,7 @@ struct DriveOnBus {
     double velocity_unit_mm_s = 0.001;  ///< unit of 0x606C
     double position_unit_mm = 0.0001;   ///< unit of 0x6064
     bool count_reversed = false;
+    std::uint32_t encoder_counts_per_rev = 8192;
 };
 
 /// Spindle, x, y, z.

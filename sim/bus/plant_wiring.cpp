@@ -40,6 +40,7 @@ MachineOnBusSettings drives_on_bus(const Scenario& scenario, const host::Machine
         settings.drives[1 + axis] =
             drive_on_bus(bus.drives.drives[1 + axis], scenario.machine.axes[axis].rated_current_A);
     }
+    settings.drives[0].encoder_counts_per_rev = scenario.parameters.machine.encoder_counts_per_rev;
     return settings;
 }
 

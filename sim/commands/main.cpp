@@ -28,6 +28,8 @@ int run(int argc, char** argv) {
     sim::add_plant(program);
     host::add_replay(program);
     host::add_import(program);
+    host::add_init(program);
+    host::add_commission(program);
     host::add_check(program);
     host::add_telemetry(program);
     host::add_gateway(program);

@@ -76,18 +76,9 @@ class Program {
     /// It takes 4 kB then, and not 64.
     void narrow_pipe_of_error() const { ::fcntl(pipes_[1], F_SETPIPE_SZ, 4096); }
     /// Reads its standard error until this is in it; false: it was not in half a minute.
-    bool says(const std::string& part) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-        while (text_[1].find(part) == std::string::npos && std::chrono::steady_clock::now() < end) {
-            pollfd waiting{pipes_[1], POLLIN, 0};
-            if (::poll(&waiting, 1, 100) > 0) {
-                std::array<char, 4096> buffer{};
-                const ssize_t count = ::read(pipes_[1], buffer.data(), buffer.size());
-                text_[1].append(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-            }
-        }
-        return text_[1].find(part) != std::string::npos;
-    }
+    bool says(const std::string& part) { return reads(1, part, std::chrono::seconds(30)); }
+    /// The same of its standard output.
+    bool prints(const std::string& part, std::chrono::seconds patience) { return reads(0, part, patience); }
 
     /// Reads to the end of both pipes, then takes the status.
     void wait() {
@@ -115,6 +106,19 @@ class Program {
     const std::string& error() const { return text_[1]; }
 
   private:
+    bool reads(std::size_t stream, const std::string& part, std::chrono::seconds patience) {
+        const auto end = std::chrono::steady_clock::now() + patience;
+        while (text_[stream].find(part) == std::string::npos && std::chrono::steady_clock::now() < end) {
+            pollfd waiting{pipes_[stream], POLLIN, 0};
+            if (::poll(&waiting, 1, 100) > 0) {
+                std::array<char, 4096> buffer{};
+                const ssize_t count = ::read(pipes_[stream], buffer.data(), buffer.size());
+                text_[stream].append(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+            }
+        }
+        return text_[stream].find(part) != std::string::npos;
+    }
+
     pid_t process_ = 0;
     int status_ = 0;
     std::array<int, 2> pipes_{};

@@ -14,6 +14,8 @@ void add_estimate(Command& program);
 void add_parameters(Command& program);
 void add_import(Command& program);
 void add_check(Command& program);
+void add_init(Command& program);
+void add_commission(Command& program);
 void add_telemetry(Command& program);
 void add_gateway(Command& program);
 

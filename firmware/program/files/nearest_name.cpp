@@ -25,11 +25,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
+/// "top" for "top_mm": the unit was forgotten.
+bool is_without_unit(std::string_view name, std::string_view candidate) {
+    return !name.empty() && candidate.size() > name.size() && candidate.starts_with(name) &&
+           candidate[name.size()] == '_';
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
+    const auto whole = std::find_if(candidates.begin(), candidates.end(),
+                                    [&](const std::string& candidate) { return is_without_unit(name, candidate); });
+    if (whole != candidates.end()) {
+        return *whole;
+    }
     std::string best;
-    std::size_t least = (name.size() + 1) / 2 + 1;
+    std::size_t least = name.size() / 2 + 1;
     for (const std::string& candidate : candidates) {
         const std::size_t longer = std::max(name.size(), candidate.size());
         const std::size_t shorter = std::min(name.size(), candidate.size());

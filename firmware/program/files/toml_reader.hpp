@@ -24,6 +24,8 @@ class TomlFile {
       public:
         [[nodiscard]] bool exists() const { return table_ != nullptr; }
         [[nodiscard]] bool has(const std::string& key) const;
+        /// For reject_unknown_keys(): the key is known, whether or not its value is asked for.
+        void know(const std::string& key) { known_.push_back(key); }
 
         /// Number within [minimum, maximum]; `fallback` if the key is missing, an error if there is none. The unit
         /// stands in the messages alone.

@@ -32,8 +32,9 @@ std::uint64_t longest_turn_us(const ToolSet& tools, const BusTime& time) {
 }  // namespace
 
 CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
-                     Journal& journal, const CanDaemonSettings& settings)
+                     Journal& journal, const CanDaemonSettings& settings, firmware::TickListener* watcher)
     : journal_(journal),
+      watcher_(watcher),
       page_(settings.page),
       telemetry_(settings.telemetry),
       override_id_(bus.feed_override.id),
@@ -166,6 +167,9 @@ void CanDaemon::send_all() {
 }
 
 void CanDaemon::on_tick(const firmware::CanController& controller) {
+    if (watcher_ != nullptr) {
+        watcher_->on_tick(controller);
+    }
     local_outputs_.update(controller.sent_override(), socketcan::monotonic_us());
     if (unrecorded_count_ == unrecorded_.size()) {
         record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC

@@ -30,9 +30,9 @@ struct CanDaemonSettings {
 /// alone. One thread.
 class CanDaemon final : private firmware::TickListener {
   public:
-    /// `tools` outlives this.
+    /// `tools` outlives this, and so does `watcher`, which sees each tick before its override is sent.
     CanDaemon(const socketcan::CanSocketSettings& interface, const MachineBus& bus, const ToolSet& tools,
-              Journal& journal, const CanDaemonSettings& settings);
+              Journal& journal, const CanDaemonSettings& settings, firmware::TickListener* watcher = nullptr);
 
     void run(const std::atomic<bool>& stop);
 
@@ -62,6 +62,7 @@ class CanDaemon final : private firmware::TickListener {
                                                         const firmware::CanController& controller, bool records);
 
     Journal& journal_;
+    firmware::TickListener* watcher_;
     RunRecorder* page_;
     TelemetryFeed* telemetry_;
     std::uint32_t override_id_;

@@ -60,3 +60,9 @@ TEST(NearestName, finds_the_name_with_the_fewest_changes) {
     STRCMP_EQUAL("", nearest_name("feed", {}).c_str());
     STRCMP_EQUAL("", nearest_name(std::string(100'000, 'x'), names).c_str());
 }
+
+TEST(NearestName, a_name_whose_unit_was_forgotten_is_the_nearest) {
+    const std::vector<std::string> names{"box", "cell_mm", "top_mm"};
+    STRCMP_EQUAL("top_mm", nearest_name("top", names).c_str());
+    STRCMP_EQUAL("", nearest_name("tap", {names.data(), 1}).c_str());
+}

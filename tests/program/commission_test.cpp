@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commission_inputs.hpp"
+#include "inputs.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+
+using namespace millforce::test;
+
+namespace {
+
+/// The simulated machine beside a program that only records, as LinuxCNC's sampler does, at 250 Hz. The data sheets
+/// that the answers come from are wrong by a tenth for the spindle, and by half for the axis.
+class RecordedShop {
+  public:
+    RecordedShop() {
+        folder_.write("answers.toml", commissioning_answers() + R"(spindle.rated_current_A = 12
+spindle.rated_torque_Nm = 9
+spindle.rated_torque_current_A = 12
+spindle.encoder_counts_per_rev = 8192
+x.torque_constant_Nm_per_A = 0.08
+x.rated_current_A = 12
+cnc.sample_rate_hz = 250
+)");
+        const std::string machine = text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml");
+        folder_.write("machine.toml", with(with(machine, "[cnc]", "[cnc]\nsample_rate_hz = 250\nstale_s = 0.1"),
+                                           "sync_period_ms = 1.0", "sync_period_ms = 4.0"));
+    }
+
+    [[nodiscard]] Ended commission(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words{"commission", "--session", path("session"), "--answers", path("answers.toml")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_millforce(words);
+    }
+    /// Runs the session's program of a step on the machine; returns the option that gives its recording.
+    [[nodiscard]] std::vector<std::string> record(const std::string& step, double start_x_mm, double hardness = 1.0) {
+        folder_.write(step + ".toml",
+                      commissioning_scenario("machine.toml", "session/" + step + ".ngc", 3, start_x_mm, hardness));
+        run_millforce({"simulate", path(step + ".toml"), "--record", "--out", path("out_" + step)});
+        return {"--recording", step + "=" + path("out_" + step) + "/recording.csv"};
+    }
+    [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
+    [[nodiscard]] std::string session(const std::string& name) const { return text_of(path("session/" + name)); }
+
+  private:
+    TemporaryFolder folder_;
+};
+
+}  // namespace
+
+TEST_GROUP(Commission) {
+    RecordedShop shop;
+
+    /// Gives a step's recording and expects that the next one is asked for.
+    void expect_next(const std::string& step, double start_x_mm, const std::string& next) {
+        const Ended ended = shop.commission(shop.record(step, start_x_mm));
+        CHECK_EQUAL_TEXT(1, ended.exit_code, (ended.out + ended.error).c_str());
+        CHECK_TEXT(contains(ended.out, next + ": not recorded yet: record " + next + ".ngc"), ended.out.c_str());
+    }
+};
+
+TEST(Commission, goes_from_recording_to_recording_to_files_that_check_finds_sound) {
+    const Ended begun = shop.commission();
+    CHECK_EQUAL_TEXT(1, begun.exit_code, begun.error.c_str());
+    CHECK(contains(begun.out, "idle: not recorded yet"));
+    expect_next("idle", -25.0, "air");
+    expect_next("air", 0.0, "standard_x");
+    expect_next("standard_x", -25.0, "validation_x");
+    // A steel that is a third harder than the one of the standard cut.
+    const Ended harder = shop.commission(shop.record("validation_x", -25.0, 1.33));
+    CHECK_EQUAL_TEXT(1, harder.exit_code, harder.error.c_str());
+    CHECK_TEXT(contains(harder.out, "validation: to be repeated: "), harder.out.c_str());
+    std::vector<std::string> again = shop.record("validation_x", -25.0);
+    again.insert(again.end(), {"--repeat", "validation_x"});
+    const Ended done = shop.commission(again);
+    CHECK_EQUAL_TEXT(0, done.exit_code, (done.out + done.error).c_str());
+
+    const std::string machine = shop.session("machine.toml");
+    // The plant's own: 0.70 N·m/A and 120 N/A.
+    DOUBLES_EQUAL(0.70, toml_value(machine, "spindle", "K_t1_Nm_per_A"), 0.02);
+    DOUBLES_EQUAL(120.0, toml_value(machine, "x", "K_x4_N_per_A"), 4.0);
+    const Ended check = run_millforce({"check", shop.path("session/machine.toml"), shop.path("session/tool.toml"),
+                                       shop.path("session/standard_x.1.csv")});
+    CHECK_EQUAL_TEXT(0, check.exit_code, check.out.c_str());
+    const std::string page = shop.session("report.html");
+    for (const char* part : {"Good enough: machine.toml and tool.toml are written.", "spindle.K_t1_Nm_per_A",
+                             "x.K_x3_A", "<svg", "Cuts that the fit has not seen"}) {
+        CHECK_TEXT(contains(page, part), part);
+    }
+    CHECK_FALSE(contains(page, "http://") || contains(page, "https://") || contains(page, "<script"));
+}
+
+TEST(Commission, refuses_another_answer_under_recordings_and_a_recording_that_is_none) {
+    (void)shop.commission();
+    expect_next("idle", -25.0, "air");
+    STRCMP_EQUAL("", not_refused(shop.commission({"--set", "idle.dwell_s=2"}),
+                                 {"idle.dwell_s = 1.0: another answer than when the recordings were made"})
+                         .c_str());
+    STRCMP_EQUAL("",
+                 not_refused(shop.commission({"--recording", "milling=x.csv"}), {"expected one of idle, air"}).c_str());
+    const Ended wrong = shop.commission({"--recording", "air=" + shop.path("out_idle") + "/recording.csv"});
+    CHECK_EQUAL(1, wrong.exit_code);
+    CHECK(contains(wrong.out, "air: the recording is not enough. Missing: x: +1000 -1000"));
+}
+
+TEST(Commission, without_answers_names_all_that_are_missing) {
+    TemporaryFolder empty;
+    STRCMP_EQUAL("", not_refused(run_millforce({"commission", "--session", empty.path("s")}),
+                                 {"missing answers: ", "standard_cut.feed_mm_min in mm/min", "tool.overhang_mm in mm"})
+                         .c_str());
+}
+
+TEST_GROUP(Init) {
+    TemporaryFolder folder;
+    const std::vector<std::string> tool{
+        "tool.teeth=4",        "tool.diameter_mm=10",      "tool.flute_length_mm=22",
+        "tool.overhang_mm=35", "tool.workpiece=aluminium", "control.max_feed_per_tooth_mm=0.1"};
+
+    Ended init(const std::vector<std::string>& more) {
+        std::vector<std::string> words{"init", "--tool", folder.path("tool.toml")};
+        words.insert(words.end(), tool.begin(), tool.end());
+        words.insert(words.end(), more.begin(), more.end());
+        return run_millforce(words);
+    }
+};
+
+TEST(Init, writes_a_tool_with_the_reasons_for_its_limit_and_never_over_a_file) {
+    const Ended first = init({});
+    CHECK_EQUAL_TEXT(0, first.exit_code, first.error.c_str());
+    CHECK_TEXT(contains(first.out, "bending: "), first.out.c_str());
+    CHECK_TEXT(contains(first.out, "advised: "), first.out.c_str());
+    STRCMP_EQUAL("", not_refused(init({}), {"tool.toml: exists already", "--force"}).c_str());
+    const Ended other = init({"--force", "tool.tooth_force_limit_N=123"});
+    CHECK_EQUAL_TEXT(0, other.exit_code, other.error.c_str());
+    DOUBLES_EQUAL(123.0, toml_value(text_of(folder.path("tool.toml")), "tool", "tooth_force_limit_N"), 0.0);
+}
+
+TEST(Init, leaves_no_file_where_an_answer_is_missing_or_wrong) {
+    STRCMP_EQUAL("", not_refused(run_millforce({"init", "--tool", folder.path("tool.toml"), "tool.teeth=4"}),
+                                 {"missing answers: ", "tool.diameter_mm in mm", "control.max_feed_per_tooth_mm"})
+                         .c_str());
+    STRCMP_EQUAL("", not_refused(init({"tool.helix_deg=90"}), {"tool.helix_deg", "60"}).c_str());
+    UNSIGNED_LONGS_EQUAL(0, folder.file_count());
+}
