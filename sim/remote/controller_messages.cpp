@@ -21,7 +21,6 @@ namespace millforce::sim {
 
 namespace {
 
-using host::JsonWriter;
 using nlohmann::json;
 
 constexpr int float_digits = std::numeric_limits<float>::max_digits10;
