@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
     host::add_check(program);
     host::add_telemetry(program);
     host::add_gateway(program);
+    host::add_shop(program);
     host::add_calibrate(program);
     host::add_estimate(program);
     sim::add_reproduce(program);

@@ -18,5 +18,6 @@ void add_init(Command& program);
 void add_commission(Command& program);
 void add_telemetry(Command& program);
 void add_gateway(Command& program);
+void add_shop(Command& program);
 
 }  // namespace millforce::host

@@ -38,7 +38,10 @@ void say(const std::string& text) {
 }  // namespace
 
 Gateway::Gateway(const GatewaySettings& settings)
-    : settings_(settings), client_(settings, fmt::format("{}/{}/online", settings.topic, settings.machine), *this) {
+    : settings_(settings),
+      // The broker keeps the session, so that nothing that was sent is forgotten where the connection breaks.
+      client_(settings.broker, fmt::format("{}-{}", settings.topic, settings.machine),
+              fmt::format("{}/{}/online", settings.topic, settings.machine), *this) {
     if (!settings.tools.empty()) {
         tools_.emplace(settings.tools, tool_files());
     }
@@ -99,7 +102,7 @@ void Gateway::run(const std::atomic<bool>& stop) {
 }
 
 void Gateway::on_connected() {
-    say(fmt::format("{}:{}: connected", settings_.host, settings_.port));
+    say(fmt::format("{}:{}: connected", settings_.broker.host, settings_.broker.port));
     was_loss_said_ = false;
     client_.publish(topic("online"), "1", true);
     for (const auto& [is_wanted, kind] :
@@ -115,7 +118,7 @@ void Gateway::on_disconnected(std::string_view reason) {
     job_.reset();  // sent again: a broker may get a report twice, by its id the same
     if (!was_loss_said_) {
         was_loss_said_ = true;
-        say(fmt::format("{}:{}: {}: trying again", settings_.host, settings_.port, reason));
+        say(fmt::format("{}:{}: {}: trying again", settings_.broker.host, settings_.broker.port, reason));
     }
 }
 

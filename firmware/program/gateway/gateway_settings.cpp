@@ -16,8 +16,7 @@ constexpr std::string_view letters_of_levels = "abcdefghijklmnopqrstuvwxyzABCDEF
 /// A level of a topic: no separator, no wildcard.
 std::string level(TomlFile::Table& table, const std::string& key, std::optional<std::string> fallback = {}) {
     std::string text = table.text(key, std::move(fallback));
-    if (text.empty() || text.size() > 64 || text.find_first_not_of(letters_of_levels) != std::string::npos ||
-        text == "all") {
+    if (!is_name_of_machine(text)) {
         table.fail(key, "expected 1 to 64 letters, digits, '-' and '_', and not \"all\"");
     }
     return text;
@@ -39,7 +38,8 @@ std::string first_line_of(const std::string& file) {
     return lines.text();
 }
 
-void read_broker(TomlFile::Table broker, GatewaySettings& settings) {
+BrokerSettings read_broker(TomlFile::Table broker) {
+    BrokerSettings settings;
     constexpr int port_with_tls = 8883;
     constexpr int port_without = 1883;
     settings.host = broker.text("host");
@@ -59,9 +59,16 @@ void read_broker(TomlFile::Table broker, GatewaySettings& settings) {
         broker.fail("certificate_file", "expected both certificate_file and key_file, or none");
     }
     settings.password = password_file.empty() ? "" : first_line_of(password_file);
+    return settings;
 }
 
 }  // namespace
+
+bool is_name_of_machine(std::string_view level) {
+    constexpr std::size_t longest = 64;
+    return !level.empty() && level.size() <= longest &&
+           level.find_first_not_of(letters_of_levels) == std::string_view::npos && level != "all";
+}
 
 GatewaySettings read_gateway_settings(const std::string& file) {
     TomlFile toml = TomlFile::open(file);
@@ -73,7 +80,17 @@ GatewaySettings read_gateway_settings(const std::string& file) {
     settings.jobs = folder(root, "jobs");
     settings.tools = folder(root, "tools");
     settings.maps = folder(root, "maps");
-    read_broker(root.table("broker"), settings);
+    settings.broker = read_broker(root.table("broker"));
+    root.reject_unknown_keys();
+    return settings;
+}
+
+ShopSettings read_shop_settings(const std::string& file) {
+    TomlFile toml = TomlFile::open(file);
+    TomlFile::Table root = toml.root();
+    ShopSettings settings;
+    settings.topic = level(root, "topic", "millforce");
+    settings.broker = read_broker(root.table("broker"));
     root.reject_unknown_keys();
     return settings;
 }

@@ -41,11 +41,11 @@ void require(int code, const std::string& what) {
 
 }  // namespace
 
-MqttClient::MqttClient(const GatewaySettings& settings, const std::string& will, MqttListener& listener)
+MqttClient::MqttClient(const BrokerSettings& settings, const std::string& id, const std::string& will,
+                       MqttListener& listener)
     : settings_(settings), listener_(listener), client_(nullptr) {
     mosquitto_lib_init();
-    // The broker keeps the session, so that nothing that was sent is forgotten where the connection breaks.
-    client_ = mosquitto_new(fmt::format("{}-{}", settings.topic, settings.machine).c_str(), false, this);
+    client_ = mosquitto_new(or_null(id), id.empty(), this);
     if (client_ == nullptr) {
         throw InputError("broker: no memory for a connection");
     }
@@ -53,7 +53,9 @@ MqttClient::MqttClient(const GatewaySettings& settings, const std::string& will,
     mosquitto_disconnect_callback_set(client_, on_disconnect);
     mosquitto_publish_callback_set(client_, on_publish);
     mosquitto_message_callback_set(client_, on_message);
-    require(mosquitto_will_set(client_, will.c_str(), 1, "0", 1, true), "broker");
+    if (!will.empty()) {
+        require(mosquitto_will_set(client_, will.c_str(), 1, "0", 1, true), "broker");
+    }
     if (!settings.username.empty()) {
         require(mosquitto_username_pw_set(client_, settings.username.c_str(), or_null(settings.password)), "broker");
     }

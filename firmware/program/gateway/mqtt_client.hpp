@@ -30,9 +30,10 @@ class MqttListener {
 /// 30 s. One thread.
 class MqttClient {
   public:
-    /// `will`: the topic that the broker sets to "0" where this client is gone. The listener outlives this. Throws
-    /// InputError: certificates that cannot be read.
-    MqttClient(const GatewaySettings& settings, const std::string& will, MqttListener& listener);
+    /// `id`: the broker keeps this client's session by it; empty: none is kept. `will`: the topic that the broker sets
+    /// to "0" where this client is gone; empty: none. The listener outlives this. Throws InputError: certificates that
+    /// cannot be read.
+    MqttClient(const BrokerSettings& settings, const std::string& id, const std::string& will, MqttListener& listener);
     ~MqttClient();
     MqttClient(const MqttClient&) = delete;
     MqttClient& operator=(const MqttClient&) = delete;
@@ -56,7 +57,7 @@ class MqttClient {
     void connect();
     void lose(std::string_view reason);
 
-    GatewaySettings settings_;
+    BrokerSettings settings_;
     MqttListener& listener_;
     mosquitto* client_;
     bool was_tried_ = false;

@@ -78,8 +78,10 @@ std::optional<WebResource> LivePage::resource(std::string_view path) const {
     if (path == "/fields.json") {
         return WebResource{"application/json", fields_json(title_)};
     }
-    if (path == "/telemetry.json" && newest_) {
-        return WebResource{"application/json", telemetry_json(*newest_)};
+    if (path == "/telemetry.json") {
+        constexpr unsigned service_unavailable = 503;
+        return newest_ ? WebResource{"application/json", telemetry_json(*newest_)}
+                       : WebResource{"text/plain; charset=utf-8", "no tick yet\n", service_unavailable};
     }
     if (path == "/metrics") {
         return WebResource{"text/plain; version=0.0.4; charset=utf-8",

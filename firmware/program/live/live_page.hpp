@@ -17,16 +17,25 @@ namespace millforce::host {
 struct WebResource {
     std::string content_type;
     std::string body;
+    unsigned status = 200;  ///< of HTTP
 };
 
-/// The files of the page and its data: `/`, `/fields.json`, `/telemetry.json`, `/metrics` and what these load. None:
-/// there is no such path, or no tick yet.
-class LivePage {
+/// What a LoopbackServer shows.
+class WebPages {
+  public:
+    virtual ~WebPages() = default;
+    /// None: there is no such path.
+    [[nodiscard]] virtual std::optional<WebResource> resource(std::string_view path) const = 0;
+};
+
+/// The files of the page and its data: `/`, `/fields.json`, `/telemetry.json` (503 before the first tick), `/metrics`
+/// and what these load.
+class LivePage final : public WebPages {
   public:
     explicit LivePage(const std::string& title);
 
     void take(const Telemetry& telemetry) { newest_ = telemetry; }
-    [[nodiscard]] std::optional<WebResource> resource(std::string_view path) const;
+    [[nodiscard]] std::optional<WebResource> resource(std::string_view path) const override;
 
   private:
     std::string title_;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "commands/command_line.hpp"
+#include "commands/machine_commands.hpp"
+#include "daemon/service.hpp"
+#include "files/console.hpp"
+#include "shop/shop.hpp"
+
+namespace millforce::host {
+
+namespace {
+
+struct ShopOptions {
+    std::string file;
+    std::uint64_t port = 0;
+};
+
+}  // namespace
+
+void add_shop(Command& program) {
+    auto options = std::make_shared<ShopOptions>();
+    Command command = program.subcommand("shop", "Show all machines of a shop on one page, from a broker of MQTT");
+    command.footer(
+        "What the machines' 'millforce gateway' tell: who is there, who cuts, load, engagement, events, jobs. The page "
+        "is\n"
+        "on this computer alone (127.0.0.1 and ::1). Runs until SIGINT, SIGTERM or SIGHUP, with or without a broker.");
+    command.option("file", options->file, "The broker").required().value_name("SHOP.toml");
+    command.option("--web", options->port, "Port of the page; 0: any free port")
+        .value_name("PORT")
+        .within(0, UINT16_MAX)
+        .shows_default();
+    command.on_run([options] {
+        const std::atomic<bool>& stop = stop_on_signal();
+        Shop shop(read_shop_settings(options->file), static_cast<std::uint16_t>(options->port));
+        print_line(stderr, fmt::format("millforce: the page is at http://127.0.0.1:{}/", shop.port()));
+        notify_service_manager("READY=1");
+        shop.run(stop);
+        notify_service_manager("STOPPING=1");
+        return 0;
+    });
+}
+
+}  // namespace millforce::host
