@@ -235,7 +235,7 @@ void Answers::take(const std::string& key, const std::string& value) {
 std::string Answers::text() const {
     std::string lines;
     for (const auto& [key, value] : taken_) {
-        lines += key + " = " + value + "\n";
+        lines += fmt::format("{} = {}\n", key, value);
     }
     return lines;
 }

@@ -35,17 +35,17 @@ double largest_gain_error(const std::filesystem::path& gains) {
 
 std::vector<std::filesystem::path> Commissioning::recordings_of(const std::string& kind) const {
     std::vector<std::filesystem::path> files;
-    for (const std::string& axis : cutting_axes(axes_)) {
-        const auto found = session_.recordings(kind + "_" + axis);
+    for (const std::string& step : steps_of(kind)) {
+        const auto found = session_.recordings(step);
         files.insert(files.end(), found.begin(), found.end());
     }
     return files;
 }
 
 std::vector<std::string> Commissioning::steps_of(const std::string& kind) const {
-    std::vector<std::string> steps;
-    for (const std::string& axis : cutting_axes(axes_)) {
-        steps.push_back(kind + "_" + axis);
+    std::vector<std::string> steps = cutting_axes(axes_);
+    for (std::string& step : steps) {
+        step = fmt::format("{}_{}", kind, step);
     }
     return steps;
 }
@@ -185,9 +185,11 @@ std::filesystem::path Commissioning::joined_table(const std::string& kind) const
         std::ifstream file(session_.file(step + "_cuts.csv"));
         std::string line;
         std::getline(file, line);
-        text = text.empty() ? line + "\n" : text;
+        if (text.empty()) {
+            text.append(line).append("\n");
+        }
         while (std::getline(file, line)) {
-            text += line + "\n";
+            text.append(line).append("\n");
         }
     }
     session_.write(kind + "_cuts.csv", text);

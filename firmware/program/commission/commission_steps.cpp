@@ -105,7 +105,7 @@ double Commissioning::smallest_rise_A(const std::vector<CutPass>& passes) const 
 /// A recording of cuts counts as a whole: the passes come in their order.
 bool Commissioning::cuts(const std::string& kind, const std::vector<CutPass>& passes) {
     for (const std::string& axis : cutting_axes(axes_)) {
-        const std::string step = kind + "_" + axis;
+        const std::string step = fmt::format("{}_{}", kind, axis);
         if (!session_.has(step + "_cuts.csv") && !record_cuts(step, watch_settings(axis, passes))) {
             return false;
         }

@@ -178,7 +178,7 @@ bool Commissioning::take_given(const std::string& step, StepWatch& watch) {
     }
     const std::size_t before = session_.recordings(step).size();
     for (const auto& file : given->second) {
-        RecordingReader(file, counts_per_rev());  // refuses what is no recording before it is copied
+        const RecordingReader refuses_what_is_none(file, counts_per_rev());  // before it is copied
         const auto target = session_.next_recording(step);
         std::filesystem::copy_file(file, target.string() + ".part", std::filesystem::copy_options::overwrite_existing);
         std::filesystem::rename(target.string() + ".part", target);

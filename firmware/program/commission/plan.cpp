@@ -23,6 +23,7 @@ std::vector<double> geometric(double low, double high, std::int64_t count) {
 std::vector<CutPass> passes_of(double feed_mm_min, double depth_mm, double width_mm,
                                const std::vector<std::pair<double, double>>& shares) {
     std::vector<CutPass> passes;
+    passes.reserve(shares.size());
     for (const auto& [feed_share, width_share] : shares) {
         passes.push_back({std::round(feed_share * feed_mm_min), depth_mm, width_share * width_mm});
     }

@@ -33,6 +33,7 @@ std::span<const Workpiece> workpieces() {
 
 std::vector<std::string> workpiece_names() {
     std::vector<std::string> names;
+    names.reserve(table.size());
     for (const Workpiece& workpiece : table) {
         names.emplace_back(workpiece.name);
     }

@@ -75,7 +75,7 @@ std::filesystem::path RunReport::write() {
     RunOrigin origin = origin_;
     origin.facts.emplace_back(origin.is_replay ? "Replayed" : "Began", began_);
     origin.facts.emplace_back("The command took", readable_time(monotonic_s() - began_s_));
-    const std::filesystem::path file_name = folder_ / run_report_file;
+    std::filesystem::path file_name = folder_ / run_report_file;
     AtomicFile file(file_name);
     file.stream() << run_page_html(history_, origin);
     file.commit();
