@@ -91,6 +91,15 @@ TEST(SteadyCut, leaves_the_force_of_a_ramp_and_of_a_wall_that_converges) {
     DOUBLES_EQUAL(520.0, largest_N(wall, narrower), 1e-3);
 }
 
+TEST(SteadyCut, is_not_misled_by_an_immersion_that_is_hardly_known) {
+    SteadyCut cut = in_steady_cut();
+    CutEstimate<float> e = cut_with_drift(240.0F, 150.0F);
+    e.engagement.radial_immersion_sd = 0.3F;
+    e.engagement.radial_immersion = 1.5F;
+    follow(cut, e, 4 * settled);
+    DOUBLES_EQUAL(480.0, largest_N(cut, e), 1e-3);
+}
+
 TEST(SteadyCut, begins_anew_where_both_forces_change_at_once) {
     SteadyCut cut = in_steady_cut();
     follow(cut, cut_with_drift(200.0F, 100.0F), 4 * settled);

@@ -26,9 +26,10 @@ Scalar SteadyCut<Scalar>::largest_force_N(const estimation::CutEstimate<Scalar>&
 
 template <typename Scalar>
 void SteadyCut<Scalar>::follow(const estimation::CutEstimate<Scalar>& e) {
-    const bool is_whole = e.engagement.immersion_valid && e.engagement.depth_valid && e.feed_N.valid &&
-                          e.tangential_N.value > Scalar(0) && e.feed_per_tooth_mm > Scalar(0);
-    if (!is_whole) {
+    constexpr Scalar well_known_sd = estimation::literal<Scalar>(0.2L);
+    const bool is_known = e.engagement.immersion_valid && e.engagement.radial_immersion_sd < well_known_sd &&
+                          e.engagement.depth_valid && e.feed_N.valid;
+    if (!is_known || !(e.tangential_N.value > Scalar(0)) || !(e.feed_per_tooth_mm > Scalar(0))) {
         return;
     }
     const Cut cut{by_feed(e.tangential_N, e), by_feed(e.feed_N, e), e.engagement.radial_immersion,
