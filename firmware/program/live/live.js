@@ -19,15 +19,7 @@
   ];
   const colours = ["controlled", "compared"];
 
-  const byId = (id) => document.getElementById(id);
-  const element = (tag, className, text) => {
-    const made = document.createElement(tag);
-    if (className) made.className = className;
-    if (text !== undefined) made.textContent = text;
-    return made;
-  };
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  const inWords = (name) => name.replaceAll("_", " ");
   const unitless = (field) => {
     const unit = `_${field.unit.replace("/", "_")}`;
     return inWords(field.name.endsWith(unit) ? field.name.slice(0, -unit.length) : field.name);

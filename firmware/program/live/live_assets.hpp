@@ -9,6 +9,7 @@ namespace millforce::host::live_assets {
 
 std::string_view live_template();
 std::string_view live_style();
+std::string_view elements_script();
 std::string_view live_script();
 
 }  // namespace millforce::host::live_assets

@@ -53,6 +53,9 @@ std::optional<WebResource> file_of_page(std::string_view path) {
         return WebResource{"text/css; charset=utf-8",
                            fmt::format("{}\n{}", page_assets::report_style(), live_assets::live_style())};
     }
+    if (path == "/elements.js") {
+        return WebResource{"text/javascript; charset=utf-8", std::string(live_assets::elements_script())};
+    }
     if (path == "/live.js") {
         return WebResource{"text/javascript; charset=utf-8", std::string(live_assets::live_script())};
     }

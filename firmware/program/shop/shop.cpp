@@ -7,6 +7,7 @@
 
 #include "files/console.hpp"
 #include "files/printable.hpp"
+#include "live/live_assets.hpp"
 #include "report/json_writer.hpp"
 #include "report/page_assets.hpp"
 #include "shop/shop_assets.hpp"
@@ -73,6 +74,9 @@ std::optional<WebResource> Shop::resource(std::string_view path) const {
     if (path == "/shop.css") {
         return WebResource{"text/css; charset=utf-8",
                            fmt::format("{}\n{}", page_assets::report_style(), shop_assets::shop_style())};
+    }
+    if (path == "/elements.js") {
+        return WebResource{"text/javascript; charset=utf-8", std::string(live_assets::elements_script())};
     }
     if (path == "/shop.js") {
         return WebResource{"text/javascript; charset=utf-8", std::string(shop_assets::shop_script())};

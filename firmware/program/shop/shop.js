@@ -7,14 +7,6 @@
   const oldStateS = 5;
   const mostNotes = 20;
 
-  const byId = (id) => document.getElementById(id);
-  const element = (tag, className, text) => {
-    const made = document.createElement(tag);
-    if (className) made.className = className;
-    if (text !== undefined) made.textContent = text;
-    return made;
-  };
-  const inWords = (name) => String(name).replaceAll("_", " ");
   const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
   const number = (value, digits, unit) => (isNumber(value) ? `${value.toFixed(digits)} ${unit}`.trim() : "no estimate");
   /** With its date where that is not today's. */
