@@ -126,6 +126,8 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
         value = static_cast<float>(table.number(key, low, high, static_cast<double>(value)));
     };
     read("surge_radial_immersion", control.surge_radial_immersion, 0.0, 2.0);
+    read("depth_step_ratio", control.depth_step_ratio, 1.0, 10.0);
+    read("proven_override", control.proven_override, 0.0, 10.0);
     read("caution_sd", control.caution_sd, 0.0, 4.0);
     read("turn_radial_immersion", control.turn_radial_immersion, 0.0, 2.0);
     read("turn_travel_mm", control.turn_travel_mm, 0.0, 1e3);

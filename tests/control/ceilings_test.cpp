@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "feed_bench.hpp"
 
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 using namespace millforce::control;
@@ -12,6 +14,12 @@ namespace {
 
 void check_ratio(float expected, const Output& output, double tolerance = 1e-5) {
     DOUBLES_EQUAL(static_cast<double>(expected), static_cast<double>(output.ratio), tolerance);
+}
+
+/// What a tooth would carry at that override, in newtons: F = F₀ (f/f₀)^(1+p_s).
+float force_at(float override_ratio, const Input& input) {
+    const float feed_ratio = override_ratio * input.programmed_feed_mm_s / input.cut.feed_mm_s;
+    return input.cut.tooth_force_N * std::pow(feed_ratio, input.cut.feed_exponent);
 }
 
 }  // namespace
@@ -114,6 +122,74 @@ TEST(Ceilings, where_the_way_ahead_is_known_the_override_rises_as_fast_as_the_ma
     Controller controller;
     repeat(controller, in_air(), 2000);
     check_ratio(0.9F, repeat(controller, with_way(in_air(), 18.0F), 1));
+}
+
+TEST(Ceilings, a_step_of_the_depth_that_nobody_announces_stays_within_its_share_of_the_limit) {
+    Parameters p = immediate();
+    p.depth_step_ratio = 2.0F;
+    p.depth_step_share = 1.4F;
+    Controller controller(p);
+    Input input = in_contact();
+    const Output output = repeat(controller, input, 2000);
+    CHECK(output.limit == Limit::depth_step);
+    const float force_N = force_at(output.ratio, input);
+    DOUBLES_EQUAL(1.4, static_cast<double>(2.0F * force_N / p.tooth_force_limit_N), 1e-4);
+    CHECK(repeat(controller, with_way(input, 1000.0F), 2000).limit == Limit::force);
+}
+
+TEST(Ceilings, a_step_of_the_depth_that_the_set_point_survives_costs_nothing) {
+    Parameters p = immediate();
+    p.depth_step_ratio = 1.4F;
+    p.depth_step_share = 1.4F;
+    Controller controller(p);
+    Controller of_one_depth(immediate());
+    const Output output = repeat(controller, in_contact(), 2000);
+    check_ratio(repeat(of_one_depth, in_contact(), 2000).ratio, output);
+    CHECK(output.limit == Limit::force);
+}
+
+TEST(Ceilings, what_may_come_without_warning_holds_a_proven_program_no_lower_than_it_has_run) {
+    Parameters p = immediate();
+    p.entry_travel_mm = 5.0F;
+    p.surge_radial_immersion = 2.0F;
+    p.depth_step_ratio = 10.0F;
+    p.proven_override = 0.8F;
+    Controller controller(p);
+    check_ratio(0.8F, repeat(controller, in_air(), 2000));
+    Input input = in_contact();
+    input.cut.surge_ratio = 50.0F;
+    const Output at_entry = repeat(controller, input, 100);
+    CHECK(at_entry.state == CutState::entry);
+    check_ratio(0.8F, at_entry);
+    const Output in_cut = repeat(controller, input, 2000);
+    CHECK(in_cut.state == CutState::in_cut);
+    check_ratio(0.8F, in_cut);
+    check_ratio(0.8F, repeat(controller, in_air(), 100));
+}
+
+TEST(Ceilings, a_force_that_is_there_holds_a_proven_program_at_its_limit) {
+    Parameters p = immediate();
+    p.proven_override = 5.0F;
+    Controller controller(p);
+    const Input input = in_contact();
+    const Output output = repeat(controller, input, 2000);
+    CHECK(output.limit == Limit::force);
+    CHECK_COMPARE(output.ratio, <, 5.0F);
+    DOUBLES_EQUAL(static_cast<double>(p.setpoint_share * p.tooth_force_limit_N),
+                  static_cast<double>(force_at(output.ratio, input)), 0.1);
+}
+
+TEST(Ceilings, an_unknown_immersion_slows_a_proven_program_by_the_least_force_alone) {
+    Parameters p = immediate();
+    p.proven_override = 0.8F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.tooth_force_is_bound = true;
+    input.cut.tooth_force_N = 9000.0F;
+    input.cut.least_tooth_force_N = 500.0F;
+    check_ratio(0.8F, repeat(controller, input, 2000));
+    input.cut.least_tooth_force_N = 5000.0F;
+    CHECK_COMPARE(repeat(controller, input, 2000).ratio, <, 0.8F);
 }
 
 TEST(Ceilings, the_way_ahead_raises_nothing_above_the_force_nor_without_an_estimate) {

@@ -244,7 +244,7 @@ TEST(Faults, each_parameter_below_its_range_or_not_finite_is_a_bad_configuration
          {&Parameters::tooth_force_limit_N, &Parameters::setpoint_share, &Parameters::recovery_per_rev,
           &Parameters::slew_up_per_s, &Parameters::slew_down_per_s, &Parameters::entry_feed_per_tooth_mm,
           &Parameters::air_feed_per_tooth_mm, &Parameters::max_feed_per_tooth_mm, &Parameters::contact_force_N,
-          &Parameters::surge_share, &Parameters::overload_share, &Parameters::stale_s, &Parameters::teeth}) {
+          &Parameters::surge_share, &Parameters::depth_step_share, &Parameters::overload_share, &Parameters::stale_s, &Parameters::teeth}) {
         for (const float value : {0.0F, -1.0F, not_a_number, beyond_all}) {
             CHECK_TRUE(is_refused(positive, value));
         }
@@ -254,11 +254,14 @@ TEST(Faults, each_parameter_below_its_range_or_not_finite_is_a_bad_configuration
           &Parameters::entry_revolutions, &Parameters::entry_travel_mm, &Parameters::exit_travel_mm,
           &Parameters::contact_significance, &Parameters::surge_radial_immersion, &Parameters::turn_radial_immersion,
           &Parameters::turn_travel_mm, &Parameters::overload_revolutions, &Parameters::no_estimate_hold_s,
-          &Parameters::Ra_limit_um}) {
+          &Parameters::Ra_limit_um, &Parameters::proven_override}) {
         for (const float value : {-0.01F, not_a_number, beyond_all}) {
             CHECK_TRUE(is_refused(not_negative, value));
         }
         CHECK_FALSE(is_refused(not_negative, 0.0F));
+    }
+    for (const float value : {0.0F, 0.99F, not_a_number, beyond_all}) {
+        CHECK_TRUE(is_refused(&Parameters::depth_step_ratio, value));
     }
     CHECK_TRUE(is_refused(&Parameters::teeth, 0.9F));
     CHECK_FALSE(is_refused(&Parameters::teeth, 1.0F));

@@ -19,7 +19,7 @@ using Output = ControlOutput<float>;
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float beyond_all = std::numeric_limits<float>::infinity();
 
-/// The defaults, and a tool and a CNC: what the firmware's controller_parameters() adds.
+/// The defaults, and a tool and a CNC: what the firmware's controller_parameters() adds; for a part of one depth.
 struct Parameters : FeedControllerParameters<float> {
     Parameters() {
         tooth_force_limit_N = 1000.0F;
@@ -27,6 +27,7 @@ struct Parameters : FeedControllerParameters<float> {
         override_min = 0.1F;
         override_max = 1.5F;
         stale_s = 0.05F;
+        depth_step_ratio = 1.0F;
     }
 };
 

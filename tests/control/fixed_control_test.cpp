@@ -31,6 +31,7 @@ FeedControllerParameters<Fixed> in_fixed(const Parameters& p) {
     q.entry_travel_mm = Fixed(p.entry_travel_mm);
     q.contact_force_N = Fixed(p.contact_force_N);
     q.overload_share = Fixed(p.overload_share);
+    q.depth_step_ratio = Fixed(p.depth_step_ratio);
     return q;
 }
 
@@ -84,6 +85,7 @@ TEST(FixedControl, agrees_with_float_to_0_005_of_the_override_over_the_operating
         parameters.override_min = 0.05F;
         parameters.override_max = 2.0F;
         parameters.tooth_force_limit_N = std::exp(dice.between(0.0F, 10.0F));
+        parameters.depth_step_ratio = dice.between(1.0F, 3.0F);
         parameters.contact_force_N = 0.01F * parameters.tooth_force_limit_N;
         const Input input = drawn_cut(dice, parameters);
         FeedController<float> controller(parameters);

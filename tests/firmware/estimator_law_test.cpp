@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "firmware/parameters.hpp"
+
 #include <CppUTest/TestHarness.h>
 
-#include "firmware/parameters.hpp"
+#include "firmware/tick_bench.hpp"
 
 using millforce::firmware::estimator_law;
 using millforce::firmware::ToolParameters;
@@ -27,6 +29,20 @@ TEST(EstimatorLaw, of_constant_coefficients_has_the_doubt_of_the_edges_that_it_l
     CHECK(law.r_1_relative_sd > tool.law.r_1_relative_sd);
     CHECK(law.r_1_exponent_sd > 0.0F);
     CHECK(law.reference_chip_thickness_mm > 0.0F);
+}
+
+TEST(EstimatorLaw, a_small_tool_in_a_heavy_spindle_gets_a_window_in_which_the_counts_tell_its_force) {
+    auto parameters = millforce::test::machine_and_tool();
+    parameters.tool.diameter_mm = 6.0F;
+    parameters.tool.tooth_force_limit_N = 250.0F;
+    parameters.machine.spindle.inertia_kg_m2 = 0.004F;
+    parameters.machine.encoder_counts_per_rev = 8192;
+    const float window_s = estimator_settings(parameters).min_samples / parameters.machine.cnc.sample_rate_hz;
+    const float torque_Nm = 0.004F * 4.0F * (6.2832F / 8192.0F) / (window_s * window_s);
+    DOUBLES_EQUAL(0.04 * 250.0, static_cast<double>(torque_Nm / 0.003F), 0.01);
+    parameters.tool.diameter_mm = 20.0F;
+    parameters.tool.tooth_force_limit_N = 2000.0F;
+    DOUBLES_EQUAL(12.0, static_cast<double>(estimator_settings(parameters).min_samples), 0.0);
 }
 
 TEST(EstimatorLaw, keeps_a_larger_doubt_than_that) {

@@ -52,7 +52,7 @@ Estimate fallen_force() {
 Fault judged(Supervisor& supervisor, const Estimate& e, int times, CutState state = CutState::air,
              const hal::ProgramStatus& status = program()) {
     for (int k = 0; k < times; ++k) {
-        supervisor.judge(e, status, state);
+        supervisor.judge(e, status, state, true);
     }
     return supervisor.fault();
 }
@@ -263,6 +263,23 @@ TEST(SignalSupervisorAlone, does_not_take_a_force_for_vanished_that_is_not_known
     e = fallen_force();
     e.tooth_tangential_N.value = -300.0F;  // and was −100 N before
     CHECK(of_change(e) == Fault::none);
+}
+
+TEST(SignalSupervisorAlone, does_not_take_the_next_value_of_a_load_that_comes_seldom_for_a_force_that_vanishes) {
+    auto parameters = machine_and_tool();
+    parameters.machine.spindle_load_period_s = 0.1F;
+    Supervisor supervisor(parameters);
+    judged(supervisor, one_tooth(), 8, CutState::in_cut);
+    judged(supervisor, fallen_force(), 1, CutState::in_cut);
+    CHECK(judged(supervisor, one_tooth(), 6, CutState::in_cut) == Fault::none);
+}
+
+TEST(SignalSupervisorAlone, does_not_judge_a_force_of_an_earlier_feed) {
+    Supervisor supervisor(machine_and_tool());
+    judged(supervisor, one_tooth(), 8, CutState::in_cut);
+    constexpr bool feed_is_settled = false;
+    supervisor.judge(fallen_force(), program(), CutState::in_cut, feed_is_settled);
+    CHECK(judged(supervisor, one_tooth(), 6, CutState::in_cut) == Fault::none);
 }
 
 TEST(SignalSupervisorAlone, does_not_take_noise_for_a_force_that_vanishes) {

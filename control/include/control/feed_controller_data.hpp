@@ -41,6 +41,12 @@ struct FeedControllerParameters {
     Scalar contact_significance{4};  ///< contact: F_at must also be this many of its standard deviations
     Scalar surge_radial_immersion{0};            ///< largest immersion that may come without warning; 0: none does
     Scalar surge_share{literal<Scalar>(1.03L)};  ///< share of the limit that the force may reach in a surge
+    Scalar depth_step_ratio{2};  ///< largest ratio of depths that may follow each other without warning; 1: no step
+    Scalar depth_step_share{
+        literal<Scalar>(1.4L)};  ///< share of the limit that the force may reach in such a step: the tooth survives it
+    /// Override at which the program has run before, and no contact broke a tooth: what may come without warning holds
+    /// the feed no lower. 0: not known.
+    Scalar proven_override{0};
     Scalar turn_radial_immersion{2};             ///< immersion assumed after a sharp turn of the path; 0: none
     Scalar turn_travel_mm{2};                    ///< travel after a turn for which that immersion is assumed
     Scalar overload_share{

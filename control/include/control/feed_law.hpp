@@ -20,8 +20,14 @@
 /// between override and force delays the correction but does not add to it. Where the edge force alone exceeds the
 /// target no feed helps, and f* is 0.
 ///
-/// The demand is the override for the set point, F_target = setpoint_share · F_tooth,max. It is worked out at each
-/// fresh estimate and stands until the next.
+/// The demand is the override for the set point,
+///
+///   F_target = F_tooth,max · setpoint_share, and where no part map tells the depth at most
+///              F_tooth,max · depth_step_share/depth_step_ratio
+///
+/// The second one is for a step of the depth that nobody has announced: at its first tooth the force is
+/// depth_step_ratio times as large, and no reaction is faster than a tooth. The demand is worked out at each fresh
+/// estimate and stands until the next.
 ///
 /// The override approaches what is wanted
 ///   downwards  at once, within slew_down_per_s
@@ -58,6 +64,8 @@ class FeedLaw {
     [[nodiscard]] static Scalar override_for(const Parameters& parameters, const ControlInput<Scalar>& input,
                                              Target target);
 
+    /// A step of the depth, which no part map announces, keeps the demand below the set point.
+    [[nodiscard]] static bool guards_against_a_step(const Parameters& parameters, const ControlInput<Scalar>& input);
     /// Takes in a fresh estimate. Out of the cut there is no demand: override_max.
     void follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state);
     [[nodiscard]] Scalar demand() const { return demand_; }
@@ -68,8 +76,13 @@ class FeedLaw {
     [[nodiscard]] Scalar override_ratio() const { return override_ratio_; }
 
   private:
-    [[nodiscard]] static Scalar not_below_entry_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
-                                                     Scalar demand);
+    struct SafeFeed {
+        Scalar override_ratio{0};   ///< safe at contact
+        Scalar present_force_N{0};  ///< that a tooth carries for certain; 0: not known
+    };
+    [[nodiscard]] static Scalar target_share(const Parameters& parameters, const ControlInput<Scalar>& input);
+    [[nodiscard]] static Scalar not_below_safe_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                                    Scalar demand, SafeFeed safe);
     [[nodiscard]] static Scalar recovery_in(const Parameters& parameters, const ControlInput<Scalar>& input,
                                             const StepMotion<Scalar>& motion);
 

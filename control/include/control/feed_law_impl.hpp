@@ -43,28 +43,45 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
     if (!cut.fresh || !applies_to(cut)) {
         return;
     }
-    demand_ = override_for(parameters, input, {parameters.setpoint_share, cut.tooth_force_N, cut.cutting_share});
+    demand_ = override_for(parameters, input, {target_share(parameters, input), cut.tooth_force_N, cut.cutting_share});
+    const Scalar proven = parameters.proven_override;
     if (state == CutState::entry) {
-        demand_ = not_below_entry_feed(parameters, input, demand_);
+        const Scalar entry = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
+        const Scalar safe = entry > proven ? entry : proven;
+        demand_ = not_below_safe_feed(parameters, input, demand_, {safe, cut.least_tooth_force_N});
+    } else if (cut.tooth_force_is_bound || guards_against_a_step(parameters, input)) {
+        const Scalar present_N = cut.tooth_force_is_bound ? cut.least_tooth_force_N : cut.tooth_force_N;
+        demand_ = not_below_safe_feed(parameters, input, demand_, {proven, present_N});
     }
 }
 
-/// The arc of a cutter that enters follows no law. What the law says of it never pushes the demand below the entry
-/// feed, which is safe at contact; only the smallest force that must be present can.
 template <typename Scalar>
-Scalar FeedLaw<Scalar>::not_below_entry_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
-                                             Scalar demand) {
-    const Estimate& cut = input.cut;
-    const Scalar entry = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
-    if (!(demand < entry)) {
+bool FeedLaw<Scalar>::guards_against_a_step(const Parameters& parameters, const ControlInput<Scalar>& input) {
+    return !input.way.known &&
+           parameters.depth_step_share < parameters.setpoint_share * parameters.depth_step_ratio;
+}
+
+template <typename Scalar>
+Scalar FeedLaw<Scalar>::target_share(const Parameters& parameters, const ControlInput<Scalar>& input) {
+    return guards_against_a_step(parameters, input) ? parameters.depth_step_share / parameters.depth_step_ratio
+                                                    : parameters.setpoint_share;
+}
+
+/// The arc of a cutter that enters follows no law, an unknown immersion allows any tooth force, and a step of the depth
+/// need not come. None of these pushes the demand below a feed that is safe at contact; only a force that is present
+/// can.
+template <typename Scalar>
+Scalar FeedLaw<Scalar>::not_below_safe_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                            Scalar demand, SafeFeed safe) {
+    if (!(demand < safe.override_ratio)) {
         return demand;
     }
-    if (!(cut.least_tooth_force_N > Scalar(0))) {
-        return entry;
+    if (!(safe.present_force_N > Scalar(0))) {
+        return safe.override_ratio;
     }
-    const Scalar certain =
-        override_for(parameters, input, {parameters.setpoint_share, cut.least_tooth_force_N, cut.cutting_share});
-    const Scalar floor = entry < certain ? entry : certain;
+    const Scalar certain = override_for(
+        parameters, input, {parameters.setpoint_share, safe.present_force_N, input.cut.cutting_share});
+    const Scalar floor = safe.override_ratio < certain ? safe.override_ratio : certain;
     return demand > floor ? demand : floor;
 }
 

@@ -191,6 +191,25 @@ estimation::CuttingLaw<Scalar> estimator_law(const ToolParameters<Scalar>& tool)
     return law;
 }
 
+/// The spindle's acceleration costs torque, and the encoder's counts leave it open: in a window of T by some
+/// 4 (2π/counts)/T². A small tool in a heavy spindle needs a longer window, so that this stays a small share of what
+/// its tooth carries. The samples of that window.
+template <typename Scalar>
+Scalar least_samples(const Parameters<Scalar>& p) {
+    using std::sqrt;
+    constexpr Scalar share_of_limit = estimation::literal<Scalar>(0.04L);
+    constexpr Scalar mm_per_m{1000};
+    const Scalar counts = Scalar(static_cast<int>(p.machine.encoder_counts_per_rev));
+    const Scalar radius_mm = estimation::halved(p.tool.diameter_mm);
+    const Scalar tolerated_N = share_of_limit * p.tool.tooth_force_limit_N;
+    if (!(counts > Scalar(0)) || !(radius_mm > Scalar(0)) || !(tolerated_N > Scalar(0))) {
+        return Scalar(0);
+    }
+    const Scalar inertia_kg_m = p.machine.spindle.inertia_kg_m2 * mm_per_m / radius_mm;
+    return p.machine.cnc.sample_rate_hz *
+           sqrt(inertia_kg_m * (Scalar(4) * estimation::turn_rad<Scalar> / counts) / tolerated_N);
+}
+
 /// Settings of the estimator, worked out from the parameters.
 template <typename Scalar>
 estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Scalar>& p) {
@@ -210,6 +229,8 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;
     s.encoder_counts_per_rev = p.machine.encoder_counts_per_rev;
+    const Scalar samples = least_samples(p);
+    s.min_samples = samples > s.min_samples ? samples : s.min_samples;
     return s;
 }
 
@@ -223,6 +244,9 @@ control::FeedControllerParameters<Scalar> controller_parameters(const Parameters
     c.override_max = p.machine.cnc.override_max;
     c.stale_s = p.machine.cnc.stale_s;
     c.monitor_only = p.tool.monitor_only;
+    if (p.tool.declared_axial_depth_mm > Scalar(0)) {
+        c.depth_step_ratio = Scalar(1);
+    }
     return c;
 }
 

@@ -35,8 +35,9 @@
 ///     √(2 s/R)
 ///
 /// A narrower cut, or an edge at an angle, ends more slowly. The bound is 1.5 times that share, and six standard
-/// deviations of noise. Where the feed changes in the revolution before or after, or the tool moves along its axis, the
-/// force may follow from that, and nothing is judged.
+/// deviations of noise. A load that is told once in load_period_s shows at once what the cut changed by since the last
+/// one: s then includes the travel in that time. Where the feed changes in the revolution before or after, or before a
+/// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged.
 ///
 /// A slow change is not seen here. Where the axes' currents are known, the misfit of the cut's law keeps the feed from
 /// rising (limit law_misfit).
@@ -52,8 +53,10 @@ class SignalSupervisor {
 
     /// Each sample. `dt_s`: 0 where its time has not advanced.
     void take(const hal::DriveSample& sample, Scalar dt_s, control::CutState state);
-    /// Each new estimate, with the program's status and the state of the last answer.
-    void judge(const estimation::CutEstimate<Scalar>& e, const hal::ProgramStatus& program, control::CutState state);
+    /// Each new estimate, with the program's status and the state of the last answer. `feed_is_settled`:
+    /// settled_feed.hpp.
+    void judge(const estimation::CutEstimate<Scalar>& e, const hal::ProgramStatus& program, control::CutState state,
+               bool feed_is_settled);
     /// What re-zeroing in air says of the spindle, with each new estimate.
     void judge_idle(bool is_implausible, int tooth_periods);
     /// No average reaches over this moment.
@@ -70,7 +73,7 @@ class SignalSupervisor {
     void watch_clock(Scalar dt_s);
     void watch_index(const hal::DriveSample& sample);
     void watch_currents(const hal::DriveSample& sample, control::CutState state);
-    void judge_teeth(const Estimate& e, control::CutState state);
+    void judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled);
     [[nodiscard]] control::Fault sudden_change(const Estimate& e);
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state);
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
@@ -105,6 +108,7 @@ class SignalSupervisor {
     Scalar per_radius_;  // 1/R in 1/mm
     Scalar reaction_s_;
     Scalar per_acceleration_;
+    Scalar load_period_s_;
     std::int32_t counts_per_rev_;
 
     control::Fault fault_ = control::Fault::none;

@@ -29,6 +29,7 @@ SignalSupervisor<Scalar>::SignalSupervisor(const Parameters<Scalar>& p)
       reaction_s_(reaction_s(p.machine)),
       per_acceleration_(p.machine.cnc.acceleration_mm_s2 > Scalar(0) ? Scalar(1) / p.machine.cnc.acceleration_mm_s2
                                                                      : Scalar(0)),
+      load_period_s_(p.machine.spindle_load_period_s),
       counts_per_rev_(static_cast<std::int32_t>(p.machine.encoder_counts_per_rev)) {}
 
 template <typename Scalar>
@@ -127,8 +128,9 @@ void SignalSupervisor<Scalar>::watch_currents(const hal::DriveSample& sample, co
 // Each estimate
 
 template <typename Scalar>
-void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus& program, control::CutState state) {
-    judge_teeth(e, state);
+void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
+                                     bool feed_is_settled) {
+    judge_teeth(e, state, feed_is_settled);
     judge_feed(e, program);
     periods_in_turn_ += e.tooth_periods;
     if (Scalar(periods_in_turn_) >= teeth_) {
@@ -147,7 +149,7 @@ void SignalSupervisor<Scalar>::judge_idle(bool is_implausible, int tooth_periods
 }
 
 template <typename Scalar>
-void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState state) {
+void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled) {
     using estimation::literal;
     using estimation::square;
     constexpr Scalar level_share = literal<Scalar>(0.05L);  // of the feed: a slower change of height is no ramp
@@ -155,7 +157,7 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     constexpr Scalar fastest_change = literal<Scalar>(1.4L);
     const typename Estimate::ToothChange& change = e.tooth_change;
     const bool is_level = square(e.axial_speed_mm_s) < square(level_share * e.feed_mm_s);
-    steady_periods_ = change.feed_is_steady && is_level ? steady_periods_ + e.tooth_periods : 0;
+    steady_periods_ = change.feed_is_steady && feed_is_settled && is_level ? steady_periods_ + e.tooth_periods : 0;
     const control::Fault sudden = sudden_change(e);
     const bool cuts = control::is_cutting(state);
     if (cuts && (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1))) {
@@ -182,7 +184,8 @@ control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     const Scalar tangential_N = tangential_.follow(change.tangential_N.value);
     const std::array<Scalar, 2> axis_N{axis_jumps_[0].follow(change.axis_N[0].value),
                                        axis_jumps_[1].follow(change.axis_N[1].value)};
-    const Scalar travel_mm = e.feed_per_tooth_mm * Scalar(e.tooth_periods + last_periods_ + 1);
+    const Scalar travel_mm =
+        e.feed_per_tooth_mm * Scalar(e.tooth_periods + last_periods_ + 1) + e.feed_mm_s * load_period_s_;
     last_periods_ = e.tooth_periods;
     const Scalar share = bound * sqrt(Scalar(2) * travel_mm * per_radius_);
     const Scalar now_N = e.tooth_tangential_N.value;

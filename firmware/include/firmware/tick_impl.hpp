@@ -238,7 +238,7 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     }
     drops_.follow_section(estimator_.estimate().section_mm2);
     surface_.update(estimator_.estimate());
-    supervisor_.judge(estimator_.estimate(), program_, control_.state);
+    supervisor_.judge(estimator_.estimate(), program_, control_.state, feed_is_settled());
     supervisor_.judge_idle(estimator_.spindle_is_implausible(), estimator_.estimate().tooth_periods);
     set_cut();
     has_new_estimate_ = true;

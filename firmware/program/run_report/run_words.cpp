@@ -95,6 +95,9 @@ const CeilingWords& words_of(control::Limit limit) {
          "By the part map a place ahead needed a lower feed, and the machine had to brake for it."},
         {"axes too fast", "",
          "The axes moved faster than the programmed feed and the override allow, so the feed was not raised."},
+        {"a step of the depth", "depth_step_ratio, depth_step_share",
+         "The depth might have grown without warning, faster than the feed can fall. A part map, "
+         "<code>declared_axial_depth_mm</code> or <code>depth_step_ratio = 1</code> for a part without steps lift it."},
     };
     return words[static_cast<unsigned>(limit) % control::limit_count];
 }
