@@ -282,6 +282,20 @@ TEST(SignalSupervisorAlone, does_not_judge_a_force_of_an_earlier_feed) {
     CHECK(judged(supervisor, one_tooth(), 6, CutState::in_cut) == Fault::none);
 }
 
+TEST(SignalSupervisorAlone, does_not_take_the_late_load_of_a_cut_for_contact_in_the_rapid_behind_it) {
+    Estimate loaded = revolution();
+    loaded.tangential_N = known_N(300.0F);
+    hal::ProgramStatus rapid = program();
+    rapid.rapid = true;
+    for (const bool feed_is_settled : {false, true}) {
+        Supervisor supervisor(machine_and_tool());
+        for (int k = 0; k < 6; ++k) {
+            supervisor.judge(loaded, rapid, CutState::in_cut, feed_is_settled);
+        }
+        CHECK((supervisor.fault() == Fault::contact_in_rapid) == feed_is_settled);
+    }
+}
+
 TEST(SignalSupervisorAlone, does_not_take_noise_for_a_force_that_vanishes) {
     Estimate e = fallen_force();
     e.tooth_change.tangential_N.variance = 20.0F * 20.0F;  // it fell by 88 N more than a cut's end explains

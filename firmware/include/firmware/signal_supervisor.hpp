@@ -24,7 +24,7 @@
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
 ///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions
-///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions
+///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is that move's
 ///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer
 ///                      than the CNC takes to react and 0.15 s. Whether it follows the override is not judged: a
 ///                      recording may have been made without one.
@@ -75,7 +75,8 @@ class SignalSupervisor {
     void watch_currents(const hal::DriveSample& sample, control::CutState state);
     void judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled);
     [[nodiscard]] control::Fault sudden_change(const Estimate& e);
-    void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state);
+    void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
+                          bool feed_is_settled);
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
     void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
 

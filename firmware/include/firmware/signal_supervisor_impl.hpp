@@ -135,7 +135,7 @@ void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus
     periods_in_turn_ += e.tooth_periods;
     if (Scalar(periods_in_turn_) >= teeth_) {
         periods_in_turn_ = 0;
-        judge_revolution(e, program, state);
+        judge_revolution(e, program, state, feed_is_settled);
     }
 }
 
@@ -212,14 +212,14 @@ control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
 
 template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::ProgramStatus& program,
-                                                control::CutState state) {
+                                                control::CutState state, bool feed_is_settled) {
     using std::sqrt;
     constexpr Scalar steady_share = estimation::literal<Scalar>(0.003L);
     const Scalar change = e.spindle_speed_rad_s - last_speed_rad_s_;
     const Scalar most = steady_share * e.spindle_speed_rad_s;
     const bool turns_evenly = change < most && -change < most;
     last_speed_rad_s_ = e.spindle_speed_rad_s;
-    if (!e.tangential_N.valid || !turns_evenly) {
+    if (!e.tangential_N.valid || !turns_evenly || !feed_is_settled) {
         negative_turns_ = rapid_turns_ = 0;
     } else {
         const Scalar level_N = Scalar(2) * control::contact_level_N(contact_force_N_, contact_significance_,
