@@ -43,7 +43,7 @@ struct FeedControllerParameters {
     Scalar surge_share{literal<Scalar>(1.03L)};  ///< share of the limit that the force may reach in a surge
     Scalar depth_step_ratio{2};  ///< largest ratio of depths that may follow each other without warning; 1: no step
     Scalar depth_step_share{
-        literal<Scalar>(1.4L)};  ///< share of the limit that the force may reach in such a step: the tooth survives it
+        Scalar(1.5F)};  ///< share of the limit that the force may reach in such a step: the tooth survives it
     /// Override at which the program has run before, and no contact broke a tooth: what may come without warning holds
     /// the feed no lower. 0: not known.
     Scalar proven_override{0};
