@@ -205,6 +205,17 @@ TEST(SteadyCut, forgets_a_cut_without_doubt_at_its_end) {
     DOUBLES_EQUAL(480.0, largest_N(cut, cut_with_drift(240.0F, 150.0F)), 1e-3);
 }
 
+TEST(SteadyCut, does_not_mix_a_cut_with_the_one_before) {
+    SteadyCut cut = in_steady_cut();
+    cut.leave_cut();
+    CutEstimate<float> e = cut_of(300.0F, 150.0F);
+    e.engagement.radial_immersion = 0.2F;
+    e.engagement.axial_depth_mm = 12.0F;
+    follow(cut, e, 4 * settled);
+    e.feed_N.value = 170.0F;
+    DOUBLES_EQUAL(600.0, largest_N(cut, e), 1e-3);
+}
+
 TEST(SteadyCut, is_not_misled_by_a_feed_force_that_is_lost_in_its_noise) {
     SteadyCut cut;
     CutEstimate<float> e = cut_of(300.0F, 0.5F);  // standard deviation 1 N
