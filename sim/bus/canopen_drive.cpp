@@ -56,7 +56,7 @@ CanopenDrive::CanopenDrive(const CanopenDriveSettings& settings) : settings_(set
 }
 
 void CanopenDrive::build_dictionary() {
-    const std::map<Key, Entry> before = std::exchange(dictionary_, {});
+    const std::unordered_map<Key, Entry> before = std::exchange(dictionary_, {});
     dictionary_[key(0x1000, 0)] = {0x00020192, 4, false, false};
     dictionary_[key(0x1001, 0)] = {0, 1, false, true};
     dictionary_[key(0x1017, 0)] = {settings_.heartbeat_ms, 2, true, false};

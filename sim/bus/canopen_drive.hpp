@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "hal/can_frame.hpp"
@@ -76,7 +76,7 @@ class CanopenDrive {
     void send(std::uint32_t id, std::vector<std::uint8_t> bytes);
 
     CanopenDriveSettings settings_;
-    std::map<Key, Entry> dictionary_;
+    std::unordered_map<Key, Entry> dictionary_;
     std::vector<hal::CanFrame> outgoing_;
     std::array<unsigned, 4> syncs_since_pdo_{};
     std::uint8_t nmt_state_ = 0;

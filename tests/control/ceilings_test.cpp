@@ -354,6 +354,35 @@ TEST(Ceilings, an_old_estimate_moves_no_ceiling_of_a_surge) {
     check_ratio(before, controller.step(old));
 }
 
+TEST(Ceilings, an_estimate_that_the_law_says_nothing_of_moves_no_ceiling_of_a_surge) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 1.0F;
+    Controller controller(p);
+    bring_into_cut(controller);
+    const float before = repeat(controller, in_contact(), 20).ratio;
+    Input without_feed = in_contact();
+    without_feed.cut.surge_ratio = 5.0F;
+    without_feed.cut.feed_mm_s = 0.0F;
+    check_ratio(before, controller.step(without_feed));
+}
+
+TEST(Ceilings, over_a_gap_the_override_returns_to_that_of_the_cut_before) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 100.0F;
+    p.override_max = 1.0F;  // above it the axes, at 20 mm/s, would seem to brake for a corner
+    Controller controller(p);
+    bring_into_cut(controller);
+    const float before = repeat(controller, in_contact(), 20).ratio;
+    Input gap = in_air();
+    check_ratio(before, repeat(controller, gap, 5));
+    gap.plunging = true;
+    CHECK(repeat(controller, gap, 5).ratio < 0.9F * before);
+    gap.plunging = false;
+    const Output output = repeat(controller, gap, 20);
+    CHECK(output.state == CutState::exit);
+    check_ratio(before, output);
+}
+
 TEST(Ceilings, a_cut_is_not_compared_with_the_one_before) {
     Parameters p = immediate();
     p.exit_travel_mm = 0.0F;

@@ -67,6 +67,12 @@ TEST(CutStates, leaves_entry_and_in_cut_to_exit_where_contact_is_lost) {
     CHECK(in_cut.step(in_air()).state == CutState::exit);
 }
 
+TEST(CutStates, a_force_that_is_not_valid_ends_no_contact) {
+    Controller controller;
+    bring_into_cut(controller);
+    CHECK(repeat(controller, without_force(in_air()), 10).state == CutState::in_cut);
+}
+
 TEST(CutStates, keeps_the_state_between_half_and_the_whole_contact_force) {
     Parameters p;
     p.contact_force_N = 40.0F;
@@ -105,6 +111,17 @@ TEST(CutStates, reaches_the_air_state_only_where_the_force_says_so) {
     bring_into_cut(controller);
     controller.step(in_air());
     CHECK(repeat(controller, without_force(in_contact()), 500).state != CutState::air);
+}
+
+TEST(CutStates, is_not_in_air_by_its_travel_alone) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input between = in_air();
+    controller.step(between);
+    between.cut.fresh = false;
+    repeat(controller, between, 200);  // 4 mm, twice the exit travel
+    CHECK(controller.step(without_force(in_air())).state == CutState::exit);
+    CHECK(controller.step(in_air()).state == CutState::air);
 }
 
 TEST(CutStates, holds_while_the_feed_is_held_and_goes_on_with_the_next_estimate) {
@@ -163,6 +180,14 @@ TEST(CutStates, counts_the_programmed_feed_as_travel_where_no_velocity_is_known_
     }
 }
 
+TEST(CutStates, counts_the_way_of_the_axes_where_the_programmed_feed_is_not_known) {
+    Controller controller;
+    Input blind = without_force(in_air());
+    blind.motion_is_unseen = true;
+    blind.programmed_feed_mm_s = not_a_number;
+    CHECK(repeat(controller, blind, 200).hold);
+}
+
 TEST(CutStates, moves_on_without_a_force_in_a_rapid_and_where_the_spindle_does_not_mill) {
     for (const bool is_rapid : {false, true}) {
         Controller controller;
@@ -170,7 +195,9 @@ TEST(CutStates, moves_on_without_a_force_in_a_rapid_and_where_the_spindle_does_n
         blind.cut.spindle_turning = false;
         blind.rapid = is_rapid;
         blind.cut.spindle_does_not_mill = !is_rapid;
-        CHECK_FALSE(repeat(controller, blind, 2000).hold);
+        const Output output = repeat(controller, blind, 2000);
+        CHECK_FALSE(output.hold);
+        CHECK(output.state == CutState::air);
     }
 }
 

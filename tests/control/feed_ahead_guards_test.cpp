@@ -144,6 +144,26 @@ TEST(FeedAheadGuards, below_contact_the_direction_of_the_force_says_nothing) {
     CHECK_FALSE(ahead.is_refuted());
 }
 
+TEST(FeedAheadGuards, a_force_along_the_feed_far_above_that_of_the_map_refutes_it) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    for (float s_mm = 1.0F; s_mm < 10.0F; s_mm += step_mm) {
+        Ahead::Step now = estimate_at(s_mm, 300.0F);
+        now.feed_force_N = 2.0F * now.tangential_N;
+        (void)ahead.step(now);
+    }
+    CHECK_TRUE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, nothing_is_left_of_a_map_after_a_restart) {
+    Ahead ahead(exact());
+    for (float begin_mm = 0.0F; ahead.room() > 0; begin_mm += 1.0F) {
+        CHECK_TRUE(ahead.add(cut_from(begin_mm)));
+    }
+    ahead.restart();
+    DOUBLES_EQUAL(static_cast<double>(WayAhead<float>{}.feed_mm_s), static_cast<double>(ahead.step(at(5.0F)).feed_mm_s),
+                  0.0);
+}
+
 TEST(FeedAheadGuards, a_stretch_that_is_passed_is_expected_no_more) {
     Ahead ahead = with({cut_from(0.0F, wall_feed_mm_s, 400.0F), cut_from(20.0F), air_from(60.0F)});
     (void)cut(ahead, 1.0F, 10.0F, 400.0F);

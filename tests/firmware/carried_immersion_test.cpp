@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "estimation/number/fixed_point.hpp"
 #include "firmware/carried_immersion_impl.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -77,4 +78,29 @@ TEST(CarriedImmersion, is_of_no_use_after_a_growth_by_half) {
     CHECK_TRUE(carried.carry(immersion(0.5F), 14.9F).valid);
     CHECK_FALSE(carried.carry(immersion(0.5F), 15.1F).valid);
     CHECK_FALSE(carried.carry(immersion(0.5F), 4.9F).valid);
+}
+
+TEST(CarriedImmersion, learns_no_split_from_a_section_or_an_immersion_of_nothing) {
+    Carried from_no_section;
+    from_no_section.take(immersion(0.5F), unknown);
+    from_no_section.follow_section(10.0F);
+    from_no_section.take(immersion(0.6F), immersion(0.5F));
+    DOUBLES_EQUAL(1.0 + 0.1 * 0.5, carried_by_a_tenth(from_no_section, 0.6F, 10.0F), 1e-5);
+
+    Carried from_no_immersion;
+    from_no_immersion.follow_section(10.0F);
+    from_no_immersion.take(immersion(0.0F), unknown);
+    from_no_immersion.follow_section(12.0F);
+    from_no_immersion.take(immersion(0.6F), immersion(0.0F));
+    DOUBLES_EQUAL(1.0 + 0.1 * 0.5, carried_by_a_tenth(from_no_immersion, 0.6F, 12.0F), 1e-5);
+}
+
+TEST(CarriedImmersion, divides_by_no_section_of_nothing) {
+    using millforce::estimation::Fixed;
+    const Measurement<Fixed> half{true, Fixed(0.5F), Fixed(0)};
+    millforce::firmware::CarriedImmersion<Fixed> carried;
+    const std::uint32_t before = millforce::estimation::saturations();
+    carried.take(half, {});
+    CHECK_FALSE(carried.carry(half, Fixed(10)).valid);
+    UNSIGNED_LONGS_EQUAL(before, millforce::estimation::saturations());
 }

@@ -53,6 +53,13 @@ TEST(SettledFeed, does_not_mind_a_ripple_but_a_creep) {
     CHECK_FALSE(feed.is_settled());
 }
 
+TEST(SettledFeed, is_not_settled_by_a_feed_that_falls) {
+    Settled feed(0.25F);
+    follow(feed, 10.0F, 300);
+    follow(feed, 9.0F, 1);
+    CHECK_FALSE(feed.is_settled());
+}
+
 TEST(SettledFeed, of_no_number_is_not_settled) {
     Settled feed(0.25F);
     follow(feed, 10.0F, 300);

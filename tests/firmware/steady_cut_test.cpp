@@ -79,7 +79,7 @@ TEST(SteadyCut, takes_the_force_by_the_spindle_where_an_axis_current_drifts) {
 
 TEST(SteadyCut, leaves_the_force_of_a_ramp_and_of_a_wall_that_converges) {
     SteadyCut ramp = in_steady_cut();
-    CutEstimate<float> deeper = cut_of(340.0F, 170.0F);
+    CutEstimate<float> deeper = cut_of(340.0F, 200.0F);
     deeper.engagement.axial_depth_mm = 6.0F;
     follow(ramp, deeper, 4 * settled);
     DOUBLES_EQUAL(680.0, largest_N(ramp, deeper), 1e-3);
@@ -102,8 +102,83 @@ TEST(SteadyCut, is_not_misled_by_an_immersion_that_is_hardly_known) {
 
 TEST(SteadyCut, begins_anew_where_both_forces_change_at_once) {
     SteadyCut cut = in_steady_cut();
-    follow(cut, cut_with_drift(200.0F, 100.0F), 4 * settled);
-    DOUBLES_EQUAL(400.0, largest_N(cut, cut_with_drift(200.0F, 100.0F)), 1e-3);
+    const CutEstimate<float> other = cut_with_drift(200.0F, 110.0F);
+    for (int k = 0; k < 4 * settled; ++k) {
+        cut.follow(other);
+        DOUBLES_EQUAL(400.0, largest_N(cut, other), 1e-3);
+    }
+}
+
+TEST(SteadyCut, takes_a_jump_of_one_current_for_no_other_cut) {
+    SteadyCut cut = in_steady_cut();
+    follow(cut, cut_with_drift(200.0F, 150.0F), 2 * settled);
+    DOUBLES_EQUAL(600.0, largest_N(cut, cut_with_drift(200.0F, 150.0F)), 1e-3);
+
+    SteadyCut pulled;  // along the feed by the cut
+    follow(pulled, cut_of(300.0F, -150.0F), 2 * settled);
+    follow(pulled, cut_with_drift(200.0F, -150.0F), 2 * settled);
+    DOUBLES_EQUAL(600.0, largest_N(pulled, cut_with_drift(200.0F, -150.0F)), 1e-3);
+}
+
+TEST(SteadyCut, lowers_no_force) {
+    SteadyCut cut = in_steady_cut();
+    CutEstimate<float> e = cut_with_drift(240.0F, 150.0F);
+    follow(cut, e, 2 * settled);
+    e.tooth_force_N.value = 900.0F;
+    DOUBLES_EQUAL(900.0, largest_N(cut, e), 1e-3);
+}
+
+TEST(SteadyCut, says_nothing_by_a_force_that_is_not_known) {
+    SteadyCut cut = in_steady_cut();
+    const CutEstimate<float> drifted = cut_with_drift(240.0F, 150.0F);
+    follow(cut, drifted, 2 * settled);
+    CutEstimate<float> without_spindle = drifted;
+    without_spindle.tangential_N.valid = false;
+    DOUBLES_EQUAL(480.0, largest_N(cut, without_spindle), 1e-3);
+    CutEstimate<float> without_axes = drifted;
+    without_axes.feed_N.valid = false;
+    DOUBLES_EQUAL(480.0, largest_N(cut, without_axes), 1e-3);
+}
+
+TEST(SteadyCut, does_not_follow_an_estimate_that_is_not_whole) {
+    const CutEstimate<float> drifted = cut_with_drift(240.0F, 150.0F);
+    CutEstimate<float> without_immersion = drifted;
+    without_immersion.engagement.immersion_valid = false;
+    CutEstimate<float> without_depth = drifted;
+    without_depth.engagement.depth_valid = false;
+    CutEstimate<float> without_axes = drifted;
+    without_axes.feed_N.valid = false;
+    for (const CutEstimate<float>& e : {without_immersion, without_depth, without_axes}) {
+        SteadyCut cut = in_steady_cut();
+        follow(cut, e, 2 * settled);
+        DOUBLES_EQUAL(480.0, largest_N(cut, drifted), 1e-3);
+    }
+}
+
+TEST(SteadyCut, is_not_begun_anew_by_an_estimate_without_force_or_feed) {
+    const CutEstimate<float> drifted = cut_with_drift(240.0F, 150.0F);
+    CutEstimate<float> without_feed = drifted;
+    without_feed.feed_per_tooth_mm = 0.0F;
+    for (const CutEstimate<float>& e : {cut_of(0.0F, 0.0F), without_feed}) {
+        SteadyCut cut = in_steady_cut();
+        follow(cut, e, 1);
+        follow(cut, drifted, 2 * settled);
+        DOUBLES_EQUAL(600.0, largest_N(cut, drifted), 1e-3);
+    }
+}
+
+TEST(SteadyCut, begins_with_a_tooth_force_that_is_known) {
+    const CutEstimate<float> drifted = cut_with_drift(240.0F, 150.0F);
+    CutEstimate<float> unknown = cut_of(300.0F, 150.0F);
+    unknown.tooth_force_N.valid = false;
+    CutEstimate<float> bound = cut_of(300.0F, 150.0F);
+    bound.tooth_force_is_bound = true;
+    for (const CutEstimate<float>& e : {unknown, bound}) {
+        SteadyCut cut;
+        follow(cut, e, 2 * settled);
+        follow(cut, drifted, 2 * settled);
+        DOUBLES_EQUAL(480.0, largest_N(cut, drifted), 1e-3);
+    }
 }
 
 TEST(SteadyCut, knows_nothing_of_a_cut_before_its_first_estimates) {
@@ -117,6 +192,7 @@ TEST(SteadyCut, keeps_its_doubt_out_of_the_cut_until_the_currents_are_found_soun
     SteadyCut cut = in_steady_cut();
     follow(cut, cut_with_drift(240.0F, 150.0F), 2 * settled);
     cut.leave_cut();
+    follow(cut, cut_with_drift(240.0F, 150.0F), 2 * settled);
     DOUBLES_EQUAL(600.0, largest_N(cut, cut_with_drift(240.0F, 150.0F)), 1e-3);
     cut.clear();
     DOUBLES_EQUAL(480.0, largest_N(cut, cut_with_drift(240.0F, 150.0F)), 1e-3);
@@ -127,6 +203,17 @@ TEST(SteadyCut, forgets_a_cut_without_doubt_at_its_end) {
     cut.leave_cut();
     follow(cut, cut_with_drift(240.0F, 150.0F), 2 * settled);
     DOUBLES_EQUAL(480.0, largest_N(cut, cut_with_drift(240.0F, 150.0F)), 1e-3);
+}
+
+TEST(SteadyCut, does_not_mix_a_cut_with_the_one_before) {
+    SteadyCut cut = in_steady_cut();
+    cut.leave_cut();
+    CutEstimate<float> e = cut_of(300.0F, 150.0F);
+    e.engagement.radial_immersion = 0.2F;
+    e.engagement.axial_depth_mm = 12.0F;
+    follow(cut, e, 4 * settled);
+    e.feed_N.value = 170.0F;
+    DOUBLES_EQUAL(600.0, largest_N(cut, e), 1e-3);
 }
 
 TEST(SteadyCut, is_not_misled_by_a_feed_force_that_is_lost_in_its_noise) {

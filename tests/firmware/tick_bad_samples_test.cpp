@@ -141,6 +141,16 @@ TEST(TickOnBadSamples, holds_the_feed_in_a_cut_whose_feed_is_not_known_because_n
     CHECK(tick.control().fault == Fault::stale_input);
 }
 
+TEST(TickOnBadSamples, does_not_mind_what_the_velocity_of_an_absent_axis_says) {
+    ForceControlTick<float> tick = fresh_tick();
+    for (int k = 0; k < 700; ++k) {
+        hal::DriveSample sample = sample_of(k);
+        sample.present = static_cast<std::uint8_t>(sample.present & ~hal::axis_mask(2));
+        sample.axis_velocity_mm_s[2] = k < 300 ? 0.0F : k % 2 == 0 ? 1e6F : not_a_number;
+        CHECK_FALSE(step_and_work(tick, sample, program()).hold);
+    }
+}
+
 TEST(TickOnBadSamples, waits_for_the_first_whole_sample_without_a_fault) {
     ForceControlTick<float> tick = fresh_tick();
     const float at_rest = tick.control().ratio;

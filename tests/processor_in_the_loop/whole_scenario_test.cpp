@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 
 #include "emulated_controller.hpp"
 #include "estimation/number/fixed_point.hpp"
@@ -19,6 +20,7 @@
 // runs on the host beside it: every answer must have the same bits. MILLFORCE_LOOP_SCENARIO names another scenario.
 
 using namespace millforce;
+using faults::SignalFault;
 
 namespace {
 
@@ -90,12 +92,10 @@ void mill_on(const std::string& processor, std::uint32_t budget) {
 
 /// What a fault leads to on the host is what it leads to on the processor.
 template <typename Scalar>
-void meet_faults_on(const std::string& processor) {
-    using faults::SignalFault;
+void meet_on(const std::string& processor, std::initializer_list<SignalFault> kinds) {
     const faults::Part part = faults::part_named("slot_entry");
     std::uint64_t seed = 0;
-    for (const SignalFault fault : {SignalFault::spindle_frozen, SignalFault::x_tenfold, SignalFault::encoder_double,
-                                    SignalFault::not_a_number, SignalFault::rapid_stuck, SignalFault::time_backwards}) {
+    for (const SignalFault fault : kinds) {
         ComparedController<Scalar> controller(processor, part.stated);
         CHECK_TRUE_TEXT(controller.image_works(), "the emulator does not start");
         faults::Tally tally;
@@ -126,5 +126,12 @@ TEST(ProcessorInTheLoop, a_Cortex_M3_mills_it_in_fixed_point_bit_for_bit) {
 }
 
 TEST(ProcessorInTheLoop, a_Cortex_M4F_meets_faults_as_the_host_does_bit_for_bit) {
-    meet_faults_on<float>("cortex-m4f");
+    meet_on<float>("cortex-m4f", {SignalFault::spindle_frozen, SignalFault::x_tenfold, SignalFault::encoder_double,
+                                  SignalFault::not_a_number, SignalFault::rapid_stuck, SignalFault::time_backwards});
+}
+
+// Of those that leave the range of fixed point, if anything does, and of one that does not.
+TEST(ProcessorInTheLoop, a_Cortex_M3_meets_faults_as_the_host_does_in_fixed_point) {
+    meet_on<estimation::Fixed>("cortex-m3",
+                               {SignalFault::velocities_huge, SignalFault::not_a_number, SignalFault::spindle_weak});
 }

@@ -45,7 +45,8 @@ TEST_GROUP(RunWithFaults) {
 TEST(RunWithFaults, holds_the_feed_before_a_tooth_breaks) {
     folder.write("machine.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml"));
     std::uint64_t seed = 10;
-    for (const SignalFault fault : {SignalFault::spindle_frozen, SignalFault::x_tenfold, SignalFault::encoder_double}) {
+    for (const SignalFault fault : {SignalFault::spindle_frozen, SignalFault::x_tenfold, SignalFault::encoder_double,
+                                    SignalFault::spindle_reversed, SignalFault::encoder_frozen}) {
         const faults::Tally tally = mill_with(fault, ++seed);
         LONGS_EQUAL_TEXT(1, tally.runs, faults::name_of(fault));
         LONGS_EQUAL_TEXT(0, tally.violations(), faults::name_of(fault));

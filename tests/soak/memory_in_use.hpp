@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,5 +16,11 @@ struct MemoryInUse {
 };
 
 [[nodiscard]] MemoryInUse memory_in_use();
+
+/// The more of each.
+[[nodiscard]] inline MemoryInUse largest(const MemoryInUse& a, const MemoryInUse& b) {
+    return {std::max(a.allocations, b.allocations), std::max(a.heap_bytes, b.heap_bytes),
+            std::max(a.resident_KiB, b.resident_KiB)};
+}
 
 }  // namespace millforce::soak

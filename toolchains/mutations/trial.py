@@ -35,15 +35,17 @@ class Build:
     def compile_command(self, source, work):
         """The source, with the changed header of the folder `work` if there is one."""
         library = source.split("/")[0]
-        joined = self.release / library / f"CMakeFiles/{library}.dir/Unity/unity_0_cxx.cxx"
+        joined = self.release / library / f"CMakeFiles/millforce_lib_{library}.dir/Unity/unity_0_cxx.cxx"
         command = self.of_source.get(self.root / source) or self.of_source[joined]
         kept = [word for word in command if not word.startswith(("-W", "-O"))]
         kept = kept[:kept.index("-o")] if "-o" in kept else kept
         return [kept[0], f"-I{work}", *kept[1:], "-w", "-O1"]
 
     def compile(self, source, output, work):
+        """The source, or the changed one in the folder `work`."""
         output.parent.mkdir(parents=True, exist_ok=True)
-        command = [*self.compile_command(source, work), "-c", str(self.root / source), "-o", str(output)]
+        text = work / source if (work / source).exists() else self.root / source
+        command = [*self.compile_command(source, work), "-c", str(text), "-o", str(output)]
         return subprocess.run(command, cwd=self.release, capture_output=True, text=True, check=False)
 
     def unchanged_object(self, source):
@@ -102,9 +104,10 @@ def run_tests(executable, groups, limit_s):
 
 def attempt(build, subject, mutant, work, limit_s=120):
     """(result, what killed it): "killed", "survived", or "not compiled"."""
-    header = work / Path(*Path(mutant.path).parts[2:])
-    header.parent.mkdir(parents=True, exist_ok=True)
-    header.write_text(mutant.text, encoding="utf-8")
+    as_included = Path(*Path(mutant.path).parts[2:])
+    file = work / (as_included if mutant.path.endswith(".hpp") else mutant.path)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(mutant.text, encoding="utf-8")
     changed = {}
     try:
         for source in subject.sources:
@@ -119,4 +122,4 @@ def attempt(build, subject, mutant, work, limit_s=120):
         killer = run_tests(executable, subject.groups, limit_s)
         return ("killed" if killer else "survived"), killer
     finally:
-        header.unlink()
+        file.unlink()

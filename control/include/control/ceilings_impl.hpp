@@ -21,8 +21,7 @@ void Ceilings<Scalar>::follow(const Parameters& parameters, const ControlInput<S
                               const StepMotion<Scalar>& motion, const Situation& situation) {
     follow_program(parameters, input);
     travel_since_estimate_mm_ += motion.travel_mm;
-    const Scalar left_mm = turn_travel_left_mm_ - motion.travel_mm;
-    turn_travel_left_mm_ = motion.turned ? parameters.turn_travel_mm : (left_mm > Scalar(0) ? left_mm : Scalar(0));
+    turn_travel_left_mm_ = motion.turned ? parameters.turn_travel_mm : turn_travel_left_mm_ - motion.travel_mm;
     if (!feed_and_speed_are_known(input)) {
         return;
     }

@@ -108,7 +108,7 @@ bool FeedAhead<Scalar, Capacity>::force_agrees(const Step& now, const Expected& 
     const bool is_measured = hardness_ > Scalar(0);
     const Scalar lowest = settings_.lowest_hardness;
     const Scalar highest = settings_.highest_hardness;
-    const Scalar softest = is_measured ? clamp(hardness_ / settings_.hardness_band, lowest, highest) : lowest;
+    const Scalar softest = clamp(hardness_ / settings_.hardness_band, lowest, highest);  // not measured: 0, the lowest
     const Scalar hardest = is_measured ? clamp(hardness_ * settings_.hardness_band, lowest, highest) : highest;
     const Scalar noise_N = significance * now.tangential_sd_N;
     const Scalar most_N = expected.tangential_N.high * hardest + noise_N;

@@ -42,7 +42,7 @@ estimation::Measurement<Scalar> CarriedImmersion<Scalar>::carry(estimation::Meas
                                                                 Scalar section_mm2) const {
     constexpr Scalar variance_of_even_distribution = estimation::literal<Scalar>(1.0L / 12.0L);
     constexpr Scalar largest_growth{0.5F};
-    immersion.valid = immersion.valid && section_of_drops_mm2_ > Scalar(0) && section_mm2 > Scalar(0);
+    immersion.valid = immersion.valid && section_of_drops_mm2_ > Scalar(0);
     if (immersion.valid) {
         const Scalar growth = section_mm2 / section_of_drops_mm2_ - Scalar(1);
         immersion.variance += variance_of_even_distribution * estimation::square(growth * immersion.value);

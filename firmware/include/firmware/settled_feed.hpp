@@ -22,7 +22,7 @@ class SettledFeed {
             feed_mm_s_ = feed_mm_s;
             settled_s_ = Scalar(0);
         }
-        settled_s_ += settled_s_ < late_s_ ? dt_s : Scalar(0);
+        settled_s_ += dt_s;
     }
     [[nodiscard]] bool is_settled() const { return settled_s_ >= late_s_; }
 
