@@ -9,6 +9,7 @@
 #include "firmware/parameters.hpp"
 #include "firmware/settled_feed.hpp"
 #include "firmware/signal_supervisor.hpp"
+#include "firmware/slow_fall.hpp"
 #include "firmware/steady_cut.hpp"
 #include "firmware/surface_monitor.hpp"
 #include "firmware/wide_band_monitor.hpp"
@@ -126,6 +127,7 @@ class ForceControlTick {
     [[nodiscard]] bool is_idle(const estimation::Measurement<Scalar>& tangential_N) const;
     void set_cut();
     void allow_for_drift();
+    void allow_for_drift_of_the_spindle_alone();
     void set_motion(Velocity velocity);
     void run_law(const hal::ProgramStatus& program);
     [[nodiscard]] bool belongs_to_this_feed() const;
@@ -136,6 +138,7 @@ class ForceControlTick {
     WideBand wide_band_;
     CarriedImmersion<Scalar> drops_{};
     SteadyCut<Scalar> steady_cut_{};
+    SlowFall<Scalar> slow_fall_;
     SurfaceMonitor<Scalar> surface_;
     SignalSupervisor<Scalar> supervisor_;
     control::FeedController<Scalar> controller_;

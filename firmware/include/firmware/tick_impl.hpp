@@ -22,11 +22,22 @@ static Scalar contact_current_A(const Parameters<Scalar>& p) {
     return spindle.K_t1_Nm_per_A > Scalar(0) ? torque_Nm / spindle.K_t1_Nm_per_A : Scalar(0);
 }
 
+/// Of its current, as a force at the cutter's radius.
+template <typename Scalar>
+static Scalar drift_N_per_s(const Parameters<Scalar>& p) {
+    constexpr Scalar share_per_s = estimation::literal<Scalar>(0.05L);
+    constexpr Scalar mm_per_m{1000};
+    const Scalar drift_Nm_per_s = share_per_s * p.machine.spindle_rated_current_A * p.machine.spindle.K_t1_Nm_per_A;
+    return p.tool.diameter_mm > Scalar(0) ? drift_Nm_per_s * mm_per_m / estimation::halved(p.tool.diameter_mm)
+                                          : Scalar(0);
+}
+
 template <typename Scalar, typename WideBand>
 ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
     : estimator_(estimator_settings(parameters), spindle_parameters(parameters.machine), parameters.machine.axes,
                  estimator_law(parameters.tool)),
       wide_band_(parameters),
+      slow_fall_(drift_N_per_s(parameters)),
       surface_(parameters.tool),
       supervisor_(parameters),
       controller_(controller_parameters(parameters)),
@@ -283,6 +294,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     if (air_periods_ >= enough) {
         was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
         steady_cut_.clear();
+        slow_fall_.clear();
         air_periods_ = enough;
     } else {
         estimator_.leave_air();
@@ -340,6 +352,19 @@ void ForceControlTick<Scalar, WideBand>::allow_for_drift() {
     const Scalar largest_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || largest_N > cut.tooth_force_N;
     cut.tooth_force_N = largest_N;
+    if (!e.x_N.valid && !e.y_N.valid && !input_.way.known) {
+        allow_for_drift_of_the_spindle_alone();
+    }
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::allow_for_drift_of_the_spindle_alone() {
+    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
+    if (is_in_cut() && teeth_rad_s > Scalar(0)) {
+        slow_fall_.follow(e, estimation::turn_rad<Scalar> / teeth_rad_s);
+    }
+    input_.cut.tooth_force_N *= slow_fall_.largest_ratio(e);
 }
 
 // What is shown
