@@ -14,8 +14,9 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
             "next air");
     } else {
         faults.emplace_back(
-            "a spindle current that drifts slowly within one cut looks like a cut that changes; it is found in the "
-            "next air, and until then the tooth may carry more than its limit");
+            "a spindle current that drifts within one cut looks like a cut that becomes lighter: a fall of the force "
+            "of up to 5 % of rated_current_A per second does not raise the feed until the next air, a faster drift "
+            "does");
         faults.emplace_back(
             "a spindle current that is too small in the cut, though its idle current is right, is contradicted by no "
             "second current");
