@@ -207,6 +207,37 @@ TEST(ClosedLoop, is_saved_by_the_entry_feed_where_no_reaction_is_fast_enough) {
     LONGS_EQUAL(0, controlled(scenario_named("slot_entry")).teeth_broken);
 }
 
+TEST(ClosedLoop, breaks_no_tooth_where_the_depth_doubles_without_warning) {
+    for (const Conditions& conditions :
+         {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}, Conditions{1.3, 1.2, 3}, Conditions{0.7, 1.2, 4}}) {
+        Scenario steps = scenario_named("depth_steps", conditions);
+        const RunFigures figures = controlled(steps);
+        STRCMP_EQUAL("none", figures.fault.c_str());
+        LONGS_EQUAL(0, figures.teeth_broken);
+        steps.parameters.tool.control.depth_step_ratio = 1.0F;
+        CHECK(controlled(steps).peak_over_limit > figures.peak_over_limit + 0.1);
+    }
+}
+
+TEST(ClosedLoop, is_no_slower_than_the_constant_feed_that_a_program_has_run_at) {
+    for (const bool has_axes : {true, false}) {
+        Scenario steps = scenario_named("depth_steps");
+        if (!has_axes) {
+            steps.parameters = millforce::test::without_axis_currents(steps.parameters);
+        }
+        constexpr float constant_override = 0.15F;
+        ConstantFeed constant(steps.parameters, static_cast<double>(constant_override));
+        const RunFigures before = simulate(steps, constant, "constant").result.figures;
+        const RunFigures unproven = controlled(steps);
+        steps.parameters.tool.control.proven_override = constant_override;
+        const RunFigures proven = controlled(steps);
+        LONGS_EQUAL(0, before.teeth_broken);
+        LONGS_EQUAL(0, proven.teeth_broken);
+        CHECK(proven.time_s < 1.02 * before.time_s);
+        CHECK(proven.time_s < unproven.time_s);
+    }
+}
+
 /// Not in an interrupted cut: there both take 14 to 16 s from seed to seed, as a force at a threshold decides.
 TEST(ClosedLoop, mills_in_fixed_point_as_in_float) {
     for (const char* name : {"slot_entry", "depth_ramp"}) {
