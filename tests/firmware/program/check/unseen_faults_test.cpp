@@ -33,6 +33,6 @@ TEST(UnseenFaults, of_a_spindle_alone_are_also_its_scale_in_the_cut) {
     for (auto& axis : parameters.machine.axes) {
         axis.K_x4_N_per_A = 0.0F;
     }
-    CHECK(names("a spindle current that drifts slowly"));
+    CHECK(names("a spindle current that drifts within one cut"));
     CHECK(names("contradicted by no second current"));
 }
