@@ -42,6 +42,7 @@ struct SimulateOptions {
     bool record = false;
     bool preview = false;
     std::string map;
+    std::string learn;
     std::optional<double> cutting_force_scale;
     std::optional<double> friction_scale;
     std::optional<double> current_noise_share;
@@ -93,7 +94,10 @@ RunResult run(const Scenario& scenario, const std::string& name, OverrideSource&
     return std::move(simulated.result);
 }
 
-host::PartMap map_of(const SimulateOptions& options, const Scenario& scenario) {
+std::optional<host::PartMap> map_of(const SimulateOptions& options, const Scenario& scenario) {
+    if (!options.preview && options.map.empty()) {
+        return std::nullopt;
+    }
     if (options.preview) {
         return preview(scenario);
     }
@@ -101,6 +105,23 @@ host::PartMap map_of(const SimulateOptions& options, const Scenario& scenario) {
     host::require_same_origin(options.map, file.origin,
                               host::origin_of(scenario.program_file, "", scenario.parameters.tool));
     return std::move(file.map);
+}
+
+/// The project's own tick, with a part map, or with one that it leaves behind.
+RunResult run_with_map(const SimulateOptions& options, const Scenario& scenario,
+                       const std::optional<std::filesystem::path>& recording) {
+    std::optional<host::MapLearner> learner;
+    if (!options.learn.empty()) {
+        learner.emplace(scenario.parameters);
+    }
+    MappedController controller(scenario.parameters, map_of(options, scenario), learner ? &*learner : nullptr);
+    RunResult result = run(scenario, "millforce", controller, recording);
+    if (learner) {
+        const std::string tool = std::filesystem::path(scenario.tool_file).stem().string();
+        host::write_part_map(options.learn,
+                             {host::origin_of(scenario.program_file, tool, scenario.parameters.tool), learner->map()});
+    }
+    return result;
 }
 
 double constant_override_of(const Scenario& scenario, double hardest) {
@@ -165,9 +186,8 @@ int simulate_scenario(const SimulateOptions& options) {
         }
         results.push_back(run(scenario, "millforce", *controller, recording));
         host::leave_real_time();
-    } else if (options.preview || !options.map.empty()) {
-        MappedController controller(scenario.parameters, map_of(options, scenario));
-        results.push_back(run(scenario, "millforce", controller, recording));
+    } else if (options.preview || !options.map.empty() || !options.learn.empty()) {
+        results.push_back(run_with_map(options, scenario, recording));
     } else if (options.controller.starts_with(at_socket)) {
         results.push_back(run_with_socket(options, scenario, recording));
     } else if (!is_baseline) {
@@ -234,11 +254,16 @@ void add_simulate(host::Command& program) {
     host::Option preview = command.flag(
         "--preview", options->preview, "Let the controller see what lies ahead: a part map of program, stock and tool");
     preview.excludes(controller).excludes(record);
-    command.option("--map", options->map, "Part map made by 'millforce preview', possibly for another stock")
+    command.option("--map", options->map, "Part map made by 'millforce preview' or --learn, possibly for another stock")
         .value_name("PART.map")
         .excludes(controller)
         .excludes(record)
         .excludes(preview);
+    command
+        .option("--learn", options->learn,
+                "Write the part map that this run leaves behind: what was estimated along its path")
+        .value_name("PART.map")
+        .excludes(controller);
     command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s relative to the scenario's")
         .within(0.1, 10.0);
     command.option("--friction-scale", options->friction_scale, "True friction relative to the machine file's")

@@ -49,6 +49,12 @@ void TickController<Scalar>::describe(TracePoint& point) const {
 template class TickController<float>;
 template class TickController<estimation::Fixed>;
 
+MappedController::MappedController(const firmware::Parameters<float>& parameters,
+                                   const std::optional<host::PartMap>& map, host::MapLearner* learner)
+    : MillforceController(parameters),
+      follower_(map ? std::optional<host::MapFollower>(std::in_place, parameters, *map) : std::nullopt),
+      way_(follower_ ? &*follower_ : nullptr, learner) {}
+
 ConstantFeed::ConstantFeed(const firmware::Parameters<float>& parameters, double ratio)
     : monitor_(monitoring(parameters)), ratio_(static_cast<float>(ratio)) {}
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 #include "firmware/tick_record.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/feed_override.hpp"
-#include "part_map/map_follower.hpp"
+#include "part_map/way_along_map.hpp"
 #include "report/run_result.hpp"
 
 namespace millforce::sim {
@@ -72,21 +73,25 @@ class TickController : public OverrideSource {
 using MillforceController = TickController<float>;
 using FixedPointController = TickController<estimation::Fixed>;
 
-/// The tick with a part map.
+/// The tick with a part map, or with one that learns, or both.
 class MappedController : public MillforceController {
   public:
-    MappedController(const firmware::Parameters<float>& parameters, const host::PartMap& map)
-        : MillforceController(parameters), follower_(parameters, map) {}
+    /// `learner` outlives this.
+    MappedController(const firmware::Parameters<float>& parameters, const std::optional<host::PartMap>& map,
+                     host::MapLearner* learner = nullptr);
 
-    [[nodiscard]] const control::FeedAhead<float>& ahead() const { return follower_.ahead(); }
+    [[nodiscard]] bool is_refuted() const { return follower_ && follower_->ahead().is_refuted(); }
+    /// With a map.
+    [[nodiscard]] const control::FeedAhead<float>& ahead() const { return follower_->ahead(); }
 
   protected:
     void look_ahead(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) override {
-        follower_.look_ahead(tick, program);
+        way_.look_ahead(tick, program);
     }
 
   private:
-    host::MapFollower follower_;
+    std::optional<host::MapFollower> follower_;
+    host::WayAlongMap way_;
 };
 
 /// The feed as programmed, times a constant: what is done today, with a feed that is safe everywhere. It estimates all

@@ -38,6 +38,9 @@
 /// with four standard deviations of the measurement beside. What disagrees over more than disagreement_mm refutes the
 /// map: `known` is false from then on, until restart(). So does contact, two estimates in a row, where the map has air.
 ///
+/// A stretch may be open: not known at all, or known to lie between air and its F_i (least_share 0). It neither confirms
+/// the map nor refutes it. Near a stretch that is not known at all `known` is false, and it is met at blind_feed_mm_s.
+///
 /// Use: restart() with each program, add() stretches in the order of the path while room() lasts, step() at each tick.
 /// If the window runs empty, nothing is known of the path ahead: the feed has fallen to blind_feed_mm_s by then.
 ///
@@ -57,6 +60,8 @@ struct Stretch {
     Scalar feed_per_tangential{0};   ///< χ_i
     Scalar falling_share{1};         ///< h_i
     Scalar feed_per_softness{1};     ///< e_i; 1/(c q) for a force with the cutting share c and the exponent q
+    Scalar least_share{1};           ///< of F_i that is surely there; 0 where the tool enters or leaves
+    bool is_known = true;            ///< false: nothing is known of this stretch
 };
 
 template <typename Scalar>
@@ -126,6 +131,8 @@ class FeedAhead {
     struct Expected {
         Range tangential_N;  // at κ = 1
         Range direction;     // χ, of those that cut
+        bool has_unknown = false;
+        bool has_open = false;  // the arc, and with it the direction, is not known
     };
     /// Of the stretches within the window alone.
     struct Mapped {
@@ -147,7 +154,8 @@ class FeedAhead {
     [[nodiscard]] Mapped mapped_within(const Step& now) const;
     template <typename Visit>
     void for_each_within(Scalar from_mm, Scalar to_mm, const Visit& visit) const;
-    [[nodiscard]] Scalar feed_at(std::size_t i) const;
+    [[nodiscard]] bool is_near_unknown(Scalar position_mm) const;
+    [[nodiscard]] Scalar feed_at(std::size_t i, Scalar blind_feed_mm_s) const;
     [[nodiscard]] Scalar force_at(std::size_t i, Scalar feed_mm_s) const;
     [[nodiscard]] Scalar fastest_from(Scalar position_mm, Scalar blind_feed_mm_s) const;
 

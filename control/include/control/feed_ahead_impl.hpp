@@ -31,6 +31,7 @@ bool FeedAhead<Scalar, Capacity>::add(const Stretch<Scalar>& stretch) {
                           estimation::is_finite(stretch.tangential_N) && !(stretch.tangential_N < Scalar(0)) &&
                           estimation::is_finite(stretch.tooth_per_tangential) &&
                           estimation::is_finite(stretch.feed_per_tangential) && is_known(stretch.falling_share) &&
+                          !(stretch.least_share < Scalar(0)) && stretch.least_share <= Scalar(1) &&
                           stretch.falling_share <= Scalar(1) && is_known(stretch.feed_per_softness);
     const bool goes_on = count_ == 0 || stretch.begin_mm > at(count_ - 1).begin_mm;
     if (room() == 0 || !is_sound || !goes_on) {
@@ -56,7 +57,7 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
         compare(now);
         drop_passed(now.position_mm - now.window_mm - settings_.farthest_off_mm);
     }
-    way.known = !is_refuted_ && !(agreed_mm_ < settings_.agreement_mm);
+    way.known = !is_refuted_ && !(agreed_mm_ < settings_.agreement_mm) && !is_near_unknown(now.position_mm);
     way.feed_mm_s = fastest_from(now.position_mm, now.blind_feed_mm_s);
     way.tooth_per_tangential = mapped_.tooth_per_tangential;
     way.tangential_N = hardness_ * mapped_.tangential_N;
@@ -85,7 +86,7 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     const Expected expected = expected_around(now);
     const Scalar travel_mm = since_estimate_mm_ < now.window_mm ? since_estimate_mm_ : now.window_mm;
     const bool is_in_contact = now.tangential_N > now.contact_level_N;
-    const bool touches_in_air = is_in_contact && !(expected.tangential_N.high > Scalar(0));
+    const bool touches_in_air = is_in_contact && !expected.has_unknown && !(expected.tangential_N.high > Scalar(0));
     since_estimate_mm_ = Scalar(0);
     mapped_ = mapped_within(now);
     is_refuted_ = is_refuted_ || (touches_in_air && touched_in_air_);
@@ -96,7 +97,7 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
         return;
     }
     disagreed_mm_ = Scalar(0);
-    if (is_in_contact && expected.tangential_N.low > Scalar(0)) {
+    if (is_in_contact && !expected.has_unknown && expected.tangential_N.low > Scalar(0)) {
         agreed_mm_ += travel_mm;
         measure_hardness(now, expected.tangential_N);
     }
@@ -105,6 +106,9 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
 template <typename Scalar, std::size_t Capacity>
 bool FeedAhead<Scalar, Capacity>::force_agrees(const Step& now, const Expected& expected) const {
     using estimation::clamp;
+    if (expected.has_unknown) {
+        return true;
+    }
     const bool is_measured = hardness_ > Scalar(0);
     const Scalar lowest = settings_.lowest_hardness;
     const Scalar highest = settings_.highest_hardness;
@@ -118,7 +122,7 @@ bool FeedAhead<Scalar, Capacity>::force_agrees(const Step& now, const Expected& 
 
 template <typename Scalar, std::size_t Capacity>
 bool FeedAhead<Scalar, Capacity>::direction_agrees(const Step& now, const Expected& expected) const {
-    if (!now.feed_force_valid || !(expected.tangential_N.high > Scalar(0)) ||
+    if (expected.has_open || !now.feed_force_valid || !(expected.tangential_N.high > Scalar(0)) ||
         !(now.tangential_N > now.contact_level_N)) {
         return true;
     }
@@ -148,7 +152,11 @@ auto FeedAhead<Scalar, Capacity>::expected_around(const Step& now) const -> Expe
     Expected expected;
     for_each_within(now.position_mm - now.window_mm - tolerance_mm, now.position_mm + tolerance_mm, [&](std::size_t i) {
         const Scalar force_N = force_at(i, now.mean_feed_mm_s);
+        const bool is_open = !at(i).is_known || at(i).least_share < Scalar(1);
+        expected.has_unknown = expected.has_unknown || !at(i).is_known;
+        expected.has_open = expected.has_open || is_open;
         expected.tangential_N.include(force_N);
+        expected.tangential_N.include(at(i).least_share * force_N);
         if (force_N > Scalar(0)) {
             expected.direction.include(at(i).feed_per_tangential);
         }
@@ -163,7 +171,9 @@ auto FeedAhead<Scalar, Capacity>::mapped_within(const Step& now) const -> Mapped
     Scalar tooth_N{0};
     Scalar highest_N{0};
     Scalar sum_N_mm{0};
+    bool has_open = false;
     for_each_within(begin_mm, now.position_mm, [&](std::size_t i) {
+        has_open = has_open || !at(i).is_known || at(i).least_share < Scalar(1);
         const Scalar force_N = force_at(i, now.mean_feed_mm_s);
         const Scalar of_tooth_N = force_N * at(i).tooth_per_tangential;
         tooth_N = of_tooth_N > tooth_N ? of_tooth_N : tooth_N;
@@ -173,6 +183,9 @@ auto FeedAhead<Scalar, Capacity>::mapped_within(const Step& now) const -> Mapped
         sum_N_mm += force_N * (to_mm - from_mm);
     });
     Mapped mapped;
+    if (has_open) {
+        return mapped;
+    }
     mapped.tooth_per_tangential = highest_N > Scalar(0) ? tooth_N / highest_N : Scalar(0);
     mapped.tangential_N = now.window_mm > Scalar(0) ? sum_N_mm / now.window_mm : highest_N;
     return mapped;
@@ -198,10 +211,21 @@ Scalar FeedAhead<Scalar, Capacity>::force_at(std::size_t i, Scalar feed_mm_s) co
 // ---- The feed
 // --------------------------------------------------------------------------------------------------------
 
+template <typename Scalar, std::size_t Capacity>
+bool FeedAhead<Scalar, Capacity>::is_near_unknown(Scalar position_mm) const {
+    bool is_near = false;
+    for_each_within(position_mm - settings_.farthest_off_mm, position_mm + settings_.farthest_off_mm,
+                    [&](std::size_t i) { is_near = is_near || !at(i).is_known; });
+    return is_near;
+}
+
 /// v_i
 template <typename Scalar, std::size_t Capacity>
-Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i) const {
+Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, Scalar blind_feed_mm_s) const {
     const Stretch<Scalar>& stretch = at(i);
+    if (!stretch.is_known) {
+        return blind_feed_mm_s;
+    }
     if (!(stretch.tangential_N > Scalar(0))) {
         return stretch.feed_mm_s;
     }
@@ -229,7 +253,7 @@ Scalar FeedAhead<Scalar, Capacity>::fastest_from(Scalar position_mm, Scalar blin
         if (end_mm(i) + margin_mm < position_mm) {
             continue;
         }
-        const Scalar here = square_before(feed_at(i), at(i).begin_mm);
+        const Scalar here = square_before(feed_at(i, blind_feed_mm_s), at(i).begin_mm);
         fastest = here < fastest ? here : fastest;
     }
     return sqrt(fastest) - lost_mm_s;

@@ -118,11 +118,14 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
     control::Stretch<float> stretch;
     stretch.begin_mm = static_cast<float>(place.path_mm);
     stretch.feed_mm_s = place.rapid ? programmed_mm_s : programmed_mm_s * parameters.machine.cnc.override_max;
-    if (place.cut.empty() || !(teeth_per_s > 0.0F)) {
+    stretch.is_known = place.known != Known::nothing;
+    if (place.cut.empty() || !stretch.is_known || !(teeth_per_s > 0.0F)) {
         return stretch;
     }
+    stretch.least_share = place.known == Known::at_most ? 0.0F : 1.0F;
+    const auto hardness = static_cast<float>(place.hardness);
     const CutAt cut(tool, place.cut);
-    const float target_N = tool.control.setpoint_share * tool.tooth_force_limit_N;
+    const float target_N = tool.control.setpoint_share * tool.tooth_force_limit_N / hardness;
     // A hardness below 1 allows more than the feed of this stretch, up to the override's end: it is not cut off here.
     const float highest_mm = 2.0F * stretch.feed_mm_s / teeth_per_s;
     const float feed_per_tooth_mm = cut.feed_per_tooth_at(target_N, highest_mm);
@@ -132,7 +135,7 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
         cut.feed_per_tooth_at(cut.highest_tooth_N(feed_per_tooth_mm) / harder, feed_per_tooth_mm);
     stretch.feed_mm_s = feed_per_tooth_mm * teeth_per_s;
     const auto mean = cut.mean(feed_per_tooth_mm);
-    stretch.tangential_N = mean.tangential_N;
+    stretch.tangential_N = hardness * mean.tangential_N;
     stretch.tooth_per_tangential = cut.mean_tooth_N(feed_per_tooth_mm) / mean.tangential_N;
     stretch.feed_per_tangential = mean.feed_N / mean.tangential_N;
     stretch.falling_share = 2.0F * (1.0F - cut.mean(0.5F * feed_per_tooth_mm).tangential_N / mean.tangential_N);
@@ -143,7 +146,8 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
 bool may_join(const control::Stretch<float>& a, const control::Stretch<float>& b) {
     constexpr float alike = 0.03F;
     const auto are_alike = [](float x, float y) { return std::abs(x - y) <= alike * std::max(x, y); };
-    return (a.tangential_N > 0.0F) == (b.tangential_N > 0.0F) && are_alike(a.feed_mm_s, b.feed_mm_s) &&
+    return a.is_known == b.is_known && a.least_share == b.least_share &&
+           (a.tangential_N > 0.0F) == (b.tangential_N > 0.0F) && are_alike(a.feed_mm_s, b.feed_mm_s) &&
            are_alike(a.tangential_N, b.tangential_N) && are_alike(a.tooth_per_tangential, b.tooth_per_tangential) &&
            std::abs(a.feed_per_tangential - b.feed_per_tangential) <= alike;
 }
@@ -152,7 +156,8 @@ bool may_join(const control::Stretch<float>& a, const control::Stretch<float>& b
 
 bool is_same_cut(const MapPlace& a, const MapPlace& b) {
     return a.rapid == b.rapid && a.programmed_feed_mm_s == b.programmed_feed_mm_s &&
-           a.spindle_speed_rad_s == b.spindle_speed_rad_s && std::ranges::equal(a.cut, b.cut, is_same_arc);
+           a.spindle_speed_rad_s == b.spindle_speed_rad_s && a.known == b.known && a.hardness == b.hardness &&
+           std::ranges::equal(a.cut, b.cut, is_same_arc);
 }
 
 std::vector<control::Stretch<float>> stretches_of(const PartMap& map, const firmware::Parameters<float>& parameters) {

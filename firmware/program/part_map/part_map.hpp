@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "control/feed_ahead.hpp"
@@ -18,6 +19,13 @@ struct EngagedArc {
     bool operator==(const EngagedArc&) const = default;
 };
 
+/// How well the cut at a place is known.
+enum class Known : std::uint8_t {
+    nothing,  ///< not at all: the controller takes it as if there were no map
+    at_most,  ///< it is between air and this cut: the tool enters or leaves
+    cut,      ///< it is this cut, or air
+};
+
 /// The cut along a program's path: what the tool meets, and how it is to go there.
 struct MapPlace {
     double path_mm = 0.0;       ///< gone since the program's begin, rapids included
@@ -26,13 +34,21 @@ struct MapPlace {
     bool rapid = false;
     double programmed_feed_mm_s = 0.0;
     double spindle_speed_rad_s = 0.0;
-    std::vector<EngagedArc> cut;  ///< engaged arcs in the order of φ; empty: air
+    std::vector<EngagedArc> cut{};  ///< engaged arcs in the order of φ; empty: air
+    Known known = Known::cut;
+    double arc_sd_rad = 0.0;         ///< standard deviation of the arcs' ends; 0: as geometry has them
+    double axial_depth_sd_mm = 0.0;  ///< of the depth, without what K_s leaves open; 0: as geometry has it
+    double hardness = 1.0;           ///< K_s relative to the tool's file; measured, or 1
+    double hardness_sd = 0.0;        ///< 0: not measured
+    double position_sd_mm = 0.0;     ///< of the place along the path; 0: not measured
+    bool is_contested = false;       ///< geometry and run disagree here beyond their doubt
 };
 
 /// Each place holds to the next one. The last is the program's end.
 using PartMap = std::vector<MapPlace>;
 
-/// Alike within 0.005 rad and 0.01 mm, at the same programmed feed and speed: of equal forces at equal feeds.
+/// Alike within 0.005 rad and 0.01 mm, at the same programmed feed and speed, and known alike: of equal forces at equal
+/// feeds.
 [[nodiscard]] bool is_same_cut(const MapPlace& a, const MapPlace& b);
 
 /// The map as the controller takes it (control/feed_ahead.hpp): the feed at which a tooth reaches its set point by the

@@ -24,12 +24,15 @@ namespace millforce::host {
 namespace {
 
 constexpr std::string_view format_line = "millforce part map 1";
+constexpr std::string_view format_line_of_runs = "millforce part map 2";
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double rad_s_per_rpm = std::numbers::pi / 30.0;
 
-constexpr std::array<std::string_view, 9> column_names{"path_mm",   "block_end_mm", "line",
-                                                       "rapid",     "feed_mm_min",  "spindle_rpm",
-                                                       "entry_deg", "exit_deg",     "axial_depth_mm"};
+constexpr std::size_t columns_of_geometry = 9;
+constexpr std::array<std::string_view, 16> column_names{
+    "path_mm",  "block_end_mm",   "line",  "rapid",      "feed_mm_min",       "spindle_rpm", "entry_deg",
+    "exit_deg", "axial_depth_mm", "known", "arc_sd_deg", "axial_depth_sd_mm", "hardness",    "hardness_sd",
+    "position_sd_mm", "contested"};
 
 std::uint32_t checksum(std::string_view text) {
     return firmware::crc32(0, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
@@ -74,7 +77,15 @@ OriginLine origin_line(const CsvReader& csv, std::string_view kind) {
 bool is_same(const MapPlace& a, const MapPlace& b) {
     return a.block_end_mm == b.block_end_mm && a.line == b.line && a.rapid == b.rapid &&
            a.programmed_feed_mm_s == b.programmed_feed_mm_s && a.spindle_speed_rad_s == b.spindle_speed_rad_s &&
-           a.cut == b.cut;
+           a.cut == b.cut && a.known == b.known && a.arc_sd_rad == b.arc_sd_rad &&
+           a.axial_depth_sd_mm == b.axial_depth_sd_mm && a.hardness == b.hardness && a.hardness_sd == b.hardness_sd &&
+           a.position_sd_mm == b.position_sd_mm && a.is_contested == b.is_contested;
+}
+
+/// Nothing in it comes from a run.
+bool is_of_geometry(const MapPlace& place) {
+    return place.known == Known::cut && place.arc_sd_rad == 0.0 && place.axial_depth_sd_mm == 0.0 &&
+           place.hardness == 1.0 && place.hardness_sd == 0.0 && place.position_sd_mm == 0.0 && !place.is_contested;
 }
 
 /// As many digits as a map means: 1 µm, 0.001°, 0.001 /min.
@@ -82,7 +93,7 @@ double rounded(double value) {
     return std::round(value * 1000.0) / 1000.0;
 }
 
-void write_place(CsvWriter& csv, const MapPlace& place) {
+void write_place(CsvWriter& csv, const MapPlace& place, std::size_t columns) {
     std::array<double, column_names.size()> row{rounded(place.path_mm),
                                                 rounded(place.block_end_mm),
                                                 static_cast<double>(place.line),
@@ -91,26 +102,36 @@ void write_place(CsvWriter& csv, const MapPlace& place) {
                                                 rounded(place.spindle_speed_rad_s / rad_s_per_rpm),
                                                 no_estimate,
                                                 no_estimate,
-                                                no_estimate};
+                                                no_estimate,
+                                                static_cast<double>(place.known),
+                                                rounded(place.arc_sd_rad / rad_per_deg),
+                                                rounded(place.axial_depth_sd_mm),
+                                                rounded(place.hardness),
+                                                rounded(place.hardness_sd),
+                                                rounded(place.position_sd_mm),
+                                                place.is_contested ? 1.0 : 0.0};
+    const std::span<const double> written = std::span<const double>(row).first(columns);
     if (place.cut.empty()) {
-        csv.row(row);
+        csv.row(written);
     }
     for (const EngagedArc& arc : place.cut) {
         row[6] = rounded(arc.entry_rad / rad_per_deg);
         row[7] = rounded(arc.exit_rad / rad_per_deg);
         row[8] = rounded(arc.axial_depth_mm);
-        csv.row(row);
+        csv.row(written);
     }
 }
 
 class MapReader {
   public:
     explicit MapReader(const std::filesystem::path& file) : csv_(file) {
-        if (csv_.comments().empty() || csv_.comments().front() != format_line) {
-            throw InputError(
-                fmt::format("{}:1: expected '# {}', a part map of 'millforce preview'", csv_.file_name(), format_line));
+        const std::string format = csv_.comments().empty() ? "" : csv_.comments().front();
+        has_doubt_ = format == format_line_of_runs;
+        if (!has_doubt_ && format != format_line) {
+            throw InputError(fmt::format("{}:1: expected '# {}' or '# {}', a part map of 'millforce preview' or --learn",
+                                         csv_.file_name(), format_line, format_line_of_runs));
         }
-        for (std::size_t k = 0; k < column_names.size(); ++k) {
+        for (std::size_t k = 0; k < (has_doubt_ ? column_names.size() : columns_of_geometry); ++k) {
             columns_[k] = csv_.require(column_names[k]);
         }
     }
@@ -144,6 +165,9 @@ class MapReader {
         place.rapid = csv_.required_number(columns_[3], 0.0, 1.0) != 0.0;
         place.programmed_feed_mm_s = number(4, 0.0, 1e6) / 60.0;
         place.spindle_speed_rad_s = number(5, 0.0, 1e6) * rad_s_per_rpm;
+        if (has_doubt_) {
+            read_doubt(place);
+        }
         const std::optional<EngagedArc> arc = arc_of_row();
         if (arc && !(place.programmed_feed_mm_s > 0.0)) {
             csv_.fail(columns_[4], "no feed in a cut; expected the programmed one");
@@ -159,6 +183,17 @@ class MapReader {
             place.cut.push_back(*arc);
         }
         map.push_back(std::move(place));
+    }
+
+    void read_doubt(MapPlace& place) const {
+        const auto known = static_cast<int>(csv_.required_number(columns_[9], 0.0, 2.0));
+        place.known = static_cast<Known>(known);
+        place.arc_sd_rad = number(10, 0.0, 180.0) * rad_per_deg;
+        place.axial_depth_sd_mm = number(11, 0.0, 500.0);
+        place.hardness = number(12, 0.1, 10.0);
+        place.hardness_sd = number(13, 0.0, 10.0);
+        place.position_sd_mm = number(14, 0.0, 1000.0);
+        place.is_contested = csv_.required_number(columns_[15], 0.0, 1.0) != 0.0;
     }
 
     std::optional<EngagedArc> arc_of_row() {
@@ -185,6 +220,7 @@ class MapReader {
     }
 
     CsvReader csv_;
+    bool has_doubt_ = false;
     std::array<CsvColumn, column_names.size()> columns_{};
 };
 
@@ -206,13 +242,16 @@ MapOrigin origin_of(const std::filesystem::path& program_file, const std::string
 void write_part_map(const std::filesystem::path& file, const PartMapFile& map) {
     AtomicFile target(file);
     const MapOrigin& origin = map.origin;
-    target.stream() << fmt::format("# {}\n# program {} crc32 {:08x}\n# tool {} crc32 {:08x}\n", format_line,
-                                   origin.program, origin.program_crc32, origin.tool, origin.tool_crc32);
-    CsvWriter csv(target.stream(), column_names);
+    const bool has_doubt = !std::ranges::all_of(map.map, is_of_geometry);
+    const std::size_t columns = has_doubt ? column_names.size() : columns_of_geometry;
+    target.stream() << fmt::format("# {}\n# program {} crc32 {:08x}\n# tool {} crc32 {:08x}\n",
+                                   has_doubt ? format_line_of_runs : format_line, origin.program, origin.program_crc32,
+                                   origin.tool, origin.tool_crc32);
+    CsvWriter csv(target.stream(), std::span(column_names).first(columns));
     const MapPlace* last = nullptr;
     for (const MapPlace& place : map.map) {
         if (last == nullptr || !is_same(*last, place) || &place == &map.map.back()) {
-            write_place(csv, place);
+            write_place(csv, place, columns);
             last = &place;
         }
     }

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part_map/map_learner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millforce::host {
+
+namespace {
+
+/// The distance to go may grow by that much within a block, where a corner is blended.
+constexpr double blending_mm = 0.5;
+/// Between two estimates: a longer way was not seen.
+constexpr double longest_gap_mm = 10.0;
+
+std::size_t bin_at(double path_mm) {
+    return static_cast<std::size_t>(std::max(path_mm, 0.0) / MapLearner::bin_mm);
+}
+
+double immersion_of(const MapPlace& place) {
+    double immersion = 0.0;
+    for (const EngagedArc& arc : place.cut) {
+        immersion += std::cos(arc.entry_rad) - std::cos(arc.exit_rad);
+    }
+    return immersion;
+}
+
+bool is_seen_cut(const MapPlace& place) {
+    return place.known == Known::cut && !place.cut.empty();
+}
+
+/// The cut of which those around it are a part: the larger section of the nearest ones on both sides.
+const MapPlace* larger_neighbour(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
+    const MapPlace* found = nullptr;
+    const auto section = [](const MapPlace& place) { return immersion_of(place) * place.cut.front().axial_depth_mm; };
+    const auto look = [&](std::size_t at) {
+        const bool is_air = places[at].known == Known::cut && places[at].cut.empty();
+        if (is_seen_cut(places[at]) && (found == nullptr || section(*found) < section(places[at]))) {
+            found = &places[at];
+        }
+        return is_air || is_seen_cut(places[at]);
+    };
+    for (std::size_t at = k; at < std::min(places.size(), k + reach) && !look(at); ++at) {
+    }
+    for (std::size_t at = k; at + reach > k && !look(at) && at > 0; --at) {
+    }
+    return found;
+}
+
+/// Estimates differ from one piece of the path to the next by their noise; a cut that stays the same is one place.
+class Smoother {
+  public:
+    explicit Smoother(PartMap& map) : map_(map) {}
+
+    void add(const MapPlace& place) {
+        if (!map_.empty() && may_join(map_.back(), place)) {
+            join(map_.back(), place);
+            return;
+        }
+        joined_ = 1;
+        map_.push_back(place);
+    }
+
+  private:
+    [[nodiscard]] static bool may_join(const MapPlace& a, const MapPlace& b) {
+        constexpr double alike_immersion = 0.05;
+        constexpr double alike_depth = 0.04;
+        if (a.block_end_mm != b.block_end_mm || a.known != b.known || a.cut.size() != b.cut.size()) {
+            return false;
+        }
+        if (a.cut.empty()) {
+            return true;
+        }
+        const bool is_same_side = (a.cut.front().entry_rad > 0.0) == (b.cut.front().entry_rad > 0.0);
+        const double depth_mm = a.cut.front().axial_depth_mm;
+        return is_same_side && std::abs(immersion_of(a) - immersion_of(b)) <= alike_immersion &&
+               std::abs(depth_mm - b.cut.front().axial_depth_mm) <= alike_depth * depth_mm;
+    }
+
+    void join(MapPlace& a, const MapPlace& b) {
+        joined_ += 1;
+        const double share = 1.0 / joined_;
+        const auto mix = [share](double& value, double with) { value += share * (with - value); };
+        for (std::size_t k = 0; k < a.cut.size(); ++k) {
+            mix(a.cut[k].entry_rad, b.cut[k].entry_rad);
+            mix(a.cut[k].exit_rad, b.cut[k].exit_rad);
+            mix(a.cut[k].axial_depth_mm, b.cut[k].axial_depth_mm);
+        }
+        mix(a.arc_sd_rad, b.arc_sd_rad);
+        mix(a.axial_depth_sd_mm, b.axial_depth_sd_mm);
+    }
+
+    PartMap& map_;
+    double joined_ = 0.0;
+};
+
+}  // namespace
+
+MapLearner::MapLearner(const firmware::Parameters<float>& parameters) : parameters_(parameters) {
+    for (Run* const run : {&run_, &longest_}) {
+        run->blocks.reserve(most_blocks);
+        run->bins.resize(bin_at(longest_mm));
+    }
+}
+
+// ---- Along the path
+// --------------------------------------------------------------------------------------------------
+
+void MapLearner::take(const firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) {
+    const std::optional<double> path_mm = follow(program);
+    if (!path_mm) {
+        last_middle_mm_.reset();
+        return;
+    }
+    const estimation::CutEstimate<float>& e = tick.estimate();
+    Block& block = run_.blocks.back();
+    if (e.spindle_speed_rad_s > 0.0F) {
+        block.spindle_speed_rad_s = e.spindle_speed_rad_s;
+    }
+    run_.path_mm = std::max(run_.path_mm, *path_mm);
+    if (!tick.has_new_estimate() || !e.tangential_N.valid) {
+        return;
+    }
+    const float behind_s = 0.5F * e.window_s + firmware::load_delay_s(parameters_.machine);
+    const double middle_mm = std::max(0.0, *path_mm - static_cast<double>(e.feed_mm_s * behind_s));
+    const double last_mm = last_middle_mm_.value_or(middle_mm);
+    last_middle_mm_ = middle_mm;
+    const double travel_mm = middle_mm - last_mm;
+    const bool is_there = middle_mm < longest_mm - bin_mm;
+    if (!(travel_mm > 0.0) || travel_mm > longest_gap_mm || !is_there) {
+        return;
+    }
+    const std::size_t last = bin_at(middle_mm);
+    for (std::size_t k = std::min(bin_at(last_mm) + 1, last); k <= last; ++k) {
+        add(run_.bins[k], tick);
+    }
+    run_.used = std::max(run_.used, last + 1);
+}
+
+std::optional<double> MapLearner::follow(const hal::ProgramStatus& program) {
+    const auto to_go_mm = static_cast<double>(program.distance_to_go_mm);
+    if (program.line == 0 || !std::isfinite(to_go_mm) || to_go_mm < 0.0) {
+        return std::nullopt;
+    }
+    const bool goes_on =
+        !run_.blocks.empty() && run_.blocks.back().line == program.line && to_go_mm <= to_go_mm_ + blending_mm;
+    if (!goes_on) {
+        begin_block(program);
+    }
+    to_go_mm_ = to_go_mm;
+    Block& block = run_.blocks.back();
+    block.rapid = block.rapid || program.rapid;
+    block.feed_mm_s = std::max(block.feed_mm_s, program.programmed_feed_mm_s);
+    return block.end_mm - to_go_mm;
+}
+
+void MapLearner::begin_block(const hal::ProgramStatus& program) {
+    if (begins_again(program)) {
+        begin_run();
+    }
+    if (run_.blocks.size() == most_blocks) {
+        run_.blocks.back().line = program.line;  // the path beyond is not known
+    } else {
+        Block block;
+        block.line = program.line;
+        block.begin_mm = run_.blocks.empty() ? 0.0 : run_.blocks.back().end_mm - to_go_mm_;
+        run_.blocks.push_back(block);
+    }
+    run_.blocks.back().end_mm = run_.blocks.back().begin_mm + static_cast<double>(program.distance_to_go_mm);
+}
+
+/// Its first block is in work again.
+bool MapLearner::begins_again(const hal::ProgramStatus& program) const {
+    if (run_.blocks.size() < 2) {
+        return false;
+    }
+    const Block& first = run_.blocks.front();
+    const double length_mm = first.end_mm - first.begin_mm;
+    return program.line == first.line &&
+           std::abs(static_cast<double>(program.distance_to_go_mm) - length_mm) <= blending_mm;
+}
+
+void MapLearner::begin_run() {
+    if (run_.path_mm >= longest_.path_mm) {
+        std::swap(run_, longest_);
+    }
+    std::fill_n(run_.bins.begin(), run_.used, Bin{});
+    run_.blocks.clear();
+    run_.used = 0;
+    run_.path_mm = 0.0;
+    last_middle_mm_.reset();
+}
+
+void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) const {
+    constexpr std::uint16_t enough = 1000;
+    const estimation::CutEstimate<float>& e = tick.estimate();
+    const float sd_N = std::sqrt(e.tangential_N.variance);
+    const bool is_contact = e.tangential_N.value > control::contact_level_N(parameters_.tool.control, sd_N);
+    if (bin.air + bin.contact >= enough) {
+        return;
+    }
+    bin.air = static_cast<std::uint16_t>(bin.air + (is_contact ? 0 : 1));
+    bin.contact = static_cast<std::uint16_t>(bin.contact + (is_contact ? 1 : 0));
+    const estimation::EngagementEstimate<float> cut = tick.engagement();
+    if (!is_contact || !cut.immersion_valid || !cut.depth_valid || !(cut.axial_depth_mm > 0.0F)) {
+        return;
+    }
+    ++bin.cut;
+    bin.up = static_cast<std::uint16_t>(bin.up + (cut.side == estimation::CutSide::up ? 1 : 0));
+    bin.immersion += cut.radial_immersion;
+    bin.immersion_variance += cut.radial_immersion_sd * cut.radial_immersion_sd;
+    bin.depth_mm += cut.axial_depth_mm;
+    bin.depth_variance_mm2 += cut.axial_depth_force_sd_mm * cut.axial_depth_force_sd_mm;
+}
+
+// ---- What was seen
+// ---------------------------------------------------------------------------------------------------
+
+PartMap MapLearner::map() const {
+    return map_of(run_.path_mm >= longest_.path_mm ? run_ : longest_);
+}
+
+MapPlace MapLearner::seen_in(const Bin& bin) const {
+    MapPlace seen;
+    if (bin.air > bin.contact) {
+        return seen;
+    }
+    if (bin.cut == 0 || 2 * bin.cut < bin.contact) {
+        seen.known = bin.contact > 0 ? Known::at_most : Known::nothing;
+        return seen;
+    }
+    const auto count = static_cast<float>(bin.cut);
+    const bool is_centred = parameters_.tool.side == estimation::CutSide::centred;
+    const estimation::CutSide up_or_down =
+        2 * bin.up > bin.cut ? estimation::CutSide::up : estimation::CutSide::down;
+    const float immersion = bin.immersion / count;
+    const auto angles = estimation::engagement_angles(is_centred ? estimation::CutSide::centred : up_or_down, immersion,
+                                                      firmware::estimator_settings(parameters_).centre_offset_in_radii);
+    seen.cut = {{static_cast<double>(angles.entry_rad), static_cast<double>(angles.exit_rad),
+                 static_cast<double>(bin.depth_mm / count)}};
+    // R_r = 1 − cos θ, dθ = dR_r/sin θ
+    const float sine = std::max(std::sqrt(std::max(immersion * (2.0F - immersion), 0.0F)), 0.1F);
+    seen.arc_sd_rad = static_cast<double>(std::sqrt(bin.immersion_variance / count) / sine);
+    seen.axial_depth_sd_mm = static_cast<double>(std::sqrt(bin.depth_variance_mm2 / count));
+    return seen;
+}
+
+/// Of each bin; what is at most a neighbour's cut bears that cut.
+std::vector<MapPlace> MapLearner::seen_in(const Run& run) const {
+    std::vector<MapPlace> seen(run.used);
+    std::transform(run.bins.begin(), run.bins.begin() + static_cast<std::ptrdiff_t>(run.used), seen.begin(),
+                   [this](const Bin& bin) { return seen_in(bin); });
+    const std::size_t reach = bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
+    std::vector<MapPlace> completed = seen;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (seen[k].known != Known::at_most) {
+            continue;
+        }
+        const MapPlace* const neighbour = larger_neighbour(seen, k, reach);
+        completed[k].known = neighbour != nullptr ? Known::at_most : Known::nothing;
+        if (neighbour != nullptr) {
+            completed[k].cut = neighbour->cut;
+            completed[k].arc_sd_rad = neighbour->arc_sd_rad;
+            completed[k].axial_depth_sd_mm = neighbour->axial_depth_sd_mm;
+        }
+    }
+    return completed;
+}
+
+PartMap MapLearner::map_of(const Run& run) const {
+    const std::vector<MapPlace> seen = seen_in(run);
+    PartMap map;
+    Smoother smoother(map);
+    for (const Block& block : run.blocks) {
+        double path_mm = block.begin_mm;
+        while (path_mm < std::min(block.end_mm, run.path_mm)) {
+            const std::size_t k = bin_at(path_mm);
+            MapPlace place;
+            place.known = Known::nothing;
+            if (k < seen.size()) {
+                place = seen[k];
+            }
+            place.path_mm = path_mm;
+            place.block_end_mm = block.end_mm;
+            place.line = block.line;
+            place.rapid = block.rapid;
+            place.programmed_feed_mm_s = static_cast<double>(block.feed_mm_s);
+            place.spindle_speed_rad_s = static_cast<double>(block.spindle_speed_rad_s);
+            smoother.add(place);
+            path_mm = std::min(bin_mm * static_cast<double>(k + 1), block.end_mm);
+        }
+    }
+    if (!map.empty()) {
+        MapPlace end = map.back();
+        end.path_mm = run.path_mm;
+        end.cut.clear();
+        end.known = Known::cut;
+        end.arc_sd_rad = 0.0;
+        end.axial_depth_sd_mm = 0.0;
+        map.push_back(end);
+    }
+    return map;
+}
+
+}  // namespace millforce::host
