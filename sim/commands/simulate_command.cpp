@@ -116,6 +116,9 @@ RunResult run_with_map(const SimulateOptions& options, const Scenario& scenario,
     }
     MappedController controller(scenario.parameters, map_of(options, scenario), learner ? &*learner : nullptr);
     RunResult result = run(scenario, "millforce", controller, recording);
+    if (controller.is_refuted()) {
+        host::print_line(stderr, "millforce: note: the part map did not fit this cut: the run went on without it");
+    }
     if (learner) {
         const std::string tool = std::filesystem::path(scenario.tool_file).stem().string();
         host::write_part_map(options.learn,

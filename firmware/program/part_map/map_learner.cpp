@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "estimation/cutting/cutting_law.hpp"
 
 namespace millforce::host {
 
@@ -30,14 +33,20 @@ bool is_seen_cut(const MapPlace& place) {
     return place.known == Known::cut && !place.cut.empty();
 }
 
-/// The cut of which those around it are a part: the larger section of the nearest ones on both sides.
-const MapPlace* larger_neighbour(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
-    const MapPlace* found = nullptr;
+/// The cuts on both sides of a row of pieces without an engagement.
+struct Neighbours {
+    const MapPlace* cut = nullptr;  // of the larger section
+    bool is_same_block = true;      // the row and that cut: the path does not turn between them
+};
+
+Neighbours neighbours_of(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
+    Neighbours found;
     const auto section = [](const MapPlace& place) { return immersion_of(place) * place.cut.front().axial_depth_mm; };
     const auto look = [&](std::size_t at) {
         const bool is_air = places[at].known == Known::cut && places[at].cut.empty();
-        if (is_seen_cut(places[at]) && (found == nullptr || section(*found) < section(places[at]))) {
-            found = &places[at];
+        found.is_same_block = found.is_same_block && (is_air || places[at].line == places[k].line);
+        if (is_seen_cut(places[at]) && (found.cut == nullptr || section(*found.cut) < section(places[at]))) {
+            found.cut = &places[at];
         }
         return is_air || is_seen_cut(places[at]);
     };
@@ -196,12 +205,18 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
     constexpr std::uint16_t enough = 1000;
     const estimation::CutEstimate<float>& e = tick.estimate();
     const float sd_N = std::sqrt(e.tangential_N.variance);
-    const bool is_contact = e.tangential_N.value > control::contact_level_N(parameters_.tool.control, sd_N);
+    // Half of what counts as contact, as the tick re-zeroes in air: a faster run would feel it.
+    const bool is_contact =
+        e.tangential_N.value > 0.5F * control::contact_level_N(parameters_.tool.control, sd_N);
     if (bin.air + bin.contact >= enough) {
         return;
     }
     bin.air = static_cast<std::uint16_t>(bin.air + (is_contact ? 0 : 1));
     bin.contact = static_cast<std::uint16_t>(bin.contact + (is_contact ? 1 : 0));
+    if (is_contact && e.tangential_N.value > bin.highest_N) {
+        bin.highest_N = e.tangential_N.value;
+        bin.feed_per_tooth_mm = e.feed_per_tooth_mm;
+    }
     const estimation::EngagementEstimate<float> cut = tick.engagement();
     if (!is_contact || !cut.immersion_valid || !cut.depth_valid || !(cut.axial_depth_mm > 0.0F)) {
         return;
@@ -251,21 +266,52 @@ std::vector<MapPlace> MapLearner::seen_in(const Run& run) const {
     std::vector<MapPlace> seen(run.used);
     std::transform(run.bins.begin(), run.bins.begin() + static_cast<std::ptrdiff_t>(run.used), seen.begin(),
                    [this](const Bin& bin) { return seen_in(bin); });
-    const std::size_t reach = bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
+    for (const Block& block : run.blocks) {
+        for (std::size_t k = bin_at(block.begin_mm); k < std::min(bin_at(block.end_mm) + 1, seen.size()); ++k) {
+            seen[k].line = block.line;
+        }
+    }
     std::vector<MapPlace> completed = seen;
     for (std::size_t k = 0; k < seen.size(); ++k) {
         if (seen[k].known != Known::at_most) {
             continue;
         }
-        const MapPlace* const neighbour = larger_neighbour(seen, k, reach);
-        completed[k].known = neighbour != nullptr ? Known::at_most : Known::nothing;
-        if (neighbour != nullptr) {
-            completed[k].cut = neighbour->cut;
-            completed[k].arc_sd_rad = neighbour->arc_sd_rad;
-            completed[k].axial_depth_sd_mm = neighbour->axial_depth_sd_mm;
-        }
+        bound_by(seen, k, run.bins[k], completed[k]);
     }
     return completed;
+}
+
+/// F_at of the cut is not below that which was measured there, but for the noise.
+bool MapLearner::carries(const std::vector<EngagedArc>& cut, const Bin& bin) const {
+    constexpr float noise = 1.1F;
+    float tangential_N = 0.0F;
+    for (const EngagedArc& arc : cut) {
+        const estimation::EngagementAngles<float> angles{static_cast<float>(arc.entry_rad),
+                                                         static_cast<float>(arc.exit_rad)};
+        tangential_N += estimation::average_forces(
+                            parameters_.tool.law, estimation::CutConditions<float>{
+                                                      bin.feed_per_tooth_mm, static_cast<float>(arc.axial_depth_mm),
+                                                      angles, static_cast<float>(parameters_.tool.teeth)})
+                            .tangential_N;
+    }
+    return bin.highest_N <= noise * tangential_N;
+}
+
+/// Where the tool goes straight on, the arc of an entry or exit is a part of its neighbour's; elsewhere only the depth is
+/// known.
+void MapLearner::bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const {
+    const std::size_t reach = bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
+    const Neighbours neighbours = neighbours_of(seen, k, reach);
+    place.known = Known::nothing;
+    if (neighbours.cut == nullptr) {
+        return;
+    }
+    place = *neighbours.cut;
+    place.known = Known::at_most;
+    if (!neighbours.is_same_block || !carries(place.cut, bin)) {
+        place.cut = {{0.0, std::numbers::pi, place.cut.front().axial_depth_mm}};
+        place.known = carries(place.cut, bin) ? Known::at_most : Known::nothing;
+    }
 }
 
 PartMap MapLearner::map_of(const Run& run) const {

@@ -18,7 +18,8 @@ namespace millforce::host {
 ///
 /// A place where the force was that of air is air. Where immersion and depth were estimated they are the cut, with
 /// their deviations. Where there was a force without them, as while the tool enters or leaves, the cut is at most that
-/// of its neighbour; without one it is not known. Nor are places that the run did not reach.
+/// of its neighbour, or a slot as deep where the force was higher than that; otherwise it is not known. Nor are places
+/// that the run did not reach.
 ///
 /// Depth and K_s enter the forces as a product: the depth is the one that gives the measured force by the tool's law.
 ///
@@ -58,6 +59,8 @@ class MapLearner {
         float immersion_variance = 0.0F;
         float depth_mm = 0.0F;
         float depth_variance_mm2 = 0.0F;
+        float highest_N = 0.0F;          ///< F_at in contact, and the feed there
+        float feed_per_tooth_mm = 0.0F;
     };
     struct Run {
         std::vector<Block> blocks;
@@ -74,6 +77,8 @@ class MapLearner {
     [[nodiscard]] PartMap map_of(const Run& run) const;
     [[nodiscard]] std::vector<MapPlace> seen_in(const Run& run) const;
     [[nodiscard]] MapPlace seen_in(const Bin& bin) const;
+    [[nodiscard]] bool carries(const std::vector<EngagedArc>& cut, const Bin& bin) const;
+    void bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const;
 
     firmware::Parameters<float> parameters_;
     Run run_;
