@@ -16,7 +16,8 @@ bool differ(const hal::ProgramStatus& a, const hal::ProgramStatus& b) {
 }  // namespace
 
 void CncOnBus::set(const hal::ProgramStatus& program, std::uint64_t time_us) {
-    const bool is_news = !has_status_ || differ(program, newest_.program);
+    const bool is_news = !has_status_ || differ(program, newest_.program) ||
+                         (settings_.reports_position && program.line != newest_.program.line);
     newest_.program = program;
     has_status_ = true;
     if (is_news) {
@@ -50,6 +51,16 @@ void CncOnBus::send(std::uint64_t time_us) {
     if (settings_.program_status_id != 0) {
         ++newest_.counter;
         outgoing_.push_back(program_status::encode(newest_, settings_.program_status_id));
+        send_position();
+    }
+}
+
+void CncOnBus::send_position() {
+    const std::uint32_t id = program_status::position_frame_id(settings_.program_status_id);
+    if (settings_.reports_position && id != 0) {
+        ++positions_sent_;
+        outgoing_.push_back(program_status::encode_position(
+            {newest_.program.line, newest_.program.distance_to_go_mm, positions_sent_}, id));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "hal/can_frame.hpp"
 #include "hal/drive_sample.hpp"
 #include "override_frame/override_receiver.hpp"
+#include "program_status/position_frame.hpp"
 #include "program_status/program_status_frame.hpp"
 #include "program_status/tool_frame.hpp"
 
@@ -18,6 +19,7 @@ struct CncOnBusSettings {
     std::uint32_t program_status_id = program_status::default_id;  ///< 0: it reports nothing
     std::uint32_t program_status_period_us = 10'000;
     std::uint32_t tool_period_us = 100'000;
+    bool reports_position = false;  ///< line and distance to go, beside each program status
 };
 
 /// A CNC's side of the bus: it takes the feed override and reports F, rapid and hold, at once when one of them changes.
@@ -39,12 +41,14 @@ class CncOnBus {
 
   private:
     void send(std::uint64_t time_us);
+    void send_position();
     void send_tool(std::uint64_t time_us);
 
     CncOnBusSettings settings_;
     override_frame::OverrideReceiver receiver_;
     program_status::ProgramStatusFrame newest_{};
     bool has_status_ = false;
+    std::uint8_t positions_sent_ = 0;
     std::uint64_t next_us_ = 0;
     std::optional<std::uint32_t> tool_{};
     std::uint64_t next_tool_us_ = 0;

@@ -50,6 +50,7 @@ CncOnBusSettings cnc_on_bus(const Scenario& scenario, const host::MachineBus& bu
     settings.feed_override.node_id = bus.feed_override.node_id;
     settings.feed_override.largest_ratio = scenario.parameters.machine.cnc.override_max + 0.001F;
     settings.program_status_id = bus.program.id;
+    settings.reports_position = true;
     return settings;
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "cia402/objects.hpp"
+#include "hal/finite.hpp"
 
 namespace millforce::firmware {
 
@@ -18,6 +20,11 @@ std::uint32_t own_heartbeat_id(const CanControllerSettings& settings) {
 /// Where no tool can be chosen its frame is not heard, so that it does not pass time either.
 std::uint32_t tool_id(const CanControllerSettings& settings, const ToolSource* tools) {
     return tools != nullptr ? program_status::tool_frame_id(settings.program.id) : 0;
+}
+
+/// Nor is the position where nobody looks ahead.
+std::uint32_t position_id(const CanControllerSettings& settings, const WaySource<float>* way) {
+    return way != nullptr ? program_status::position_frame_id(settings.program.id) : 0;
 }
 
 std::uint64_t microseconds(float seconds) {
@@ -38,10 +45,11 @@ constexpr std::uint64_t shown_for_us = 1'000'000;
 }  // namespace
 
 CanController::CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                             TickListener* listener, const ToolSource* tools)
+                             TickListener* listener, const ToolSource* tools, WaySource<float>* way)
     : settings_(settings),
       parameters_(parameters),
       tools_(tools),
+      way_(way),
       is_running_(settings.begins_at_once),
       stale_us_(microseconds(parameters.machine.cnc.stale_s)),
       silent_after_us_(silent_after_periods * settings.drives.sync_period_us),
@@ -49,6 +57,7 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
       sync_(settings.drives.sync_id, settings.drives.sync_period_us),
       program_receiver_(settings.program),
       tool_receiver_(tool_id(settings, tools)),
+      position_receiver_(position_id(settings, way)),
       sender_(settings.feed_override),
       tick_(parameters, tools),
       listener_(listener) {
@@ -67,6 +76,7 @@ void CanController::begin() {
     std::construct_at(&bus_, settings_.drives);
     program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
     tool_receiver_ = program_status::ToolReceiver(tool_id(settings_, tools_));
+    position_receiver_ = program_status::PositionReceiver(position_id(settings_, way_));
     if (has_begun_) {
         std::destroy_at(&tick_);
         std::construct_at(&tick_, parameters_, tools_);
@@ -117,6 +127,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
     }
     program_receiver_.on_frame(frame, time_us);
     tool_receiver_.on_frame(frame, time_us);
+    position_receiver_.on_frame(frame, time_us);
     bus_.on_frame(frame, time_us);
     run_ticks();
 }
@@ -208,6 +219,9 @@ void CanController::tick_on_sample() {
     tick_.follow_tool(tool_receiver_.number(sync_time_us_), is_at_rest());
     tick_.take(sample_);
     finish_estimate(tick_);
+    if (way_ != nullptr) {
+        way_->look_ahead(tick_.of_tool(), program_);
+    }
     finish(tick_.answer(program_), sync_time_us_);
 }
 
@@ -240,7 +254,18 @@ void CanController::stop(std::uint64_t now_us) {
 hal::ProgramStatus CanController::program_at(std::uint64_t time_us) const {
     hal::ProgramStatus program = program_receiver_.program(time_us);
     program.feed_hold = program.feed_hold || is_any_drive_stopped();
+    const program_status::ProgramPosition position = position_receiver_.position(time_us, path_speed_mm_s());
+    program.line = position.line;
+    program.distance_to_go_mm = position.distance_to_go_mm;
     return program;
+}
+
+float CanController::path_speed_mm_s() const {
+    float sum = 0.0F;
+    for (const float velocity_mm_s : sample_.axis_velocity_mm_s) {
+        sum += velocity_mm_s * velocity_mm_s;
+    }
+    return hal::is_finite(sum) ? std::sqrt(sum) : 0.0F;
 }
 
 /// The CNC brakes by itself then; the override must neither rise meanwhile nor jump when the drive comes back.
@@ -307,7 +332,7 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
     for (const std::uint32_t id :
-         {settings_.program.id, tool_id(settings_, tools_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+         {settings_.program.id, tool_id(settings_, tools_), position_id(settings_, way_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }

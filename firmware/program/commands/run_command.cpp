@@ -11,6 +11,7 @@
 #include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/map_options.hpp"
 #include "commands/watch_options.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
@@ -35,6 +36,7 @@ struct RunOptions {
     std::string log;
     std::string record;
     std::string report;
+    MapOptions maps{};
     BusPace pace{};
     WatchOptions watch{};
 };
@@ -115,6 +117,14 @@ int run_on_bus(const RunOptions& options) {
                         "number is that id + 0x100",
                         options.machine, bus.program.id, hal::largest_standard_can_id - 0x100));
     }
+    LiveMaps maps(options.maps, options.tools, tools.parameters());
+    firmware::WaySource<float>* const way = maps.begin();
+    if (way != nullptr && program_status::position_frame_id(bus.program.id) == 0) {
+        throw InputError(
+            fmt::format("--map, --learn: {}: bus.program_status_id = {}, expected 1 to {}: the frame of the position "
+                        "in the program is that id + 0x200",
+                        options.machine, bus.program.id, hal::largest_standard_can_id - 0x200));
+    }
     const auto report =
         started_report({RunKind::run, options.interface, options.machine, options.tools, options.report}, tools);
     const auto page = report != nullptr ? std::make_unique<RunRecorder>(report->history()) : nullptr;
@@ -124,7 +134,7 @@ int run_on_bus(const RunOptions& options) {
                                                                    ToolForces(tools), page.get()});
     const auto hub = watch(options.watch, tools, options.interface);
     const auto daemon = std::make_unique<CanDaemon>(
-        interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed()});
+        interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed(), way});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }
@@ -141,6 +151,10 @@ int run_on_bus(const RunOptions& options) {
     journal->finish();
     hub->finish();
     print_summary(options, *daemon, *journal);
+    if (maps.was_dropped()) {
+        print_line(stdout, "the part map did not fit the cut: the run went on without it");
+    }
+    const bool is_learnt = maps.finish();
     if (page != nullptr) {
         page->finish();
     }
@@ -158,7 +172,7 @@ int run_on_bus(const RunOptions& options) {
         print_line(stderr, fmt::format("millforce: the files are incomplete: {} entries were lost", journal->lost()));
         return 1;
     }
-    return is_reported ? 0 : 1;
+    return is_reported && is_learnt ? 0 : 1;
 }
 
 }  // namespace
@@ -181,6 +195,7 @@ void add_run(Command& program) {
         .option("--record", options->record,
                 "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
         .value_name("FILE.log");
+    add_map(command, options->maps);
     add_report(command, options->report);
     add_bus_pace(command, options->pace);
     add_watch(command, options->watch);

@@ -10,6 +10,7 @@
 #include "check/unseen_faults.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/map_options.hpp"
 #include "commands/watch_options.hpp"
 #include "control/cut_state.hpp"
 #include "daemon/line_printer.hpp"
@@ -23,8 +24,6 @@
 #include "firmware_link/link_controller.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
-#include "part_map/map_follower.hpp"
-#include "part_map/part_map_file.hpp"
 #include "run_report/run_report.hpp"
 #include "socketcan/can_socket.hpp"
 
@@ -37,8 +36,7 @@ struct ServeOptions {
     std::string machine;
     ToolChoice tools;
     double override_max = 1.0;
-    std::string map;
-    std::string program;
+    MapOptions maps{};
     std::string report;
     WatchOptions watch{};
 };
@@ -88,19 +86,12 @@ class FaultReporter {
 };
 
 /// Reports when a part map is dropped.
-class MapReporter {
-  public:
-    void follow(const MapFollower& follower, LinePrinter& printer, Page& page) {
-        if (follower.ahead().is_refuted() && !was_refuted_) {
-            page.note("The part map does not fit this cut: the run went on without it.");
-            printer.print("millforce: the part map does not fit this cut: continuing without it");
-        }
-        was_refuted_ = follower.ahead().is_refuted();
+void report_map(LiveMaps& maps, LinePrinter& printer, Page& page) {
+    if (maps.was_dropped()) {
+        page.note("The part map does not fit this cut: the run went on without it.");
+        printer.print("millforce: the part map does not fit this cut: continuing without it");
     }
-
-  private:
-    bool was_refuted_ = false;
-};
+}
 
 /// Reports which tool the override is for.
 class ToolReporter {
@@ -192,10 +183,9 @@ class TickWatcher {
 };
 
 void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller,
-                const MapFollower* follower, LinePrinter& printer, Page& page, TelemetryFeed* feed) {
+                LiveMaps& maps, LinePrinter& printer, Page& page, TelemetryFeed* feed) {
     TickWatcher watcher(feed);
     FaultReporter faults;
-    MapReporter maps;
     ToolReporter tools;
     while (server.has_peer()) {
         const auto bytes = server.receive();
@@ -218,35 +208,18 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
         page.tick(controller);
         faults.follow(controller.output(), printer);
         tools.follow(controller, printer);
-        if (follower != nullptr) {
-            maps.follow(*follower, printer, page);
-        }
+        report_map(maps, printer, page);
     }
-}
-
-std::optional<PartMap> map_of(const ServeOptions& options, const firmware::Parameters<float>& parameters) {
-    if (options.map.empty()) {
-        return std::nullopt;
-    }
-    if (options.tools.is_folder()) {
-        throw InputError("--map: with --tools, expected --tool: a part map is for one tool");
-    }
-    PartMapFile file = read_part_map(options.map);
-    const std::string tool = std::filesystem::path(options.tools.file).stem().string();
-    require_same_origin(options.map, file.origin, origin_of(options.program, tool, parameters.tool));
-    print_line(stderr, fmt::format("millforce: {}: looks ahead in {}, {:.0f} mm of path", options.map,
-                                   file.origin.program, file.map.back().path_mm));
-    return std::move(file.map);
 }
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
-    refuse_overwriting(options.watch.mcap, {options.machine, options.tools.file, options.map, options.program});
+    refuse_overwriting(options.watch.mcap, {options.machine, options.tools.file, options.maps.map, options.maps.program});
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
     show_start_check(tools);
-    const std::optional<PartMap> map = map_of(options, parameters);
+    LiveMaps maps(options.maps, options.tools, parameters);
     const auto report =
         started_report({RunKind::serve, options.socket, options.machine, options.tools, options.report}, tools);
     Page page(report.get());
@@ -267,10 +240,9 @@ int serve(const ServeOptions& options) {
         notify_service_manager("STATUS=connected");
         printer.print("millforce: connected");
         page.note("The CNC connected.");
-        const auto follower = map ? std::make_unique<MapFollower>(parameters, *map) : nullptr;
         auto controller =
-            std::make_unique<firmware::LinkController>(parameters, largest_override, follower.get(), tools.source());
-        serve_peer(server, turns, *controller, follower.get(), printer, page, hub->feed());
+            std::make_unique<firmware::LinkController>(parameters, largest_override, maps.begin(), tools.source());
+        serve_peer(server, turns, *controller, maps, printer, page, hub->feed());
         server.drop_peer();
         page.note("The CNC disconnected.");
         notify_service_manager("STATUS=waiting for a CNC");
@@ -281,8 +253,9 @@ int serve(const ServeOptions& options) {
     leave_real_time();
     hub->finish();
     page.finish();
+    const bool is_learnt = maps.finish();
     const bool is_reported = finish_report(report.get(), stderr);
-    return is_reported && hub->failed_file().empty() ? 0 : 1;
+    return is_reported && is_learnt && hub->failed_file().empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -303,11 +276,7 @@ void add_serve(Command& program) {
                 "Largest override that the CNC accepts; 1: LinuxCNC's adaptive feed")
         .within(0.0, 10.0)
         .shows_default();
-    Option program_file = command.option("--program", options->program, "Part program that the map belongs to");
-    program_file.value_name("PART.ngc");
-    command.option("--map", options->map, "Part map of 'millforce preview', to look ahead with")
-        .value_name("PART.map")
-        .needs(program_file);
+    add_map(command, options->maps);
     add_report(command, options->report);
     add_watch(command, options->watch);
     command.on_run([options] { return serve(*options); });

@@ -39,7 +39,7 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
       telemetry_(settings.telemetry),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
-      controller_(controller_settings(bus), tools.parameters(), this, tools.source()),
+      controller_(controller_settings(bus), tools.parameters(), this, tools.source(), settings.way),
       socket_(socket_settings(interface, controller_, settings.records)),
       clock_(settings.time, socket_.unix_offset_us()),
       sync_id_(bus.drives.sync_id),

@@ -23,6 +23,7 @@ struct CanDaemonSettings {
     BusTime time{};
     RunRecorder* page = nullptr;         ///< gets every tick; outlives the daemon
     TelemetryFeed* telemetry = nullptr;  ///< for who watches; outlives the daemon
+    firmware::WaySource<float>* way = nullptr;  ///< what lies ahead of one tool; outlives the daemon
 };
 
 /// The controller on a CAN interface: socket, CanController and journal in one loop, until `stop` is set. Then the

@@ -9,9 +9,11 @@
 #include "cia402/sync_producer.hpp"
 #include "firmware/tick_record.hpp"
 #include "firmware/tool_tick.hpp"
+#include "firmware/way_source.hpp"
 #include "firmware_can/conditions.hpp"
 #include "hal/can_frame.hpp"
 #include "override_frame/override_sender.hpp"
+#include "program_status/position_frame.hpp"
 #include "program_status/program_status_receiver.hpp"
 #include "program_status/tool_frame.hpp"
 
@@ -45,6 +47,8 @@
 /// With a ToolSource the CNC reports which tool is in the spindle (tool_frame.hpp), and the tool's parameters change
 /// with it, at rest (tool_tick.hpp).
 ///
+/// With a WaySource the CNC reports where in its program the tool is (position_frame.hpp), and the tick looks ahead.
+///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
 namespace millforce::firmware {
@@ -71,11 +75,13 @@ class TickListener {
 
 class CanController {
   public:
-    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 4;
+    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 5;
 
-    /// With `tools`, which outlives this, `parameters.tool` is any tool.
+    /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of one tool; it outlives
+    /// this.
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                  TickListener* listener = nullptr, const ToolSource* tools = nullptr);
+                  TickListener* listener = nullptr, const ToolSource* tools = nullptr,
+                  WaySource<float>* way = nullptr);
 
     /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);
@@ -127,6 +133,7 @@ class CanController {
     void tick_without_sample();
     void finish(const hal::FeedOverride& output, std::uint64_t time_us);
     [[nodiscard]] hal::ProgramStatus program_at(std::uint64_t time_us) const;
+    [[nodiscard]] float path_speed_mm_s() const;
     void reset_fault_where_asked();
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] bool is_any_drive_stopped() const;
@@ -137,6 +144,7 @@ class CanController {
     CanControllerSettings settings_;
     Parameters<float> parameters_;
     const ToolSource* tools_;
+    WaySource<float>* way_;
     std::bitset<hal::largest_standard_can_id + 1> used_ids_{};
     bool is_running_;         ///< this controller's boot-up was on the bus
     bool was_heard_ = false;  ///< a frame came since the last poll()
@@ -150,6 +158,7 @@ class CanController {
     cia402::SyncProducer sync_;
     program_status::ProgramStatusReceiver program_receiver_;
     program_status::ToolReceiver tool_receiver_;
+    program_status::PositionReceiver position_receiver_;
     override_frame::OverrideSender sender_;
     ToolTick tick_;
     TickListener* listener_;
