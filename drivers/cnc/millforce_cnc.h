@@ -10,8 +10,8 @@
 ///
 /// C99 or C++, this header alone: no library, no heap, no floating point, no clock. Bounded loops; a few hundred
 /// instructions per frame. One thread per object. Times are in µs, as a count that may wrap. The frames' layouts are in
-/// override_frame/override_frame.hpp, program_status/program_status_frame.hpp and program_status/tool_frame.hpp;
-/// vectors.txt has them as bytes.
+/// override_frame/override_frame.hpp and, in program_status, program_status_frame.hpp, tool_frame.hpp and
+/// position_frame.hpp; vectors.txt has them as bytes.
 ///
 ///     static millforce_receiver receiver;
 ///     static millforce_status_sender sender;
@@ -24,6 +24,8 @@
 ///     if (millforce_status_due(&sender, &status, now_us, &frame)) { write_to_bus(&frame); }
 ///     // With tools by number, and a millforce_tool_sender that was started like the other:
 ///     if (millforce_tool_due(&tool_sender, tool_number, now_us, &frame)) { write_to_bus(&frame); }
+///     // Where the controller looks ahead in a part map, and a millforce_position_sender that was started:
+///     if (millforce_position_due(&position_sender, &position, now_us, &frame)) { write_to_bus(&frame); }
 
 #define MILLFORCE_OVERRIDE_NODE 126U          ///< CANopen node of the controller; its heartbeat has the id 0x700 + node
 #define MILLFORCE_OVERRIDE_ID 0x1FEU          ///< TPDO 1 of node 126
@@ -34,6 +36,9 @@
 #define MILLFORCE_STATUS_PERIOD_US 10000U
 #define MILLFORCE_TOOL_ID 0x2FDU  ///< TPDO 2 of node 125
 #define MILLFORCE_TOOL_PERIOD_US 100000U
+#define MILLFORCE_POSITION_ID 0x3FDU  ///< TPDO 3 of node 125
+#define MILLFORCE_POSITION_PERIOD_US 10000U
+#define MILLFORCE_DISTANCE_NOT_KNOWN 0xFFFFFFU
 #define MILLFORCE_FRAME_BYTES 8U
 
 /// A frame of classical CAN.
@@ -62,6 +67,13 @@ typedef struct {
     bool is_feed_held;
     bool resets_fault;  ///< a rising edge clears the controller's fault, with all axes at rest
 } millforce_program_status;
+
+/// Content of the position frame.
+typedef struct {
+    uint32_t line;  ///< of the program, of the block in work; 0: not known; above 0xFFFFFF: not known
+    uint32_t
+        distance;  ///< to go to that block's end along its path, 0.001 mm; from MILLFORCE_DISTANCE_NOT_KNOWN: not known
+} millforce_position;
 
 typedef enum {
     millforce_ok,
@@ -395,6 +407,68 @@ static inline bool millforce_tool_due(millforce_tool_sender* sender, uint32_t nu
     sender->has_sent = true;
     sender->sent_us = now_us;
     millforce_encode_tool(number, sender->id, frame);
+    return true;
+}
+
+/// Line and way to go.
+static inline void millforce_encode_position(const millforce_position* position, uint32_t counter, uint32_t id,
+                                             millforce_can_frame* frame) {
+    const uint32_t line = position->line <= 0xFFFFFFU ? position->line : 0U;
+    const uint32_t distance =
+        position->distance < MILLFORCE_DISTANCE_NOT_KNOWN ? position->distance : MILLFORCE_DISTANCE_NOT_KNOWN;
+    for (uint32_t k = 0U; k < 3U; ++k) {
+        frame->data[k] = (line >> (8U * k)) & 0xFFU;
+        frame->data[3U + k] = (distance >> (8U * k)) & 0xFFU;
+    }
+    millforce_finish(frame, id, 0U);
+    frame->data[5] = (distance >> 16U) & 0xFFU;
+    frame->data[6] = counter & 0xFFU;
+    frame->data[7] = millforce_checksum(frame->id, frame->data) & 0xFFU;
+}
+
+/// Writes `position` and `counter` where the result is ok.
+static inline millforce_result millforce_decode_position(const millforce_can_frame* frame, uint32_t id,
+                                                         millforce_position* position, uint32_t* counter) {
+    const millforce_result result = millforce_check(frame, id);
+    if (result != millforce_ok) {
+        return result;
+    }
+    const uint32_t line_high = frame->data[2];
+    const uint32_t distance_high = frame->data[5];
+    position->line = millforce_16_bits(&frame->data[0]) | (line_high << 16U);
+    position->distance = millforce_16_bits(&frame->data[3]) | (distance_high << 16U);
+    *counter = frame->data[6];
+    return millforce_ok;
+}
+
+typedef struct {
+    uint32_t id;
+    uint32_t sent_line;
+    bool has_sent;
+    uint32_t sent_us;
+    uint32_t counter;
+} millforce_position_sender;
+
+static inline void millforce_position_start(millforce_position_sender* sender) {
+    sender->id = MILLFORCE_POSITION_ID;
+    sender->sent_line = 0U;
+    sender->has_sent = false;
+    sender->sent_us = 0U;
+    sender->counter = 0U;
+}
+
+/// In each cycle. True where `frame` is to be sent: every 10 ms, and at once where the line changes.
+static inline bool millforce_position_due(millforce_position_sender* sender, const millforce_position* position,
+                                          uint32_t now_us, millforce_can_frame* frame) {
+    const bool is_time = now_us - sender->sent_us >= MILLFORCE_POSITION_PERIOD_US;
+    if (sender->has_sent && position->line == sender->sent_line && !is_time) {
+        return false;
+    }
+    sender->counter = (sender->counter + 1U) & 0xFFU;
+    sender->sent_line = position->line;
+    sender->has_sent = true;
+    sender->sent_us = now_us;
+    millforce_encode_position(position, sender->counter, sender->id, frame);
     return true;
 }
 

@@ -50,7 +50,6 @@ CncOnBusSettings cnc_on_bus(const Scenario& scenario, const host::MachineBus& bu
     settings.feed_override.node_id = bus.feed_override.node_id;
     settings.feed_override.largest_ratio = scenario.parameters.machine.cnc.override_max + 0.001F;
     settings.program_status_id = bus.program.id;
-    settings.reports_position = true;
     return settings;
 }
 
@@ -64,6 +63,7 @@ PlantOnCanSettings plant_on_bus(const Scenario& scenario, const std::string& int
     settings.interface = interface;
     settings.machine = drives_on_bus(scenario, *bus);
     settings.cnc = cnc_on_bus(scenario, *bus);
+    settings.cnc.reports_position = true;
     settings.time.sync_id = bus->drives.sync_id;
     settings.time.sync_period_us = bus->drives.sync_period_us;
     return settings;

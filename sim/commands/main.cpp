@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
     sim::add_kinds(program);
     host::add_run(program);
     host::add_serve(program);
+    host::add_map_commands(program);
     sim::add_plant(program);
     host::add_replay(program);
     host::add_import(program);

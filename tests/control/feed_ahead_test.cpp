@@ -305,3 +305,59 @@ TEST(FeedAhead, an_estimate_that_is_not_a_number_neither_agrees_nor_teaches) {
     CHECK_TRUE(std::isfinite(way.feed_mm_s));
     DOUBLES_EQUAL(1.0, static_cast<double>(ahead.hardness()), 1e-3);
 }
+
+// ---- What the map does not know
+// -------------------------------------------------------------------------------------
+
+namespace {
+
+Stretch<float> unknown_from(float begin_mm) {
+    Stretch<float> stretch = air_from(begin_mm);
+    stretch.is_known = false;
+    return stretch;
+}
+
+Stretch<float> at_most_from(float begin_mm) {
+    Stretch<float> stretch = cut_from(begin_mm);
+    stretch.least_share = 0.0F;
+    return stretch;
+}
+
+}  // namespace
+
+TEST(FeedAhead, meets_what_it_does_not_know_at_the_blind_feed_and_says_that_it_does_not_know_it) {
+    Ahead ahead = with({cut_from(0.0F), unknown_from(wall_mm), cut_from(wall_mm + 20.0F), air_from(end_mm)});
+    const WayAhead<float> before = cut(ahead, 1.0F, 20.0F, 300.0F);
+    CHECK_TRUE(before.known);
+    DOUBLES_EQUAL(wall_feed_mm_s, before.feed_mm_s, 0.1);
+    const WayAhead<float> within = ahead.step(at(wall_mm + 1.0F));
+    CHECK_FALSE(within.known);
+    DOUBLES_EQUAL(at(0.0F).blind_feed_mm_s, within.feed_mm_s, 1e-3);
+    const WayAhead<float> behind = cut(ahead, wall_mm + 19.0F, wall_mm + 25.0F, 300.0F);
+    CHECK_TRUE(behind.known);
+}
+
+TEST(FeedAhead, a_force_where_it_knows_nothing_neither_confirms_nor_refutes_it) {
+    Ahead ahead = with({air_from(0.0F), unknown_from(10.0F), air_from(end_mm)});
+    CHECK_FALSE(cut(ahead, 12.0F, 30.0F, 900.0F).known);
+    CHECK_FALSE(ahead.is_refuted());
+    cut(ahead, 30.0F, 60.0F, 0.0F);
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAhead, where_the_tool_enters_any_force_up_to_that_of_the_cut_agrees_and_no_more) {
+    for (const float force_N : {0.0F, 40.0F, 290.0F}) {
+        Ahead ahead = with({at_most_from(0.0F), air_from(end_mm)});
+        CHECK_FALSE(cut(ahead, 1.0F, 20.0F, force_N).known);  // it does not confirm the map either
+        CHECK_FALSE(ahead.is_refuted());
+    }
+    Ahead ahead = with({at_most_from(0.0F), air_from(end_mm)});
+    cut(ahead, 1.0F, 20.0F, 900.0F);
+    CHECK_TRUE(ahead.is_refuted());
+}
+
+TEST(FeedAhead, where_the_tool_enters_it_says_nothing_of_a_tooths_share) {
+    Ahead ahead = with({cut_from(0.0F), at_most_from(20.0F), air_from(end_mm)});
+    CHECK_COMPARE(cut(ahead, 1.0F, 15.0F, 300.0F).tooth_per_tangential, >, 0.0F);
+    DOUBLES_EQUAL(0.0, static_cast<double>(cut(ahead, 22.0F, 25.0F, 200.0F).tooth_per_tangential), 1e-6);
+}

@@ -38,8 +38,9 @@
 /// with four standard deviations of the measurement beside. What disagrees over more than disagreement_mm refutes the
 /// map: `known` is false from then on, until restart(). So does contact, two estimates in a row, where the map has air.
 ///
-/// A stretch may be open: not known at all, or known to lie between air and its F_i (least_share 0). It neither confirms
-/// the map nor refutes it. Near a stretch that is not known at all `known` is false, and it is met at blind_feed_mm_s.
+/// A stretch may be open: not known at all, or known to lie between air and its F_i (least_share 0). It neither
+/// confirms the map nor refutes it. Near a stretch that is not known at all `known` is false, and it is met at
+/// blind_feed_mm_s.
 ///
 /// Use: restart() with each program, add() stretches in the order of the path while room() lasts, step() at each tick.
 /// If the window runs empty, nothing is known of the path ahead: the feed has fallen to blind_feed_mm_s by then.

@@ -28,7 +28,7 @@ std::uint32_t steps_of(float distance_mm) {
     constexpr float largest = static_cast<float>(largest_24_bits - 1);
     const float steps = distance_mm / distance_mm_per_bit + 0.5F;
     return hal::is_finite(distance_mm) && distance_mm >= 0.0F && steps <= largest ? static_cast<std::uint32_t>(steps)
-                                                                                 : largest_24_bits;
+                                                                                  : largest_24_bits;
 }
 
 }  // namespace

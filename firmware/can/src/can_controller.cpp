@@ -331,8 +331,8 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
-    for (const std::uint32_t id :
-         {settings_.program.id, tool_id(settings_, tools_), position_id(settings_, way_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+    for (const std::uint32_t id : {settings_.program.id, tool_id(settings_, tools_), position_id(settings_, way_),
+                                   settings_.feed_override.id, own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }

@@ -19,5 +19,6 @@ void add_commission(Command& program);
 void add_telemetry(Command& program);
 void add_gateway(Command& program);
 void add_shop(Command& program);
+void add_map_commands(Command& program);
 
 }  // namespace millforce::host

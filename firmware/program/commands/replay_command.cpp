@@ -9,6 +9,8 @@
 
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "commands/map_options.hpp"
+#include "files/console.hpp"
 #include "files/input_error.hpp"
 #include "files/overwriting.hpp"
 #include "firmware/tick_record.hpp"
@@ -40,6 +42,7 @@ struct ReplayOptions {
     std::string report;
     std::string mcap;
     BusPace pace{};
+    MapOptions maps{};
 };
 
 /// The program's status of each row: from the recording, with F from the command line if it was given.
@@ -124,6 +127,12 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--output, --mcap: both are {}, expected two files", options.mcap));
     }
     if (!is_candump_log(options.log)) {
+        if (!options.maps.map.empty() || !options.maps.learn.empty()) {
+            throw InputError(
+                fmt::format("--map, --learn: {} is not a candump log, expected one with the CNC's position "
+                            "frames",
+                            options.log));
+        }
         if (!options.run_log.empty() || options.pace.slow_motion != 1 || options.pace.lock_step) {
             throw InputError(fmt::format(
                 "{}: not a candump log, expected one with --verify, --slow-motion or --lock-step", options.log));
@@ -134,8 +143,15 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
                                      options.log));
     }
-    return replay_candump({options.log, options.machine, options.tools, options.output, options.interface,
-                           options.interval_s, options.run_log, options.mcap, options.pace, options.report});
+    LiveMaps maps(options.maps, options.tools,
+                  ToolSet(read_machine_parameters(options.machine), options.tools).parameters());
+    const int exit_code =
+        replay_candump({options.log, options.machine, options.tools, options.output, options.interface,
+                        options.interval_s, options.run_log, options.mcap, options.pace, options.report, maps.begin()});
+    if (maps.was_dropped()) {
+        print_line(stderr, "millforce: the part map does not fit this cut: continuing without it");
+    }
+    return maps.finish() ? exit_code : 1;
 }
 
 }  // namespace
@@ -177,6 +193,7 @@ void add_replay(Command& program) {
         .option("--verify", options->run_log,
                 "Compare with the log of 'millforce run --log'; exit code 1 if one bit of one tick differs")
         .value_name("RUN.jsonl");
+    add_map(command, options->maps);
     add_report(command, options->report);
     add_bus_pace(command, options->pace);
     command.on_run([options] { return replay(*options); });

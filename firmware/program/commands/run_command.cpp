@@ -133,8 +133,9 @@ int run_on_bus(const RunOptions& options) {
                                                                    isatty(STDOUT_FILENO) != 0 && !options.watch.view,
                                                                    ToolForces(tools), page.get()});
     const auto hub = watch(options.watch, tools, options.interface);
-    const auto daemon = std::make_unique<CanDaemon>(
-        interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed(), way});
+    const auto daemon =
+        std::make_unique<CanDaemon>(interface, bus, tools, *journal,
+                                    CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed(), way});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }

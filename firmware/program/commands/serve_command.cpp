@@ -182,8 +182,8 @@ class TickWatcher {
     bool has_time_ = false;
 };
 
-void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller,
-                LiveMaps& maps, LinePrinter& printer, Page& page, TelemetryFeed* feed) {
+void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller, LiveMaps& maps,
+                LinePrinter& printer, Page& page, TelemetryFeed* feed) {
     TickWatcher watcher(feed);
     FaultReporter faults;
     ToolReporter tools;
@@ -214,7 +214,8 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
-    refuse_overwriting(options.watch.mcap, {options.machine, options.tools.file, options.maps.map, options.maps.program});
+    refuse_overwriting(options.watch.mcap,
+                       {options.machine, options.tools.file, options.maps.map, options.maps.program});
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();

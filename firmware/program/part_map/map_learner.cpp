@@ -21,14 +21,6 @@ std::size_t bin_at(double path_mm) {
     return static_cast<std::size_t>(std::max(path_mm, 0.0) / MapLearner::bin_mm);
 }
 
-double immersion_of(const MapPlace& place) {
-    double immersion = 0.0;
-    for (const EngagedArc& arc : place.cut) {
-        immersion += std::cos(arc.entry_rad) - std::cos(arc.exit_rad);
-    }
-    return immersion;
-}
-
 bool is_seen_cut(const MapPlace& place) {
     return place.known == Known::cut && !place.cut.empty();
 }
@@ -206,8 +198,7 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
     const estimation::CutEstimate<float>& e = tick.estimate();
     const float sd_N = std::sqrt(e.tangential_N.variance);
     // Half of what counts as contact, as the tick re-zeroes in air: a faster run would feel it.
-    const bool is_contact =
-        e.tangential_N.value > 0.5F * control::contact_level_N(parameters_.tool.control, sd_N);
+    const bool is_contact = e.tangential_N.value > 0.5F * control::contact_level_N(parameters_.tool.control, sd_N);
     if (bin.air + bin.contact >= enough) {
         return;
     }
@@ -247,8 +238,7 @@ MapPlace MapLearner::seen_in(const Bin& bin) const {
     }
     const auto count = static_cast<float>(bin.cut);
     const bool is_centred = parameters_.tool.side == estimation::CutSide::centred;
-    const estimation::CutSide up_or_down =
-        2 * bin.up > bin.cut ? estimation::CutSide::up : estimation::CutSide::down;
+    const estimation::CutSide up_or_down = 2 * bin.up > bin.cut ? estimation::CutSide::up : estimation::CutSide::down;
     const float immersion = bin.immersion / count;
     const auto angles = estimation::engagement_angles(is_centred ? estimation::CutSide::centred : up_or_down, immersion,
                                                       firmware::estimator_settings(parameters_).centre_offset_in_radii);
@@ -288,17 +278,17 @@ bool MapLearner::carries(const std::vector<EngagedArc>& cut, const Bin& bin) con
     for (const EngagedArc& arc : cut) {
         const estimation::EngagementAngles<float> angles{static_cast<float>(arc.entry_rad),
                                                          static_cast<float>(arc.exit_rad)};
-        tangential_N += estimation::average_forces(
-                            parameters_.tool.law, estimation::CutConditions<float>{
-                                                      bin.feed_per_tooth_mm, static_cast<float>(arc.axial_depth_mm),
-                                                      angles, static_cast<float>(parameters_.tool.teeth)})
+        tangential_N += estimation::average_forces(parameters_.tool.law,
+                                                   estimation::CutConditions<float>{
+                                                       bin.feed_per_tooth_mm, static_cast<float>(arc.axial_depth_mm),
+                                                       angles, static_cast<float>(parameters_.tool.teeth)})
                             .tangential_N;
     }
     return bin.highest_N <= noise * tangential_N;
 }
 
-/// Where the tool goes straight on, the arc of an entry or exit is a part of its neighbour's; elsewhere only the depth is
-/// known.
+/// Where the tool goes straight on, the arc of an entry or exit is a part of its neighbour's; elsewhere only the depth
+/// is known.
 void MapLearner::bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const {
     const std::size_t reach = bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
     const Neighbours neighbours = neighbours_of(seen, k, reach);
@@ -324,7 +314,7 @@ PartMap MapLearner::map_of(const Run& run) const {
             const std::size_t k = bin_at(path_mm);
             MapPlace place;
             place.known = Known::nothing;
-            if (k < seen.size()) {
+            if (k < seen.size() && block.feed_mm_s > 0.0F && block.spindle_speed_rad_s > 0.0F) {
                 place = seen[k];
             }
             place.path_mm = path_mm;

@@ -59,7 +59,7 @@ class MapLearner {
         float immersion_variance = 0.0F;
         float depth_mm = 0.0F;
         float depth_variance_mm2 = 0.0F;
-        float highest_N = 0.0F;          ///< F_at in contact, and the feed there
+        float highest_N = 0.0F;  ///< F_at in contact, and the feed there
         float feed_per_tooth_mm = 0.0F;
     };
     struct Run {

@@ -119,7 +119,11 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
     stretch.begin_mm = static_cast<float>(place.path_mm);
     stretch.feed_mm_s = place.rapid ? programmed_mm_s : programmed_mm_s * parameters.machine.cnc.override_max;
     stretch.is_known = place.known != Known::nothing;
-    if (place.cut.empty() || !stretch.is_known || !(teeth_per_s > 0.0F)) {
+    if (!stretch.is_known) {
+        stretch.feed_mm_s = std::max(stretch.feed_mm_s, 1.0F);  // of no use, but it has to be one
+        return stretch;
+    }
+    if (place.cut.empty() || !(teeth_per_s > 0.0F)) {
         return stretch;
     }
     stretch.least_share = place.known == Known::at_most ? 0.0F : 1.0F;
@@ -158,6 +162,24 @@ bool is_same_cut(const MapPlace& a, const MapPlace& b) {
     return a.rapid == b.rapid && a.programmed_feed_mm_s == b.programmed_feed_mm_s &&
            a.spindle_speed_rad_s == b.spindle_speed_rad_s && a.known == b.known && a.hardness == b.hardness &&
            std::ranges::equal(a.cut, b.cut, is_same_arc);
+}
+
+double immersion_of(const MapPlace& place) {
+    double immersion = 0.0;
+    for (const EngagedArc& arc : place.cut) {
+        immersion += std::cos(arc.entry_rad) - std::cos(arc.exit_rad);
+    }
+    return immersion;
+}
+
+double tooth_force_N(const MapPlace& place, const firmware::ToolParameters<float>& tool) {
+    const double teeth_per_s =
+        place.spindle_speed_rad_s * estimation::turns_per_rad<double> * static_cast<double>(tool.teeth);
+    if (place.cut.empty() || place.known == Known::nothing || !(teeth_per_s > 0.0)) {
+        return 0.0;
+    }
+    const auto feed_per_tooth_mm = static_cast<float>(place.programmed_feed_mm_s / teeth_per_s);
+    return place.hardness * static_cast<double>(CutAt(tool, place.cut).highest_tooth_N(feed_per_tooth_mm));
 }
 
 std::vector<control::Stretch<float>> stretches_of(const PartMap& map, const firmware::Parameters<float>& parameters) {

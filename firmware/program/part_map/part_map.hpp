@@ -51,6 +51,12 @@ using PartMap = std::vector<MapPlace>;
 /// feeds.
 [[nodiscard]] bool is_same_cut(const MapPlace& a, const MapPlace& b);
 
+/// a_e/R of all its arcs, 0…2.
+[[nodiscard]] double immersion_of(const MapPlace& place);
+
+/// Of the highest tooth, by the tool's cutting law at the programmed feed. 0 in air and where nothing is known.
+[[nodiscard]] double tooth_force_N(const MapPlace& place, const firmware::ToolParameters<float>& tool);
+
 /// The map as the controller takes it (control/feed_ahead.hpp): the feed at which a tooth reaches its set point by the
 /// tool's cutting law, and the forces there. Neighbours whose feeds and forces are alike are one stretch, with the
 /// lower feed. In air no stretch is faster than the machine's largest override allows, in a cut than twice that: a

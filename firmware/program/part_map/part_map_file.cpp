@@ -30,9 +30,9 @@ constexpr double rad_s_per_rpm = std::numbers::pi / 30.0;
 
 constexpr std::size_t columns_of_geometry = 9;
 constexpr std::array<std::string_view, 16> column_names{
-    "path_mm",  "block_end_mm",   "line",  "rapid",      "feed_mm_min",       "spindle_rpm", "entry_deg",
-    "exit_deg", "axial_depth_mm", "known", "arc_sd_deg", "axial_depth_sd_mm", "hardness",    "hardness_sd",
-    "position_sd_mm", "contested"};
+    "path_mm",   "block_end_mm", "line",           "rapid",    "feed_mm_min", "spindle_rpm",
+    "entry_deg", "exit_deg",     "axial_depth_mm", "known",    "arc_sd_deg",  "axial_depth_sd_mm",
+    "hardness",  "hardness_sd",  "position_sd_mm", "contested"};
 
 std::uint32_t checksum(std::string_view text) {
     return firmware::crc32(0, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
@@ -128,8 +128,9 @@ class MapReader {
         const std::string format = csv_.comments().empty() ? "" : csv_.comments().front();
         has_doubt_ = format == format_line_of_runs;
         if (!has_doubt_ && format != format_line) {
-            throw InputError(fmt::format("{}:1: expected '# {}' or '# {}', a part map of 'millforce preview' or --learn",
-                                         csv_.file_name(), format_line, format_line_of_runs));
+            throw InputError(
+                fmt::format("{}:1: expected '# {}' or '# {}', a part map of 'millforce preview' or --learn",
+                            csv_.file_name(), format_line, format_line_of_runs));
         }
         for (std::size_t k = 0; k < (has_doubt_ ? column_names.size() : columns_of_geometry); ++k) {
             columns_[k] = csv_.require(column_names[k]);

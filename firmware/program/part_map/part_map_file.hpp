@@ -37,9 +37,9 @@
 ///   position_sd_mm  of the place along the path; 0: not measured
 ///   contested       1 where geometry and run disagree beyond their doubt
 ///
-/// The last row is the end of the program, or of the run, in air. The checksum of the program is that of its bytes without carriage
-/// returns; that of the tool covers what the arcs and depths depend on: teeth, diameter, helix and flute length. A tool
-/// that is calibrated again keeps its maps.
+/// The last row is the end of the program, or of the run, in air. The checksum of the program is that of its bytes
+/// without carriage returns; that of the tool covers what the arcs and depths depend on: teeth, diameter, helix and
+/// flute length. A tool that is calibrated again keeps its maps.
 
 namespace millforce::host {
 

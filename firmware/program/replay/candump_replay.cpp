@@ -162,7 +162,8 @@ void CandumpReplay::run(const std::function<void(const firmware::CanController&)
     settings.program = settings_.bus.program;
     settings.begins_at_once = !has_start_;
     BusClock clock(settings_.time);
-    controller_ = std::make_unique<firmware::CanController>(settings, settings_.parameters, &listener, settings_.tools);
+    controller_ = std::make_unique<firmware::CanController>(settings, settings_.parameters, &listener, settings_.tools,
+                                                            settings_.way);
     while (lines.next()) {
         const candump::LogLine& line = lines.line();
         if (lines.is_local()) {

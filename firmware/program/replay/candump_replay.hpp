@@ -27,6 +27,7 @@ class CandumpReplay {
         firmware::Parameters<float> parameters{};
         const firmware::ToolSource* tools = nullptr;  ///< outlive the replay; null: one tool
         BusTime time{};                               ///< time of the run
+        firmware::WaySource<float>* way = nullptr;    ///< what lies ahead of one tool; outlives the replay
     };
 
     /// Reads the log through once. Throws InputError: a line that candump does not write, an interface that does not

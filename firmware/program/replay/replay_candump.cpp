@@ -34,7 +34,8 @@ CandumpReplay::Settings settings_of(const ReplayCandumpOptions& options, const T
             *bus,
             tools.parameters(),
             tools.source(),
-            {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us}};
+            {options.pace.slow_motion, options.pace.lock_step, bus->drives.sync_id, bus->drives.sync_period_us},
+            options.way};
 }
 
 double seconds_of(std::uint64_t microseconds) {

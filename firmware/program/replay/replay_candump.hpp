@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "firmware/way_source.hpp"
 #include "parameters/tool_set.hpp"
 #include "run_log/bus_clock.hpp"
 
@@ -19,7 +20,8 @@ struct ReplayCandumpOptions {
     std::string run_log;  ///< file of `millforce run --log`, to compare with; empty: none
     std::string mcap;     ///< file to write, too; empty: none
     BusPace pace{};
-    std::string report{};  ///< folder for the page; empty: none
+    std::string report{};                       ///< folder for the page; empty: none
+    firmware::WaySource<float>* way = nullptr;  ///< what lies ahead of one tool; outlives the replay
 };
 
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.

@@ -55,3 +55,22 @@ void c99_tool_start(millforce_tool_sender* sender) {
 bool c99_tool_due(millforce_tool_sender* sender, uint32_t number, uint32_t now_us, millforce_can_frame* frame) {
     return millforce_tool_due(sender, number, now_us, frame);
 }
+
+void c99_encode_position(const millforce_position* position, uint32_t counter, uint32_t id,
+                         millforce_can_frame* frame) {
+    millforce_encode_position(position, counter, id, frame);
+}
+
+millforce_result c99_decode_position(const millforce_can_frame* frame, uint32_t id, millforce_position* position,
+                                     uint32_t* counter) {
+    return millforce_decode_position(frame, id, position, counter);
+}
+
+void c99_position_start(millforce_position_sender* sender) {
+    millforce_position_start(sender);
+}
+
+bool c99_position_due(millforce_position_sender* sender, const millforce_position* position, uint32_t now_us,
+                      millforce_can_frame* frame) {
+    return millforce_position_due(sender, position, now_us, frame);
+}

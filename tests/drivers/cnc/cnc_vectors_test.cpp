@@ -3,6 +3,7 @@
 #include "cnc_in_c99.h"
 #include "override_frame/override_receiver.hpp"
 #include "override_frame/override_sender.hpp"
+#include "program_status/position_frame.hpp"
 #include "program_status/program_status_frame.hpp"
 #include "program_status/tool_frame.hpp"
 
@@ -146,6 +147,36 @@ TEST(CncVectors, of_the_tool_are_what_the_c_header_makes_and_what_our_receiver_r
     LONGS_EQUAL(5, count);
 }
 
+TEST(CncVectors, of_the_position_are_what_the_c_header_makes_and_what_our_receiver_reads) {
+    int count = 0;
+    for (const Words& words : cnc_vectors()) {
+        if (words[0] != "position") {
+            continue;
+        }
+        const char* text = words.back().c_str();
+        const hal::CanFrame frame = frame_of(words, 1, 6);
+        const millforce_position content{decimal(words[2]), decimal(words[3])};
+        const std::uint32_t counter = decimal(words[4]);
+        millforce_can_frame encoded{};
+        c99_encode_position(&content, counter, frame.id, &encoded);
+        check_same(frame, encoded, text);
+        millforce_position decoded{};
+        std::uint32_t decoded_counter = 0;
+        CHECK_EQUAL_TEXT(millforce_ok, c99_decode_position(&encoded, frame.id, &decoded, &decoded_counter), text);
+        CHECK_TEXT(decoded.line == content.line && decoded.distance == content.distance && decoded_counter == counter,
+                   text);
+        program_status::ProgramPosition ours;
+        CHECK_TEXT(program_status::decode_position(frame, frame.id, ours) == program_status::FrameError::none, text);
+        CHECK_EQUAL_TEXT(content.line, ours.line, text);
+        CHECK_EQUAL_TEXT(counter, ours.counter, text);
+        const bool is_known = content.distance < MILLFORCE_DISTANCE_NOT_KNOWN;
+        DOUBLES_EQUAL_TEXT(is_known ? 1e-3 * content.distance : 0.0, static_cast<double>(ours.distance_to_go_mm), 2e-3,
+                           text);
+        ++count;
+    }
+    LONGS_EQUAL(5, count);
+}
+
 TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_name) {
     using Override = override_frame::FrameError;
     using Status = program_status::FrameError;
@@ -173,6 +204,12 @@ TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_n
             std::uint32_t number = 0;
             CHECK(program_status::decode_tool(frame, frame.id, number) == status_reasons.at(words[1]).first);
             CHECK_EQUAL(status_reasons.at(words[1]).second, c99_decode_tool(&c_frame, frame.id, &number));
+        } else if (words[0] == "refused_position") {
+            program_status::ProgramPosition ours;
+            millforce_position theirs{};
+            std::uint32_t counter = 0;
+            CHECK(program_status::decode_position(frame, frame.id, ours) == status_reasons.at(words[1]).first);
+            CHECK_EQUAL(status_reasons.at(words[1]).second, c99_decode_position(&c_frame, frame.id, &theirs, &counter));
         } else {
             program_status::ProgramStatusFrame ours;
             millforce_program_status theirs{};
@@ -182,7 +219,7 @@ TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_n
         }
         ++count;
     }
-    LONGS_EQUAL(14, count);
+    LONGS_EQUAL(16, count);
 }
 
 TEST(CncVectors, of_sequences_lead_both_receivers_to_what_they_say) {

@@ -66,16 +66,25 @@ inline firmware::CanControllerSettings controller_settings(const host::MachineBu
     return settings;
 }
 
+inline sim::CncOnBusSettings cnc_settings(const sim::Scenario& scenario, const host::MachineBus& bus,
+                                          bool reports_position) {
+    sim::CncOnBusSettings settings = sim::cnc_on_bus(scenario, bus);
+    settings.reports_position = reports_position;
+    return settings;
+}
+
 /// An override source whose controller sits behind the bus. Each step is one SYNC period.
 class ControllerOnLoopback : public sim::OverrideSource {
   public:
-    explicit ControllerOnLoopback(const sim::Scenario& scenario, const firmware::ToolSource* tools = nullptr)
-        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value(), tools) {}
+    /// With `way` the CNC reports its position, too.
+    explicit ControllerOnLoopback(const sim::Scenario& scenario, const firmware::ToolSource* tools = nullptr,
+                                  firmware::WaySource<float>* way = nullptr)
+        : ControllerOnLoopback(scenario, host::read_machine_bus(scenario.machine_file).value(), tools, way) {}
     ControllerOnLoopback(const sim::Scenario& scenario, const host::MachineBus& bus,
-                         const firmware::ToolSource* tools = nullptr)
+                         const firmware::ToolSource* tools = nullptr, firmware::WaySource<float>* way = nullptr)
         : machine(sim::drives_on_bus(scenario, bus)),
-          cnc(sim::cnc_on_bus(scenario, bus)),
-          controller(controller_settings(bus), scenario.parameters, &ticks, tools) {
+          cnc(cnc_settings(scenario, bus, way != nullptr)),
+          controller(controller_settings(bus), scenario.parameters, &ticks, tools, way) {
         sender_ = wire.attach([](const hal::CanFrame&, std::uint64_t) {});
         wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) { hear(frame, t); });
         plant_ = wire.attach([this](const hal::CanFrame& frame, std::uint64_t t) {

@@ -21,8 +21,8 @@ namespace millforce::host {
 struct CanDaemonSettings {
     bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
     BusTime time{};
-    RunRecorder* page = nullptr;         ///< gets every tick; outlives the daemon
-    TelemetryFeed* telemetry = nullptr;  ///< for who watches; outlives the daemon
+    RunRecorder* page = nullptr;                ///< gets every tick; outlives the daemon
+    TelemetryFeed* telemetry = nullptr;         ///< for who watches; outlives the daemon
     firmware::WaySource<float>* way = nullptr;  ///< what lies ahead of one tool; outlives the daemon
 };
 

@@ -77,11 +77,10 @@ class CanController {
   public:
     static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 5;
 
-    /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of one tool; it outlives
-    /// this.
+    /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of one tool; it
+    /// outlives this.
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
-                  TickListener* listener = nullptr, const ToolSource* tools = nullptr,
-                  WaySource<float>* way = nullptr);
+                  TickListener* listener = nullptr, const ToolSource* tools = nullptr, WaySource<float>* way = nullptr);
 
     /// `is_own`: the echo of a frame that this controller's program sent.
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us, bool is_own);

@@ -102,6 +102,49 @@ TEST(PartMapFile, is_written_as_its_header_says) {
     STRCMP_EQUAL(expected.c_str(), folder.read("t.map").c_str());
 }
 
+TEST(PartMapFile, what_a_run_says_of_its_doubt_is_read_as_it_was_written) {
+    PartMapFile written = example();
+    MapPlace& place = written.map[1];
+    place.known = Known::at_most;
+    place.arc_sd_rad = 5.0 * rad_per_deg;
+    place.axial_depth_sd_mm = 0.25;
+    place.hardness = 1.125;
+    place.hardness_sd = 0.04;
+    place.position_sd_mm = 0.5;
+    written.map[2].known = Known::nothing;
+    written.map[2].is_contested = true;
+    const TemporaryFolder folder;
+    write_part_map(folder.path("t.map"), written);
+    CHECK_TRUE(folder.read("t.map").starts_with("# millforce part map 2\n"));
+    const PartMap read = read_part_map(folder.path("t.map")).map;
+    CHECK_TRUE(read[0].known == Known::cut && read[1].known == Known::at_most && read[2].known == Known::nothing);
+    DOUBLES_EQUAL(place.arc_sd_rad, read[1].arc_sd_rad, 1e-5);
+    DOUBLES_EQUAL(0.25, read[1].axial_depth_sd_mm, 1e-9);
+    DOUBLES_EQUAL(1.125, read[1].hardness, 1e-9);
+    DOUBLES_EQUAL(0.04, read[1].hardness_sd, 1e-9);
+    DOUBLES_EQUAL(0.5, read[1].position_sd_mm, 1e-9);
+    CHECK_FALSE(read[1].is_contested);
+    CHECK_TRUE(read[2].is_contested);
+}
+
+TEST(PartMapFile, a_doubt_that_cannot_be_is_refused_with_its_column) {
+    std::string head_of_runs = head;
+    head_of_runs.replace(head_of_runs.find("map 1"), 5, "map 2");
+    head_of_runs.pop_back();
+    head_of_runs += ",known,arc_sd_deg,axial_depth_sd_mm,hardness,hardness_sd,position_sd_mm,contested\n";
+    const auto error = [&](const std::string& doubt) {
+        return error_of(head_of_runs + "5,9,1,0,60,1000,10,20,1," + doubt + "\n9,9,1,0,60,1000,,,,2,0,0,1,0,0,0\n");
+    };
+    STRCMP_EQUAL("", error("2,0,0,1,0,0,0").c_str());
+    STRCMP_CONTAINS(":5: column 'known'", error("3,0,0,1,0,0,0").c_str());
+    STRCMP_CONTAINS(":5: column 'arc_sd_deg'", error("2,-1,0,1,0,0,0").c_str());
+    STRCMP_CONTAINS(":5: column 'axial_depth_sd_mm'", error("2,0,nan,1,0,0,0").c_str());
+    STRCMP_CONTAINS(":5: column 'hardness'", error("2,0,0,0,0,0,0").c_str());
+    STRCMP_CONTAINS(":5: column 'hardness_sd'", error("2,0,0,1,,0,0").c_str());
+    STRCMP_CONTAINS(":5: column 'position_sd_mm'", error("2,0,0,1,0,-1,0").c_str());
+    STRCMP_CONTAINS(":5: column 'contested'", error("2,0,0,1,0,0,2").c_str());
+}
+
 TEST(PartMapFile, places_at_which_nothing_changes_are_not_written) {
     PartMapFile file = example();
     MapPlace between = file.map[1];
@@ -137,7 +180,7 @@ TEST(PartMapFile, a_place_at_which_one_thing_changes_is_written_and_so_is_the_la
 
 TEST(PartMapFile, another_file_or_version_is_refused) {
     STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("path_mm,line\n1,2\n").c_str());
-    STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("# millforce part map 2\npath_mm\n1\n").c_str());
+    STRCMP_CONTAINS("expected '# millforce part map 1'", error_of("# millforce part map 3\npath_mm\n1\n").c_str());
     STRCMP_CONTAINS("no line '# program NAME crc32 HEX'",
                     error_of("# millforce part map 1\n" + head.substr(head.find("path_mm"))).c_str());
     std::string broken = head;
