@@ -14,7 +14,6 @@
 #include "commands/watch_options.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
-#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
@@ -117,14 +116,15 @@ int run_on_bus(const RunOptions& options) {
     }
     const auto report =
         started_report({RunKind::run, options.interface, options.machine, options.tools, options.report}, tools);
-    const auto page = report != nullptr ? std::make_unique<RunRecorder>(report->history()) : nullptr;
+    const auto notes = std::make_unique<RunNotes>();
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(JournalSettings{options.interface, options.record, options.log,
                                                                    isatty(STDOUT_FILENO) != 0 && !options.watch.view,
-                                                                   ToolForces(tools), page.get()});
-    const auto hub = watch(options.watch, tools, options.interface);
-    const auto daemon = std::make_unique<CanDaemon>(
-        interface, bus, tools, *journal, CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed()});
+                                                                   ToolForces(tools), notes.get()});
+    const auto hub =
+        watch(options.watch, tools, options.interface, recorder_of(report.get(), *notes, RunClock::samples));
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, tools, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), time, hub->feed()});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }
@@ -141,9 +141,6 @@ int run_on_bus(const RunOptions& options) {
     journal->finish();
     hub->finish();
     print_summary(options, *daemon, *journal);
-    if (page != nullptr) {
-        page->finish();
-    }
     const bool is_reported = finish_report(report.get(), stdout);
     if (!journal->failed_file().empty()) {
         print_line(stderr,

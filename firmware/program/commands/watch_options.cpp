@@ -32,8 +32,12 @@ void add_watch(Command& command, WatchOptions& options) {
     command.option("--gateway", options.gateway, "Tell 'millforce gateway' the state and events").value_name("SOCKET");
 }
 
-std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools, const std::string& title) {
+std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools, const std::string& title,
+                                    std::unique_ptr<TelemetrySink> recorder) {
     std::vector<std::unique_ptr<TelemetrySink>> sinks;
+    if (recorder != nullptr) {
+        sinks.push_back(std::move(recorder));
+    }
     if (options.view) {
         sinks.push_back(std::make_unique<TerminalView>(title));
     }

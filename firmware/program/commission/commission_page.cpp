@@ -17,22 +17,15 @@ namespace millforce::host {
 
 namespace {
 
-constexpr std::string_view page_frame = R"(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<title>Commissioning</title>
-<style>{{style}}
-main { max-width: 60rem; margin: 0 auto; padding: 1rem; }
+constexpr std::string_view page_style = R"(
 table { border-collapse: collapse; } td, th { padding: 0.15rem 0.8rem 0.15rem 0; text-align: left; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
 pre { overflow-x: auto; } svg { max-width: 100%; height: auto; }
 .good { color: var(--held); } .repeat { color: var(--over); }
-</style>
-</head>
-<body><main>
+)";
+
+constexpr std::string_view page_frame = R"({{head}}<body>
+<main>
 <h1>Commissioning</h1>
 <p class="{{class}}"><strong>{{headline}}</strong></p>
 <h2>Steps</h2>
@@ -43,7 +36,8 @@ pre { overflow-x: auto; } svg { max-width: 100%; height: auto; }
 {{plots}}
 <h2>Validation</h2>
 {{validation}}
-</main></body>
+</main>
+</body>
 </html>
 )";
 
@@ -180,7 +174,7 @@ std::string headline(const std::vector<StepVerdict>& verdicts) {
 std::string page_text(const CommissionPage& page, const Session& session) {
     const bool is_good = is_done(page.verdicts) && std::all_of(page.verdicts.begin(), page.verdicts.end(),
                                                                [](const StepVerdict& v) { return v.is_good; });
-    return filled(page_frame, {{"style", page_assets::report_style()},
+    return filled(page_frame, {{"head", page_head("Commissioning", {page_assets::report_style(), page_style})},
                                {"class", is_good ? "good" : "repeat"},
                                {"headline", html_escaped(headline(page.verdicts))},
                                {"steps", steps_html(page.verdicts)},
