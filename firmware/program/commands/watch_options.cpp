@@ -17,7 +17,7 @@
 
 namespace millforce::host {
 
-void add_watch(Command& command, WatchOptions& options) {
+void add_live_watch(Command& command, WatchOptions& options) {
     command.flag("--view", options.view, "Show load, override, estimates, state and events on the terminal");
     command
         .option("--web", options.web_port,
@@ -26,6 +26,10 @@ void add_watch(Command& command, WatchOptions& options) {
         .value_name("PORT");
     command.option("--udp-json", options.udp_json, "Send each tick as JSON, for PlotJuggler's UDP server (port 9870)")
         .value_name("HOST:PORT");
+}
+
+void add_watch(Command& command, WatchOptions& options) {
+    add_live_watch(command, options);
     command.option("--mcap", options.mcap, "Write the telemetry as MCAP, for Foxglove and PlotJuggler")
         .value_name("FILE.mcap");
     command.option("--jobs", options.jobs, "Write a report of each job as a JSON file").value_name("FOLDER");

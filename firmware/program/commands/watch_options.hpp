@@ -21,7 +21,9 @@ struct WatchOptions {
     std::string gateway;
 };
 
-/// --view, --web, --udp-json, --mcap, --jobs and --gateway.
+/// --view, --web and --udp-json.
+void add_live_watch(Command& command, WatchOptions& options);
+/// These, --mcap, --jobs and --gateway.
 void add_watch(Command& command, WatchOptions& options);
 
 /// Opens all that was asked for. `title`: what is watched, e.g. "can0". `recorder`: of the run's page, or null. Throws
