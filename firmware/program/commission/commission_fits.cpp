@@ -31,6 +31,14 @@ double largest_gain_error(const std::filesystem::path& gains) {
     return largest;
 }
 
+/// The published law has forces in the plane alone.
+std::string words_about_z(const std::vector<std::string>& axes) {
+    return std::find(axes.begin(), axes.end(), "z") == axes.end()
+               ? ""
+               : "; z is not fitted: the law of the standard cut has no force along the tool, so z.K_x4_N_per_A stays "
+                 "as by the data sheet (of the estimates only a roughness takes that force)";
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> Commissioning::recordings_of(const std::string& kind) const {
@@ -61,6 +69,7 @@ bool Commissioning::fit() {
         standard.machine = session_.file("before_cuts.toml");
         standard.database = plan_.database;
         standard.entry = plan_.entry;
+        standard.side = plan_.side;
         standard.output = session_.file("gains.toml");
         calibrate_standard_cut(standard, report);
     } catch (const InputError& error) {
@@ -80,8 +89,8 @@ bool Commissioning::fit() {
     const double largest_error = largest_gain_error(session_.file("gains.toml"));
     const bool is_known = largest_error <= largest_gain_relative_se;
     judge("fit", is_known,
-          fmt::format("the gains follow from the standard cuts to {:.1f} % (standard error, bound {:.0f} %){}",
-                      100.0 * largest_error, 100.0 * largest_gain_relative_se,
+          fmt::format("the gains follow from the standard cuts to {:.1f} % (standard error, bound {:.0f} %){}{}",
+                      100.0 * largest_error, 100.0 * largest_gain_relative_se, words_about_z(axes_),
                       is_known ? "" : "; wider or longer cuts are needed: another session with other answers"),
           report.str());
     return true;
@@ -105,7 +114,8 @@ void Commissioning::add_idle(FileDraft& draft, double K_t1) const {
 
 bool Commissioning::validate() {
     try {
-        validated_ = validate_cuts(recordings_of("validation"), joined_table("validation"), fitted_, entry_);
+        validated_ =
+            validate_cuts(recordings_of("validation"), joined_table("validation"), fitted_, entry_, plan_.side);
     } catch (const InputError& error) {
         refuse(steps_of("validation"), error);
         return false;

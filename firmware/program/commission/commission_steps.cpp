@@ -94,7 +94,7 @@ double Commissioning::smallest_rise_A(const std::vector<CutPass>& passes) const 
         const double radius_mm = 0.5 * plan_.tool_diameter_mm;
         const auto forces = estimation::average_forces<double>(
             entry_.law, {feed_per_tooth_mm, pass.axial_depth_mm,
-                         estimation::engagement_angles(estimation::CutSide::down, pass.radial_width_mm / radius_mm),
+                         estimation::engagement_angles(plan_.side, pass.radial_width_mm / radius_mm),
                          static_cast<double>(plan_.flutes)});
         const double torque_Nm = forces.tangential_N * 1e-3 * radius_mm;
         smallest_A = std::min(smallest_A, torque_Nm / static_cast<double>(first_.machine.spindle.K_t1_Nm_per_A));
@@ -119,7 +119,8 @@ bool Commissioning::record_cuts(const std::string& step, const CutWatchSettings&
     }
     CutWatch cut_watch(settings);
     const std::string hint =
-        fmt::format("Origin: top corner of the block, {:.1f} mm long or more; down milling.", block_length_mm(plan_));
+        fmt::format("Origin: top corner of the block, {:.1f} mm long or more; {} milling.", block_length_mm(plan_),
+                    plan_.side == estimation::CutSide::down ? "down" : "up");
     if (!watch(step, cut_watch, false, hint)) {
         return false;
     }
