@@ -143,9 +143,12 @@ TEST(Commission, refuses_another_answer_under_recordings_and_a_recording_that_is
 
 TEST(Commission, without_answers_names_all_that_are_missing) {
     TemporaryFolder empty;
-    STRCMP_EQUAL("", not_refused(run_millforce({"commission", "--session", empty.path("s")}),
-                                 {"missing answers: ", "standard_cut.feed_mm_min in mm/min", "tool.overhang_mm in mm"})
+    const Ended ended = run_millforce({"commission", "--session", empty.path("s")});
+    STRCMP_EQUAL("", not_refused(ended, {"missing answers: ", "standard_cut.feed_mm_min in mm/min",
+                                         "tool.overhang_mm in mm", "tool.teeth"})
                          .c_str());
+    CHECK_TEXT(ended.error.find("tool.teeth") == ended.error.rfind("tool.teeth"), "each is named once");
+    CHECK_FALSE(contains(ended.error, "idle.lowest_rpm"));  // it follows from the highest
 }
 
 TEST_GROUP(Init) {

@@ -202,13 +202,17 @@ void add_replay(Command& program) {
     add_tools(command, options->tools);
     command.option("-o,--output", options->output, "Estimates; default: standard output; with --view: nowhere")
         .value_name("OUT.csv");
-    command.option("--mcap", options->mcap, "The same rows with what went in, as MCAP for Foxglove and PlotJuggler")
+    command
+        .option("--mcap", options->mcap,
+                "The same rows with currents and velocities, as MCAP for Foxglove and PlotJuggler")
         .value_name("OUT.mcap");
     command
         .option("--programmed-feed", options->programmed_feed_mm_min,
                 "Programmed feed F in mm/min, for the override; default: from the recording, else unknown")
+        .value_name("F")
         .within(0.0, 1e6);
     command.option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
+        .value_name("S")
         .within(0.0, 1e6)
         .shows_default();
     command.option("--interface", options->interface, "Interface to replay, if a candump log has several")
@@ -223,6 +227,7 @@ void add_replay(Command& program) {
     command
         .option("--speed", options->speed,
                 "With --view, --web or --udp-json, which end with the recording: times the speed at which it was made")
+        .value_name("X")
         .within(0.01, 20.0)
         .shows_default();
     command.on_run([options] { return replay_to_the_end(*options); });

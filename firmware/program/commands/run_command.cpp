@@ -166,8 +166,7 @@ void add_run(Command& program) {
     command.footer(
         "Runs until SIGINT, SIGTERM or SIGHUP; then the feed is held, and the heartbeat says 'stopped'. An interface\n"
         "that is not there, or goes down, is waited for. SIGUSR1 opens the files of --log and --record again, for\n"
-        "logrotate. Conditions are reported on standard error; on a terminal a\n"
-        "status line is printed each second.\n"
+        "logrotate. Conditions are reported on standard error; on a terminal a status line is printed each second.\n"
         "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
         "Exit code 1: frames of --record or lines of --log are missing, or the page of --report could not be written.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");

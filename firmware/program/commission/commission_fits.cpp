@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -169,6 +170,15 @@ void Commissioning::write_files() {
 
 void Commissioning::write_page() {
     CommissionPage page;
+    page.facts = {
+        {"Axes", fmt::format("{}", fmt::join(axes_, ", "))},
+        {"Standard cut",
+         fmt::format("{}, {} milling", plan_.entry, plan_.side == estimation::CutSide::down ? "down" : "up")},
+        {"Tool", fmt::format("{} teeth, Ø{:g} mm", plan_.flutes, plan_.tool_diameter_mm)},
+    };
+    const Facts process = facts_of_this_process();
+    page.facts.insert(page.facts.end(), process.begin(), process.end());
+    page.facts.emplace_back("Written", date_and_time());
     page.verdicts = verdicts_;
     if (idle_watch_) {
         page.idle = idle_watch_->plateaus();

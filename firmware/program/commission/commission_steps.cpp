@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,12 +31,13 @@ bool Commissioning::idle() {
     }
     idle_ = *fit;
     constexpr double largest_share = 0.05;
+    constexpr double per_1000_rpm = 1000.0 * std::numbers::pi / 30.0;  // of rad/s
     const double middle_A = std::abs(idle_watch_->plateaus().front().current_A);
     judge("idle", idle_.residual_A <= largest_share * middle_A,
-          fmt::format("the idle current is {:.4f} ± {:.4f} A + ({:.3g} ± {:.2g}) A·s/rad × speed to within {:.4f} A "
-                      "({:.1f} %, bound {:.0f} %){}",
-                      idle_.offset_A, idle_.offset_se, idle_.slope_A_s, idle_.slope_se, idle_.residual_A,
-                      100.0 * idle_.residual_A / middle_A, 100.0 * largest_share,
+          fmt::format("the idle current is {:.4f} ± {:.4f} A at rest, and grows by {:.4f} ± {:.4f} A per 1000/min, to "
+                      "within {:.4f} A ({:.1f} %, bound {:.0f} %){}",
+                      idle_.offset_A, idle_.offset_se, per_1000_rpm * idle_.slope_A_s, per_1000_rpm * idle_.slope_se,
+                      idle_.residual_A, 100.0 * idle_.residual_A / middle_A, 100.0 * largest_share,
                       idle_.residual_A <= largest_share * middle_A
                           ? ""
                           : "; run the spindle warm for ten minutes, then start again with --repeat idle"));

@@ -62,9 +62,8 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes) {
     CommissionPlan plan;
     plan.axes = axes;
     const double fastest_rpm = answers.number({"idle.highest_rpm", "Highest speed of the spindle", "1/min", 10.0, 1e5});
-    const double slowest_rpm =
-        answers.number({"idle.lowest_rpm", "Lowest speed of the spindle that is used", "1/min", 10.0, 1e5,
-                        std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.2 * fastest_rpm)});
+    const double slowest_rpm = answers.number({"idle.lowest_rpm", "Lowest speed of the spindle that is used", "1/min",
+                                               10.0, 1e5, std::round(0.2 * fastest_rpm)});
     plan.idle_rpm =
         geometric(slowest_rpm, fastest_rpm, answers.integer({"idle.speeds", "Number of speeds", "", 3.0, 20.0, 4.0}));
     plan.idle_dwell_s = answers.number({"idle.dwell_s", "Time at each speed", "s", 0.5, 600.0, 10.0});
@@ -76,8 +75,8 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes) {
         geometric(slowest, fastest, answers.integer({"air.feeds", "Number of feeds", "", 4.0, 20.0, 7.0}));
     plan.air_travel_mm =
         answers.number({"air.travel_mm", "Travel of each air cut, several turns of the screw", "mm", 1.0, 1e4, 40.0});
-    plan.air_rpm = answers.number({"air.spindle_rpm", "Speed of the spindle in the air cuts", "1/min", 10.0, 1e5,
-                                   std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.5 * fastest_rpm)});
+    plan.air_rpm = answers.number(
+        {"air.spindle_rpm", "Speed of the spindle in the air cuts", "1/min", 10.0, 1e5, std::round(0.5 * fastest_rpm)});
     plan.database =
         answers.word({"standard_cut.database", "File with the coefficients of the standard tool and steel", {}, {}});
     plan.entry = answers.word({"standard_cut.entry", "Its entry", {}, {}});
