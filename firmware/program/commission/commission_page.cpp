@@ -21,14 +21,15 @@ constexpr double rad_s_per_1000_rpm = 1000.0 * std::numbers::pi / 30.0;
 
 constexpr std::string_view page_style = R"(
 .verdicts { margin: 0; padding: 0; list-style: none; }
-.verdicts li { padding: 6px 0; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
-.verdicts b { display: inline-block; min-width: 7em; }
+.verdicts li { display: grid; grid-template-columns: 6.5em minmax(0, 1fr); padding: 6px 0;
+  border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
 .good strong { color: var(--held); }
 .repeat strong { color: var(--over); }
 details { color: var(--muted); }
 pre { overflow-x: auto; }
 .keys th[scope="row"]::first-letter { text-transform: none; }
-.figures.keys th code { margin-left: 0; color: inherit; }
+.figures.keys th code { margin-left: 0; color: inherit; overflow-wrap: normal; }
+.figures.keys .explanation { width: 45%; }
 .plots { display: flex; flex-wrap: wrap; gap: 12px 24px; }
 svg { max-width: 100%; height: auto; }
 )";
@@ -74,12 +75,12 @@ constexpr std::string_view page_frame = R"({{head}}<body>
 std::string steps_html(const std::vector<StepVerdict>& verdicts) {
     std::string text = "<ul class=\"verdicts\">\n";
     for (const StepVerdict& verdict : verdicts) {
-        text += fmt::format("<li class=\"{}\"><b>{}</b> {}", verdict.is_good ? "good" : "repeat",
+        text += fmt::format("<li class=\"{}\"><b>{}</b><div>{}", verdict.is_good ? "good" : "repeat",
                             html_escaped(verdict.step), html_escaped(verdict.words));
         text += verdict.details.empty() ? ""
                                         : fmt::format("<details><summary>details</summary><pre>{}</pre></details>",
                                                       html_escaped(verdict.details));
-        text += "</li>\n";
+        text += "</div></li>\n";
     }
     return text + "</ul>\n";
 }
@@ -107,7 +108,7 @@ std::string idle_rows(const IdleFit& fit) {
 
 std::string values_html(const CommissionPage& page, const Session& session) {
     std::string text =
-        "<table class=\"figures keys\" style=\"--values: 3\">\n<thead><tr><th scope=\"col\">Key</th>"
+        "<table class=\"figures keys side-by-side\" style=\"--values: 3\">\n<thead><tr><th scope=\"col\">Key</th>"
         "<th scope=\"col\">value</th><th scope=\"col\">standard error</th><th scope=\"col\">unit</th>"
         "<th scope=\"col\" class=\"explanation\">What it is</th></tr></thead>\n<tbody>\n";
     text += page.idle_fit ? idle_rows(*page.idle_fit) : "";
