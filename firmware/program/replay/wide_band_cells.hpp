@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "firmware/wide_band_monitor.hpp"
 #include "firmware/wide_band_settings.hpp"
 
 namespace millforce::host {
