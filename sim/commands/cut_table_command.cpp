@@ -102,7 +102,9 @@ void add_cut_table(host::Command& program) {
     command.option("-o,--output", options->output, "Conditions and measured values")
         .required()
         .value_name("CONDITIONS.csv");
-    command.option("--spindle-speed", options->spindle_speed_rpm, "In 1/min").within(1.0, 1e5).shows_default();
+    command.option("--spindle-speed", options->spindle_speed_rpm, "Speed of the spindle in 1/min")
+        .within(1.0, 1e5)
+        .shows_default();
     command.option("--noise", options->noise_share, "Standard deviation of a measured value, relative")
         .within(0.0, 0.5)
         .shows_default();

@@ -152,8 +152,8 @@ void add_kinds(host::Command& program) {
         "those of forces are relative to the true ones in cut. Peak: of the tooth's force over its limit. Time:\n"
         "over that of the largest constant feed that is safe for a steel up to 30 % harder. A run that takes\n"
         "three times as long as that is given up.");
-    command.option("scenarios", options->scenarios, "Parts to mill").required().value_name("SCENARIO.toml...");
-    command.option("--kind", options->kinds, "Kinds of machines").required().value_name("KIND.toml...");
+    command.option("scenarios", options->scenarios, "Parts to mill").required().value_name("SCENARIO.toml");
+    command.option("--kind", options->kinds, "Kinds of machines").required().value_name("KIND.toml");
     command.option("--runs", options->runs, "Number of plants").within(1, 10000).shows_default();
     command.on_run([options] { return kinds(*options); });
 }

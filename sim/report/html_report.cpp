@@ -237,6 +237,8 @@ std::string figures_table_html(std::span<const RunResult> runs) {
 std::string report_html(const ScenarioInfo& info, std::span<const RunResult> runs) {
     const std::string title = host::html_escaped(info.title.empty() ? info.name : info.title);
     const std::string description = host::html_escaped(info.description);
+    const std::string head = host::page_head(
+        title, {host::without_source_map(host::page_assets::dygraphs_style()), host::page_assets::report_style()});
     const std::string facts = facts_html(info);
     const std::string headline = headline_html(info, runs);
     const std::string verdict = verdict_html(runs);
@@ -247,6 +249,7 @@ std::string report_html(const ScenarioInfo& info, std::span<const RunResult> run
     const std::string data = report_data_json(info, runs);
     return host::filled(report_assets::report_template(),
                         {
+                            {"head", head},
                             {"title", title},
                             {"description", description},
                             {"controlled", controlled},
@@ -257,12 +260,10 @@ std::string report_html(const ScenarioInfo& info, std::span<const RunResult> run
                             {"ceilings", ceilings},
                             {"origin", origin},
                             {"data", data},
-                            {"report_style", host::page_assets::report_style()},
                             {"charts_script", host::page_assets::charts_script()},
                             {"top_view_script", report_assets::top_view_script()},
                             {"report_script", report_assets::report_script()},
                             {"dygraphs_script", host::without_source_map(host::page_assets::dygraphs_script())},
-                            {"dygraphs_style", host::without_source_map(host::page_assets::dygraphs_style())},
                         });
 }
 

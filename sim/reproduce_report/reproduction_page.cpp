@@ -8,6 +8,7 @@
 
 #include "report/json_writer.hpp"
 #include "report/page_assets.hpp"
+#include "report/page_parts.hpp"
 #include "report/page_template.hpp"
 #include "reproduce_report/figure_tables.hpp"
 #include "reproduce_report/plot_data.hpp"
@@ -171,6 +172,9 @@ std::string plots_json(std::span<const Reproduction> reproductions) {
 }  // namespace
 
 std::string reproduction_page(std::span<const Reproduction> reproductions) {
+    const std::string head = host::page_head("Published figures, reproduced",
+                                             {host::without_source_map(host::page_assets::dygraphs_style()),
+                                              host::page_assets::report_style(), reproduction_assets::page_style()});
     const std::string contents = contents_html(reproductions);
     const std::string data = plots_json(reproductions);
     std::string sections;
@@ -179,15 +183,13 @@ std::string reproduction_page(std::span<const Reproduction> reproductions) {
     }
     return host::filled(reproduction_assets::page_template(),
                         {
+                            {"head", head},
                             {"contents", contents},
                             {"sections", sections},
                             {"data", data},
-                            {"report_style", host::page_assets::report_style()},
-                            {"page_style", reproduction_assets::page_style()},
                             {"charts_script", host::page_assets::charts_script()},
                             {"page_script", reproduction_assets::page_script()},
                             {"dygraphs_script", host::without_source_map(host::page_assets::dygraphs_script())},
-                            {"dygraphs_style", host::without_source_map(host::page_assets::dygraphs_style())},
                         });
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A broker of MQTT with TLS and a password, and who listens to it."""
+"""An MQTT broker with TLS and a password, and who listens to it."""
 import shutil
 import socket
 import subprocess

@@ -41,22 +41,39 @@ standard_cut.radial_width_mm = 0.8
                        MILLFORCE_SOURCE_DIR);
 }
 
+/// The block, with the origin of the programs at its corner, and where the tool begins.
+struct CommissioningBlock {
+    double min_x_mm, max_x_mm, min_y_mm, max_y_mm;
+    double start_x_mm, start_y_mm;
+    double top_mm = 0.0;
+};
+inline CommissioningBlock block_along_x(double start_x_mm) {
+    return {0.0, 18.0, -10.0, 0.0, start_x_mm, 8.0};
+}
+inline CommissioningBlock block_along_y(double start_y_mm) {
+    return {0.0, 10.0, 0.0, 18.0, -8.0, start_y_mm};
+}
+/// Far below the tool, which may move in all axes.
+inline CommissioningBlock block_below() {
+    return {0.0, 1.0, 0.0, 1.0, 0.0, 0.0, -100.0};
+}
+
 /// `hardness`: of the steel, over that of the database.
 inline std::string commissioning_scenario(const std::string& machine, const std::string& program, int seed,
-                                          double start_x_mm, double hardness = 1.0) {
+                                          const CommissioningBlock& block, double hardness = 1.0) {
     return fmt::format(R"(machine = "{}"
 tool = "{}/sim/scenarios/commissioning/endmill_8mm.toml"
 program = "{}"
 seed = {}
 [stock]
-min_x_mm = 0
-min_y_mm = -10
-max_x_mm = 18
-max_y_mm = 0
-top_mm = 0
+min_x_mm = {}
+max_x_mm = {}
+min_y_mm = {}
+max_y_mm = {}
+top_mm = {}
 cell_mm = 0.1
 start_x_mm = {}
-start_y_mm = 8
+start_y_mm = {}
 start_z_mm = 5
 [material]
 name = "SM45C, carbide end mill"
@@ -66,7 +83,9 @@ size_effect_exponent = -0.2557
 size_effect_radial_exponent = -0.4103
 chip_model = "circular"
 )",
-                       machine, MILLFORCE_SOURCE_DIR, program, seed, start_x_mm, 1047.4 * hardness, 257.4 * hardness);
+                       machine, MILLFORCE_SOURCE_DIR, program, seed, block.min_x_mm, block.max_x_mm, block.min_y_mm,
+                       block.max_y_mm, block.top_mm, block.start_x_mm, block.start_y_mm, 1047.4 * hardness,
+                       257.4 * hardness);
 }
 
 /// A value of a TOML file by its table and key, as it stands there.

@@ -14,8 +14,8 @@ namespace {
 /// that the answers come from are wrong by a tenth for the spindle, and by half for the axis.
 class RecordedShop {
   public:
-    RecordedShop() {
-        folder_.write("answers.toml", commissioning_answers() + R"(spindle.rated_current_A = 12
+    explicit RecordedShop(const std::string& answers = commissioning_answers()) {
+        folder_.write("answers.toml", answers + R"(spindle.rated_current_A = 12
 spindle.rated_torque_Nm = 9
 spindle.rated_torque_current_A = 12
 spindle.encoder_counts_per_rev = 8192
@@ -34,9 +34,10 @@ cnc.sample_rate_hz = 250
         return run_millforce(words);
     }
     /// Runs the session's program of a step on the machine; returns the option that gives its recording.
-    [[nodiscard]] std::vector<std::string> record(const std::string& step, double start_x_mm, double hardness = 1.0) {
+    [[nodiscard]] std::vector<std::string> record(const std::string& step, const CommissioningBlock& block,
+                                                  double hardness = 1.0) {
         folder_.write(step + ".toml",
-                      commissioning_scenario("machine.toml", "session/" + step + ".ngc", 3, start_x_mm, hardness));
+                      commissioning_scenario("machine.toml", "session/" + step + ".ngc", 3, block, hardness));
         run_millforce({"simulate", path(step + ".toml"), "--record", "--out", path("out_" + step)});
         return {"--recording", step + "=" + path("out_" + step) + "/recording.csv"};
     }
@@ -52,9 +53,13 @@ cnc.sample_rate_hz = 250
 TEST_GROUP(Commission) {
     RecordedShop shop;
 
-    /// Gives a step's recording and expects that the next one is asked for.
     void expect_next(const std::string& step, double start_x_mm, const std::string& next) {
-        const Ended ended = shop.commission(shop.record(step, start_x_mm));
+        expect_next_in(shop, step, block_along_x(start_x_mm), next);
+    }
+    /// Gives a step's recording and expects that the next one is asked for.
+    static void expect_next_in(RecordedShop & shop, const std::string& step, const CommissioningBlock& block,
+                               const std::string& next) {
+        const Ended ended = shop.commission(shop.record(step, block));
         CHECK_EQUAL_TEXT(1, ended.exit_code, (ended.out + ended.error).c_str());
         CHECK_TEXT(contains(ended.out, next + ": not recorded yet: record " + next + ".ngc"), ended.out.c_str());
     }
@@ -68,10 +73,10 @@ TEST(Commission, goes_from_recording_to_recording_to_files_that_check_finds_soun
     expect_next("air", 0.0, "standard_x");
     expect_next("standard_x", -25.0, "validation_x");
     // A steel that is a third harder than the one of the standard cut.
-    const Ended harder = shop.commission(shop.record("validation_x", -25.0, 1.33));
+    const Ended harder = shop.commission(shop.record("validation_x", block_along_x(-25.0), 1.33));
     CHECK_EQUAL_TEXT(1, harder.exit_code, harder.error.c_str());
     CHECK_TEXT(contains(harder.out, "validation: to be repeated: "), harder.out.c_str());
-    std::vector<std::string> again = shop.record("validation_x", -25.0);
+    std::vector<std::string> again = shop.record("validation_x", block_along_x(-25.0));
     again.insert(again.end(), {"--repeat", "validation_x"});
     const Ended done = shop.commission(again);
     CHECK_EQUAL_TEXT(0, done.exit_code, (done.out + done.error).c_str());
@@ -91,6 +96,38 @@ TEST(Commission, goes_from_recording_to_recording_to_files_that_check_finds_soun
     CHECK_FALSE(contains(page, "http://") || contains(page, "https://") || contains(page, "<script"));
 }
 
+TEST(Commission, by_up_milling_measures_x_and_y_and_says_why_z_keeps_the_data_sheets_gain) {
+    RecordedShop three_axes(
+        with(commissioning_answers(), "machine.axes = \"x\"", "machine.axes = \"xyz\"\nstandard_cut.side = \"up\"") +
+        R"(y.travel_per_motor_turn_mm = 5
+y.mass_kg = 250
+y.torque_constant_Nm_per_A = 0.08
+y.rated_current_A = 12
+z.travel_per_motor_turn_mm = 5
+z.mass_kg = 180
+z.torque_constant_Nm_per_A = 0.08
+z.rated_current_A = 12
+)");
+    (void)three_axes.commission();
+    expect_next_in(three_axes, "idle", block_below(), "air");
+    expect_next_in(three_axes, "air", block_below(), "standard_x");
+    expect_next_in(three_axes, "standard_x", block_along_x(45.0), "standard_y");
+    expect_next_in(three_axes, "standard_y", block_along_y(45.0), "validation_x");
+    expect_next_in(three_axes, "validation_x", block_along_x(45.0), "validation_y");
+    const Ended done = three_axes.commission(three_axes.record("validation_y", block_along_y(45.0)));
+    CHECK_EQUAL_TEXT(0, done.exit_code, (done.out + done.error).c_str());
+    CHECK_TEXT(contains(done.out, "z is not fitted: the law of the standard cut has no force along the tool"),
+               done.out.c_str());
+
+    const std::string machine = three_axes.session("machine.toml");
+    DOUBLES_EQUAL(0.70, toml_value(machine, "spindle", "K_t1_Nm_per_A"), 0.02);
+    DOUBLES_EQUAL(120.0, toml_value(machine, "x", "K_x4_N_per_A"), 4.0);
+    DOUBLES_EQUAL(120.0, toml_value(machine, "y", "K_x4_N_per_A"), 4.0);
+    DOUBLES_EQUAL(2.0 * 3.14159265 * 1e3 * 0.08 / 5.0, toml_value(machine, "z", "K_x4_N_per_A"), 0.1);
+    CHECK(toml_value(machine, "z", "K_x3_A") > 0.0);
+    CHECK(contains(three_axes.session("standard_y.ngc"), "(Up milling along -y"));
+}
+
 TEST(Commission, refuses_another_answer_under_recordings_and_a_recording_that_is_none) {
     (void)shop.commission();
     expect_next("idle", -25.0, "air");
@@ -106,9 +143,12 @@ TEST(Commission, refuses_another_answer_under_recordings_and_a_recording_that_is
 
 TEST(Commission, without_answers_names_all_that_are_missing) {
     TemporaryFolder empty;
-    STRCMP_EQUAL("", not_refused(run_millforce({"commission", "--session", empty.path("s")}),
-                                 {"missing answers: ", "standard_cut.feed_mm_min in mm/min", "tool.overhang_mm in mm"})
+    const Ended ended = run_millforce({"commission", "--session", empty.path("s")});
+    STRCMP_EQUAL("", not_refused(ended, {"missing answers: ", "standard_cut.feed_mm_min in mm/min",
+                                         "tool.overhang_mm in mm", "tool.teeth"})
                          .c_str());
+    CHECK_TEXT(ended.error.find("tool.teeth") == ended.error.rfind("tool.teeth"), "each is named once");
+    CHECK_FALSE(contains(ended.error, "idle.lowest_rpm"));  // it follows from the highest
 }
 
 TEST_GROUP(Init) {

@@ -15,25 +15,21 @@
 #include <string>
 #include <vector>
 
+#include "program/arguments.hpp"
+
 namespace millforce::test {
 
 /// A millforce whose standard output and error are a terminal.
 class OnTerminal {
   public:
     OnTerminal(const std::vector<std::string>& arguments, unsigned short columns, unsigned short rows) {
-        std::vector<std::string> words{MILLFORCE_PROGRAM};
-        words.insert(words.end(), arguments.begin(), arguments.end());
-        std::vector<char*> argv;
-        for (std::string& word : words) {
-            argv.push_back(word.data());
-        }
-        argv.push_back(nullptr);
+        const Arguments words(arguments);
         const winsize size{rows, columns, 0, 0};
         process_ = ::forkpty(&terminal_, nullptr, nullptr, &size);
         if (process_ == 0) {
             ::setenv("TERM", "xterm", 1);
             ::setenv("LC_ALL", "C", 1);
-            ::execv(MILLFORCE_PROGRAM, argv.data());
+            ::execv(MILLFORCE_PROGRAM, words.argv());
             ::_exit(127);
         }
         if (process_ < 0) {

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "program/arguments.hpp"
+
 extern "C" char** environ;
 
 namespace millforce::test {
@@ -32,13 +34,7 @@ class Program {
         if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(error.data(), O_CLOEXEC) != 0) {
             throw std::runtime_error("no pipe");
         }
-        std::vector<std::string> words{MILLFORCE_PROGRAM};
-        words.insert(words.end(), arguments.begin(), arguments.end());
-        std::vector<char*> argv;
-        for (std::string& word : words) {
-            argv.push_back(word.data());
-        }
-        argv.push_back(nullptr);
+        const Arguments words(arguments);
         posix_spawn_file_actions_t actions;
         ::posix_spawn_file_actions_init(&actions);
         ::posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
@@ -47,7 +43,7 @@ class Program {
             ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error_file.c_str(),
                                                O_WRONLY | O_CREAT | O_APPEND, 0666);
         }
-        const int failed = ::posix_spawn(&process_, MILLFORCE_PROGRAM, &actions, nullptr, argv.data(), environ);
+        const int failed = ::posix_spawn(&process_, MILLFORCE_PROGRAM, &actions, nullptr, words.argv(), environ);
         ::posix_spawn_file_actions_destroy(&actions);
         ::close(out[1]);
         ::close(error[1]);

@@ -65,6 +65,7 @@ TEST_GROUP(RunReport) {
 };
 
 TEST(RunReport, of_a_replay_tells_what_the_cut_was_and_names_the_ceilings_by_their_keys) {
+    inputs.write("tool.toml", with(tool_text, "[control]\n", "[control]\ndepth_step_ratio = 1.0\n"));
     record();
     const Ended ended = inputs.replay({"--report", inputs.name("page")});
     LONGS_EQUAL(0, ended.exit_code);

@@ -165,7 +165,7 @@ TEST(ServeWatched, gives_prometheus_each_metric_with_its_type_and_one_value) {
         }
     }
     for (const char* line : {"\nmillforce_state{state=\"air\"} 1\n", "\nmillforce_state{state=\"in_cut\"} 0\n",
-                             "\nmillforce_x_velocity_millimeters_per_second 20\n",
+                             "\nmillforce_x_velocity_meters_per_second 0.02\n",
                              "\nmillforce_operator_override_ratio 0.75\n", "\n# TYPE millforce_ticks_total counter\n",
                              "\nmillforce_spindle_current_amperes 1.4\n", "\nmillforce_ticks_total 300\n"}) {
         CHECK_TEXT(contains(text, line), line);

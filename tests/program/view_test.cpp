@@ -4,6 +4,7 @@
 #include "on_terminal.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -101,4 +102,33 @@ TEST(ViewOnTerminal, is_refused_where_standard_output_is_none) {
     const Ended ended = run_millforce(words());
     LONGS_EQUAL(2, ended.exit_code);
     CHECK(ended.error.find("--view: standard output is no terminal") != std::string::npos);
+}
+
+TEST(ViewOnTerminal, plays_a_recording_at_its_speed_and_gives_the_terminal_back_at_its_end) {
+    const Ended simulated =
+        run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("out")});
+    LONGS_EQUAL(0, simulated.exit_code);
+    OnTerminal replay({"replay", inputs.name("out/recording.csv"), "--machine", inputs.name("machine.toml"), "--tool",
+                       inputs.name("tool.toml"), "--view", "--speed", "4"},
+                      80, 24);
+    CHECK(replay.shows("recording.csv"));
+    CHECK(replay.shows("in the cut"));
+    LONGS_EQUAL(0, replay.end());
+    const std::size_t left = replay.text().find(leave);
+    CHECK(left != std::string::npos);
+    CHECK_TEXT(replay.text().find("time_s,", left) == std::string::npos, "rows are on the terminal");
+}
+
+TEST(ViewOnTerminal, a_recording_that_is_stopped_leaves_no_file_and_ends_by_the_signal) {
+    const Ended simulated =
+        run_millforce({"simulate", inputs.name("scenario.toml"), "--record", "--out", inputs.name("out")});
+    LONGS_EQUAL(0, simulated.exit_code);
+    OnTerminal replay({"replay", inputs.name("out/recording.csv"), "--machine", inputs.name("machine.toml"), "--tool",
+                       inputs.name("tool.toml"), "--view", "--speed", "0.01", "-o", inputs.name("rows.csv")},
+                      80, 24);
+    CHECK(replay.shows("recording.csv"));
+    replay.press("\x03");
+    LONGS_EQUAL(-1, replay.end());
+    CHECK(!std::filesystem::exists(inputs.name("rows.csv")));
+    CHECK(replay.text().find(leave) != std::string::npos);
 }

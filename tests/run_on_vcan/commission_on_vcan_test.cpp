@@ -32,7 +32,7 @@ class CommissioningFolder : public LiveFolder {
     /// The machine runs a program; it goes off with the end of the program, or of the object.
     [[nodiscard]] std::unique_ptr<Program> machine(const std::string& name, const std::string& program,
                                                    double start_x_mm) const {
-        write(name + ".toml", commissioning_scenario("machine.toml", program, 3, start_x_mm));
+        write(name + ".toml", commissioning_scenario("machine.toml", program, 3, block_along_x(start_x_mm)));
         return std::make_unique<Program>(std::vector<std::string>{"simulate", file(name + ".toml"), "--bus", "vcan0",
                                                                   "--lock-step", "--out", file("out_" + name)});
     }

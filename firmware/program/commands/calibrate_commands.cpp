@@ -120,7 +120,7 @@ void add_standard_cut(Command& calibrate) {
         .required()
         .value_name("LIBRARY.toml");
     command.option("--entry", options->entry, "Name in the database; default: its only entry").value_name("NAME");
-    command.choice<CutSide>("--side", options->side, "Side of the cuts",
+    command.choice<CutSide>("--side", options->side, "Side of the cuts; default: down",
                             {{"down", CutSide::down}, {"up", CutSide::up}});
     command.on_run([options] { return report_when_done(calibrate_standard_cut, *options); });
 }
@@ -143,9 +143,8 @@ void add_cutting(Command& calibrate) {
     auto options = std::make_shared<CuttingCalibrationOptions>();
     Command command = calibrate.subcommand("cutting", "Material and tool: coefficients from measured cuts");
     command.footer(
-        "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s, spindle_torque_Nm "
-        "and\n"
-        "normal_force_N or feed_force_N; cuts at two feeds and several widths. Or recordings of\n"
+        "Data: tool_diameter_mm, flutes, spindle_rad_s, axial_depth_mm, radial_width_mm, feed_mm_s,\n"
+        "spindle_torque_Nm and normal_force_N or feed_force_N; cuts at two feeds and several widths. Or recordings of\n"
         "drive currents, with --cuts and --machine. Copy the table into tool.toml unchanged.\n"
         "Signs: normal_force_N is positive where it pushes tool and wall apart, which it always does in down milling;\n"
         "feed_force_N is the force on the workpiece, positive along the feed; spindle_torque_Nm is positive.\n"
@@ -157,7 +156,7 @@ void add_cutting(Command& calibrate) {
         .value_name("CUTS.csv");
     command.option("--machine", options->machine, "Machine file with calibrated drives, for recordings")
         .value_name("M.toml");
-    command.choice<CuttingLawForm>("--law", options->asked_form, "Which law to fit",
+    command.choice<CuttingLawForm>("--law", options->asked_form, "Law to fit",
                                    {{"linear_edge", CuttingLawForm::linear_edge},
                                     {"power", CuttingLawForm::power},
                                     {"combined", CuttingLawForm::combined}});
@@ -243,7 +242,7 @@ void add_estimate(Command& program) {
     command.option("--tool", options->tool, "Tool with its [cutting] table").required().value_name("T.toml");
     command.option("-o,--output", options->output, "The rows with estimates; default: standard output")
         .value_name("OUT.csv");
-    add_side(command, options->side, "down, up or unknown: the tool's");
+    add_side(command, options->side, "Side of the cuts; default: that of the tool's file");
     command.on_run([options] {
         refuse_overwriting(options->output, {options->conditions, options->tool});
         return estimate(*options, std::cout);

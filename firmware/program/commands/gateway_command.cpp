@@ -11,7 +11,7 @@ namespace millforce::host {
 
 void add_gateway(Command& program) {
     auto file = std::make_shared<std::string>();
-    Command command = program.subcommand("gateway", "Connect a controller to a broker of MQTT, for many machines");
+    Command command = program.subcommand("gateway", "Connect a controller to an MQTT broker, for many machines");
     command.footer(
         "Beside 'millforce run' or 'serve' with --gateway and --jobs. State and events go out; a job's report stays "
         "on\n"

@@ -103,7 +103,7 @@ void add_init(Command& program) {
     command.option("--tool", options->tool, "Tool file to write").value_name("T.toml");
     command.option("--answers", options->answers, "Answers").value_name("FILE.toml");
     command.flag("--force", options->force, "Write over files that exist");
-    command.option("answers_given", options->pairs, "Answers").value_name("KEY=VALUE");
+    command.option("answer", options->pairs, "Answers").value_name("KEY=VALUE");
     command.on_run([options] { return init(*options); });
 }
 

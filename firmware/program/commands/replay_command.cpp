@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,8 @@
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "commands/map_options.hpp"
+#include "commands/watch_options.hpp"
+#include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
 #include "files/overwriting.hpp"
@@ -20,6 +23,7 @@
 #include "parameters/tool_set.hpp"
 #include "recording/recording.hpp"
 #include "replay/estimate_table.hpp"
+#include "replay/playback.hpp"
 #include "replay/replay_candump.hpp"
 #include "replay/replay_findings.hpp"
 #include "replay/replay_mcap.hpp"
@@ -43,6 +47,10 @@ struct ReplayOptions {
     std::string mcap;
     BusPace pace{};
     MapOptions maps{};
+    WatchOptions watch{};
+    double speed = 1.0;
+
+    [[nodiscard]] bool is_watched() const { return watch.view || watch.web_port || !watch.udp_json.empty(); }
 };
 
 /// The program's status of each row: from the recording, with F from the command line if it was given.
@@ -70,6 +78,14 @@ void show_findings(const RecordingReader& recording, const ReplayFindings& findi
     }
 }
 
+/// A replay that nobody watches ends by a signal as any program does.
+Playback playback_of(const ReplayOptions& options, const ToolSet& tools) {
+    static const std::atomic<bool> never_stopped{false};
+    const std::string title = std::filesystem::path(options.log).filename().string();
+    return {watch(options.watch, tools, title, nullptr), options.speed,
+            options.is_watched() ? stop_on_signal() : never_stopped};
+}
+
 /// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
 /// come out.
 int replay_table(const ReplayOptions& options) {
@@ -83,7 +99,8 @@ int replay_table(const ReplayOptions& options) {
     const auto report =
         started_report({RunKind::replay, options.log, options.machine, options.tools, options.report}, tools);
     firmware::ToolTick tick(parameters, tools.source());
-    EstimateTable table({options.log, options.output, options.interval_s}, tools,
+    Playback playback = playback_of(options, tools);
+    EstimateTable table({options.log, options.output, options.interval_s, !options.watch.view}, tools,
                         recording.has_force_sensor() ? WideBandSource::force_sensor : WideBandSource::drives);
     ReplayMcap mcap(options.mcap, tools);
     ReplayFindings findings(parameters.machine.encoder_counts_per_rev);
@@ -97,16 +114,19 @@ int replay_table(const ReplayOptions& options) {
         if (report != nullptr) {
             report->history().add(recording.time_s(), record, tick.tool());
         }
+        const TelemetrySample shown{.tick = record,
+                                    .tool = tick.tool(),
+                                    .is_held = output.hold,
+                                    .drives = recording.sample(),
+                                    .program = program_of(recording, options)};
+        playback.show(recording.time_s(), shown);
         if (table.is_due(recording.time_s())) {
             table.write(
                 {recording.time_s(), record, tick.tool(), tick.of_tool().roughness(), tick.of_tool().wide_band()});
-            mcap.write(recording.time_s(), {.tick = record,
-                                            .tool = tick.tool(),
-                                            .is_held = output.hold,
-                                            .drives = recording.sample(),
-                                            .program = program_of(recording, options)});
+            mcap.write(recording.time_s(), shown);
         }
     }
+    playback.finish();
     if (table.is_empty()) {
         throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
     }
@@ -145,13 +165,31 @@ int replay(const ReplayOptions& options) {
     }
     LiveMaps maps(options.maps, options.tools,
                   ToolSet(read_machine_parameters(options.machine), options.tools).parameters());
-    const int exit_code =
-        replay_candump({options.log, options.machine, options.tools, options.output, options.interface,
-                        options.interval_s, options.run_log, options.mcap, options.pace, options.report, maps.begin()});
+    const auto playback = [&options](const ToolSet& tools) { return playback_of(options, tools); };
+    const int exit_code = replay_candump(
+        {options.log, options.machine, options.tools, options.output, options.interface, options.interval_s,
+         options.run_log, options.mcap, options.pace, options.report, maps.begin(), !options.watch.view},
+        playback);
     if (maps.was_dropped()) {
         print_line(stderr, "millforce: the part map does not fit this cut: continuing without it");
     }
     return maps.finish() ? exit_code : 1;
+}
+
+/// Stopped by who watches: nothing is written, and the shell sees the signal.
+int replay_to_the_end(const ReplayOptions& options) {
+    if (options.speed != 1.0 && !options.is_watched()) {
+        throw InputError(
+            "--speed: expected one of --view, --web and --udp-json with it; a replay that nobody watches runs as fast "
+            "as it can");
+    }
+    try {
+        return replay(options);
+    } catch (const PlaybackStopped&) {
+        std::signal(SIGINT, SIG_DFL);
+        std::raise(SIGINT);
+    }
+    return 1;
 }
 
 }  // namespace
@@ -177,14 +215,19 @@ void add_replay(Command& program) {
     command.option("log", options->log, "Recording: CSV, or a candump log").required().value_name("LOG");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
     add_tools(command, options->tools);
-    command.option("-o,--output", options->output, "Estimates; default: standard output").value_name("OUT.csv");
-    command.option("--mcap", options->mcap, "The same rows with what went in, as MCAP for Foxglove and PlotJuggler")
+    command.option("-o,--output", options->output, "Estimates; default: standard output; with --view: nowhere")
+        .value_name("OUT.csv");
+    command
+        .option("--mcap", options->mcap,
+                "The same rows with currents and velocities, as MCAP for Foxglove and PlotJuggler")
         .value_name("OUT.mcap");
     command
         .option("--programmed-feed", options->programmed_feed_mm_min,
                 "Programmed feed F in mm/min, for the override; default: from the recording, else unknown")
+        .value_name("F")
         .within(0.0, 1e6);
     command.option("--interval", options->interval_s, "Time between two rows in s; 0: a row for each sample")
+        .value_name("S")
         .within(0.0, 1e6)
         .shows_default();
     command.option("--interface", options->interface, "Interface to replay, if a candump log has several")
@@ -196,7 +239,14 @@ void add_replay(Command& program) {
     add_map(command, options->maps);
     add_report(command, options->report);
     add_bus_pace(command, options->pace);
-    command.on_run([options] { return replay(*options); });
+    add_live_watch(command, options->watch);
+    command
+        .option("--speed", options->speed,
+                "With --view, --web or --udp-json, which end with the recording: times the speed at which it was made")
+        .value_name("X")
+        .within(0.01, 20.0)
+        .shows_default();
+    command.on_run([options] { return replay_to_the_end(*options); });
 }
 
 }  // namespace millforce::host

@@ -15,7 +15,6 @@
 #include "commands/watch_options.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
-#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
@@ -127,15 +126,15 @@ int run_on_bus(const RunOptions& options) {
     }
     const auto report =
         started_report({RunKind::run, options.interface, options.machine, options.tools, options.report}, tools);
-    const auto page = report != nullptr ? std::make_unique<RunRecorder>(report->history()) : nullptr;
+    const auto notes = std::make_unique<RunNotes>();
     const std::atomic<bool>& stop = stop_on_signal();
     const auto journal = std::make_unique<Journal>(JournalSettings{options.interface, options.record, options.log,
                                                                    isatty(STDOUT_FILENO) != 0 && !options.watch.view,
-                                                                   ToolForces(tools), page.get()});
-    const auto hub = watch(options.watch, tools, options.interface);
-    const auto daemon =
-        std::make_unique<CanDaemon>(interface, bus, tools, *journal,
-                                    CanDaemonSettings{!options.record.empty(), time, page.get(), hub->feed(), way});
+                                                                   ToolForces(tools), notes.get()});
+    const auto hub =
+        watch(options.watch, tools, options.interface, recorder_of(report.get(), *notes, RunClock::samples));
+    const auto daemon = std::make_unique<CanDaemon>(interface, bus, tools, *journal,
+                                                    CanDaemonSettings{!options.record.empty(), time, hub->feed(), way});
     for (const std::string& fault : unseen_faults(tools.parameters())) {
         print_line(stderr, fmt::format("millforce: not seen here: {}", fault));
     }
@@ -156,9 +155,6 @@ int run_on_bus(const RunOptions& options) {
         print_line(stdout, "the part map did not fit the cut: the run went on without it");
     }
     const bool is_learnt = maps.finish();
-    if (page != nullptr) {
-        page->finish();
-    }
     const bool is_reported = finish_report(report.get(), stdout);
     if (!journal->failed_file().empty()) {
         print_line(stderr,
@@ -184,8 +180,7 @@ void add_run(Command& program) {
     command.footer(
         "Runs until SIGINT, SIGTERM or SIGHUP; then the feed is held, and the heartbeat says 'stopped'. An interface\n"
         "that is not there, or goes down, is waited for. SIGUSR1 opens the files of --log and --record again, for\n"
-        "logrotate. Conditions are reported on standard error; on a terminal a\n"
-        "status line is printed each second.\n"
+        "logrotate. Conditions are reported on standard error; on a terminal a status line is printed each second.\n"
         "With --tools the CNC's tool frame holds the number; without a known tool the override is the operator's.\n"
         "Exit code 1: frames of --record or lines of --log are missing, or the page of --report could not be written.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");

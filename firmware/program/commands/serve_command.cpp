@@ -15,7 +15,6 @@
 #include "control/cut_state.hpp"
 #include "daemon/line_printer.hpp"
 #include "daemon/pause_watch.hpp"
-#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
@@ -41,34 +40,14 @@ struct ServeOptions {
     WatchOptions watch{};
 };
 
-/// The page of the run, if one is asked for.
-class Page {
+/// What the page of the run says besides its ticks.
+class Notes {
   public:
-    explicit Page(RunReport* report) {
-        if (report != nullptr) {
-            recorder_ = std::make_unique<RunRecorder>(report->history());
-        }
-    }
-    void tick(const firmware::LinkController& controller) {
-        if (recorder_ != nullptr) {
-            const std::uint64_t now_us = socketcan::monotonic_us();
-            recorder_->tick(now_us, firmware::tick_record(controller.tick(), controller.output(), now_us),
-                            controller.tool());
-        }
-    }
-    void note(std::string_view text) {
-        if (recorder_ != nullptr) {
-            recorder_->note(socketcan::monotonic_us(), text);
-        }
-    }
-    void finish() {
-        if (recorder_ != nullptr) {
-            recorder_->finish();
-        }
-    }
+    void add(std::string_view text) { of_page_.add(socketcan::monotonic_us(), text); }
+    [[nodiscard]] RunNotes& of_page() { return of_page_; }
 
   private:
-    std::unique_ptr<RunRecorder> recorder_{};
+    RunNotes of_page_{};
 };
 
 /// Reports a fault as it comes and goes.
@@ -86,9 +65,9 @@ class FaultReporter {
 };
 
 /// Reports when a part map is dropped.
-void report_map(LiveMaps& maps, LinePrinter& printer, Page& page) {
+void report_map(LiveMaps& maps, LinePrinter& printer, Notes& notes) {
     if (maps.was_dropped()) {
-        page.note("The part map does not fit this cut: the run went on without it.");
+        notes.add("The part map does not fit this cut: the run went on without it.");
         printer.print("millforce: the part map does not fit this cut: continuing without it");
     }
 }
@@ -120,14 +99,14 @@ class ToolReporter {
 /// did not.
 class Turns final : public TurnListener {
   public:
-    Turns(LinePrinter& printer, Page& page) : printer_(printer), page_(page) {}
+    Turns(LinePrinter& printer, Notes& notes) : printer_(printer), notes_(notes) {}
 
     void on_turn() override {
         const std::uint64_t now_us = socketcan::monotonic_us();
         watchdog_.poll(now_us);
         if (pause_watch_.look(now_us)) {
             hold_until_us_ = now_us + drain_us;
-            page_.note("This program was stopped for a while: the feed was held until newer samples came.");
+            notes_.add("This program was stopped for a while: the feed was held until newer samples came.");
             printer_.print(fmt::format("millforce: was stopped for {:.1f} s: hold, until newer samples come",
                                        1e-6 * static_cast<double>(pause_watch_.pause_us())));
         }
@@ -145,7 +124,7 @@ class Turns final : public TurnListener {
     ServiceWatchdog watchdog_{};
     PauseWatch pause_watch_{longest_turn_us};
     LinePrinter& printer_;
-    Page& page_;
+    Notes& notes_;
     std::uint64_t hold_until_us_ = 0;
     bool is_held_ = false;
 };
@@ -183,7 +162,7 @@ class TickWatcher {
 };
 
 void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController& controller, LiveMaps& maps,
-                LinePrinter& printer, Page& page, TelemetryFeed* feed) {
+                LinePrinter& printer, Notes& notes, TelemetryFeed* feed) {
     TickWatcher watcher(feed);
     FaultReporter faults;
     ToolReporter tools;
@@ -198,17 +177,16 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
         if (error != local_link::MessageError::none) {
             printer.print(fmt::format("millforce: invalid message of {} bytes ({}): connection closed", bytes.size(),
                                       name(error)));
-            page.note("The CNC sent a message that is not valid: the connection was closed.");
+            notes.add("The CNC sent a message that is not valid: the connection was closed.");
             server.drop_peer();
             return;
         }
         server.send(answer);
         watcher.follow(controller, turns.is_held());
         firmware::finish_work(controller);
-        page.tick(controller);
         faults.follow(controller.output(), printer);
         tools.follow(controller, printer);
-        report_map(maps, printer, page);
+        report_map(maps, printer, notes);
     }
 }
 
@@ -223,11 +201,12 @@ int serve(const ServeOptions& options) {
     LiveMaps maps(options.maps, options.tools, parameters);
     const auto report =
         started_report({RunKind::serve, options.socket, options.machine, options.tools, options.report}, tools);
-    Page page(report.get());
+    Notes notes;
     LinePrinter printer(stderr);
-    Turns turns(printer, page);
+    Turns turns(printer, notes);
     UnixServer server(options.socket, &turns);
-    const auto hub = watch(options.watch, tools, options.socket);
+    const auto hub =
+        watch(options.watch, tools, options.socket, recorder_of(report.get(), notes.of_page(), RunClock::monotonic));
     for (const std::string& note : become_real_time()) {
         printer.print(fmt::format("millforce: note: {}", note));
     }
@@ -240,12 +219,12 @@ int serve(const ServeOptions& options) {
     while (server.wait_for_peer()) {
         notify_service_manager("STATUS=connected");
         printer.print("millforce: connected");
-        page.note("The CNC connected.");
+        notes.add("The CNC connected.");
         auto controller =
             std::make_unique<firmware::LinkController>(parameters, largest_override, maps.begin(), tools.source());
-        serve_peer(server, turns, *controller, maps, printer, page, hub->feed());
+        serve_peer(server, turns, *controller, maps, printer, notes, hub->feed());
         server.drop_peer();
-        page.note("The CNC disconnected.");
+        notes.add("The CNC disconnected.");
         notify_service_manager("STATUS=waiting for a CNC");
         printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
     }
@@ -253,7 +232,6 @@ int serve(const ServeOptions& options) {
     notify_service_manager(time_for_the_report);
     leave_real_time();
     hub->finish();
-    page.finish();
     const bool is_learnt = maps.finish();
     const bool is_reported = finish_report(report.get(), stderr);
     return is_reported && is_learnt && hub->failed_file().empty() ? 0 : 1;

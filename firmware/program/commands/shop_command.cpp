@@ -24,12 +24,12 @@ struct ShopOptions {
 
 void add_shop(Command& program) {
     auto options = std::make_shared<ShopOptions>();
-    Command command = program.subcommand("shop", "Show all machines of a shop on one page, from a broker of MQTT");
+    Command command = program.subcommand("shop", "Show all machines of a shop on one page, from an MQTT broker");
     command.footer(
-        "What the machines' 'millforce gateway' tell: who is there, who cuts, load, engagement, events, jobs. The page "
-        "is\n"
-        "on this computer alone (127.0.0.1 and ::1). Runs until SIGINT, SIGTERM or SIGHUP, with or without a broker.");
-    command.option("file", options->file, "The broker").required().value_name("SHOP.toml");
+        "Shows what each machine's 'millforce gateway' reports: connection, state, load, engagement, events, jobs.\n"
+        "The page is on this computer alone (127.0.0.1 and ::1). Runs until SIGINT, SIGTERM or SIGHUP, with or without "
+        "a broker.");
+    command.option("file", options->file, "Address of the broker").required().value_name("SHOP.toml");
     command.option("--web", options->port, "Port of the page; 0: any free port")
         .value_name("PORT")
         .within(0, UINT16_MAX)

@@ -17,7 +17,7 @@
 
 namespace millforce::host {
 
-void add_watch(Command& command, WatchOptions& options) {
+void add_live_watch(Command& command, WatchOptions& options) {
     command.flag("--view", options.view, "Show load, override, estimates, state and events on the terminal");
     command
         .option("--web", options.web_port,
@@ -26,14 +26,22 @@ void add_watch(Command& command, WatchOptions& options) {
         .value_name("PORT");
     command.option("--udp-json", options.udp_json, "Send each tick as JSON, for PlotJuggler's UDP server (port 9870)")
         .value_name("HOST:PORT");
+}
+
+void add_watch(Command& command, WatchOptions& options) {
+    add_live_watch(command, options);
     command.option("--mcap", options.mcap, "Write the telemetry as MCAP, for Foxglove and PlotJuggler")
         .value_name("FILE.mcap");
     command.option("--jobs", options.jobs, "Write a report of each job as a JSON file").value_name("FOLDER");
     command.option("--gateway", options.gateway, "Tell 'millforce gateway' the state and events").value_name("SOCKET");
 }
 
-std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools, const std::string& title) {
+std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools, const std::string& title,
+                                    std::unique_ptr<TelemetrySink> recorder) {
     std::vector<std::unique_ptr<TelemetrySink>> sinks;
+    if (recorder != nullptr) {
+        sinks.push_back(std::move(recorder));
+    }
     if (options.view) {
         sinks.push_back(std::make_unique<TerminalView>(title));
     }

@@ -21,11 +21,14 @@ struct WatchOptions {
     std::string gateway;
 };
 
-/// --view, --web, --udp-json, --mcap, --jobs and --gateway.
+/// --view, --web and --udp-json.
+void add_live_watch(Command& command, WatchOptions& options);
+/// These, --mcap, --jobs and --gateway.
 void add_watch(Command& command, WatchOptions& options);
 
-/// Opens all that was asked for. `title`: what is watched, e.g. "can0". Throws InputError.
+/// Opens all that was asked for. `title`: what is watched, e.g. "can0". `recorder`: of the run's page, or null. Throws
+/// InputError.
 [[nodiscard]] std::unique_ptr<TelemetryHub> watch(const WatchOptions& options, const ToolSet& tools,
-                                                  const std::string& title);
+                                                  const std::string& title, std::unique_ptr<TelemetrySink> recorder);
 
 }  // namespace millforce::host

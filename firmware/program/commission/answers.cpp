@@ -152,6 +152,7 @@ std::optional<double> Answers::number_from_terminal(const NumberQuestion& questi
 }
 
 double Answers::number(const NumberQuestion& question) {
+    const bool is_of_missing = question.usual && std::isnan(*question.usual);
     std::optional<double> value;
     if (Source* source = source_of(question.key)) {
         const auto [table, last] = split(question.key);
@@ -160,16 +161,24 @@ double Answers::number(const NumberQuestion& question) {
                           source->table(table).integer(last, static_cast<std::int64_t>(question.minimum),
                                                        static_cast<std::int64_t>(question.maximum), {}, question.unit))
                     : source->table(table).number(last, question.minimum, question.maximum, {}, question.unit);
-    } else {
+    } else if (!is_of_missing) {
         value = number_from_terminal(question);
     }
     value = value ? value : question.usual;
     if (!value) {
-        missing_.push_back(fmt::format("{}{}", question.key, question.unit.empty() ? "" : " in " + question.unit));
+        miss(fmt::format("{}{}", question.key, question.unit.empty() ? "" : " in " + question.unit));
+    }
+    if (!value || std::isnan(*value)) {
         return std::nan("");
     }
     take(question.key, question.is_whole ? fmt::format("{:.0f}", *value) : toml_number(*value));
     return *value;
+}
+
+void Answers::miss(const std::string& answer) {
+    if (std::find(missing_.begin(), missing_.end(), answer) == missing_.end()) {
+        missing_.push_back(answer);
+    }
 }
 
 std::int64_t Answers::integer(const NumberQuestion& question) {
@@ -204,7 +213,7 @@ std::string Answers::word(const WordQuestion& question) {
     }
     value = value ? value : question.usual;
     if (!value) {
-        missing_.push_back(question.key + choices);
+        miss(question.key + choices);
         return {};
     }
     take(question.key, toml_string(*value));

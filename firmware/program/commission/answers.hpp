@@ -20,7 +20,8 @@ struct NumberQuestion {
     std::string unit;
     double minimum = 0.0;
     double maximum = 0.0;
-    std::optional<double> usual = {};  ///< taken where there is no answer; without it the answer is needed
+    std::optional<double> usual = {};  ///< taken where there is no answer; without it the answer is needed. NaN: it
+                                       ///< follows from another answer, which is missing
     bool is_whole = false;
 };
 
@@ -60,6 +61,7 @@ class Answers {
     [[nodiscard]] std::string text() const;
 
   private:
+    void miss(const std::string& answer);
     struct Source {
         TomlFile file;
         bool is_strict = true;  ///< a key that nobody asks for is an error

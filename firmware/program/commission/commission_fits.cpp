@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,14 @@ double largest_gain_error(const std::filesystem::path& gains) {
         largest = is_gain ? std::max(largest, key.standard_error.value_or(0.0) / key.value) : largest;
     }
     return largest;
+}
+
+/// The published law has forces in the plane alone.
+std::string words_about_z(const std::vector<std::string>& axes) {
+    return std::find(axes.begin(), axes.end(), "z") == axes.end()
+               ? ""
+               : "; z is not fitted: the law of the standard cut has no force along the tool, so z.K_x4_N_per_A stays "
+                 "as by the data sheet (of the estimates only a roughness takes that force)";
 }
 
 }  // namespace
@@ -61,6 +70,7 @@ bool Commissioning::fit() {
         standard.machine = session_.file("before_cuts.toml");
         standard.database = plan_.database;
         standard.entry = plan_.entry;
+        standard.side = plan_.side;
         standard.output = session_.file("gains.toml");
         calibrate_standard_cut(standard, report);
     } catch (const InputError& error) {
@@ -80,8 +90,8 @@ bool Commissioning::fit() {
     const double largest_error = largest_gain_error(session_.file("gains.toml"));
     const bool is_known = largest_error <= largest_gain_relative_se;
     judge("fit", is_known,
-          fmt::format("the gains follow from the standard cuts to {:.1f} % (standard error, bound {:.0f} %){}",
-                      100.0 * largest_error, 100.0 * largest_gain_relative_se,
+          fmt::format("the gains follow from the standard cuts to {:.1f} % (standard error, bound {:.0f} %){}{}",
+                      100.0 * largest_error, 100.0 * largest_gain_relative_se, words_about_z(axes_),
                       is_known ? "" : "; wider or longer cuts are needed: another session with other answers"),
           report.str());
     return true;
@@ -105,7 +115,8 @@ void Commissioning::add_idle(FileDraft& draft, double K_t1) const {
 
 bool Commissioning::validate() {
     try {
-        validated_ = validate_cuts(recordings_of("validation"), joined_table("validation"), fitted_, entry_);
+        validated_ =
+            validate_cuts(recordings_of("validation"), joined_table("validation"), fitted_, entry_, plan_.side);
     } catch (const InputError& error) {
         refuse(steps_of("validation"), error);
         return false;
@@ -159,6 +170,15 @@ void Commissioning::write_files() {
 
 void Commissioning::write_page() {
     CommissionPage page;
+    page.facts = {
+        {"Axes", fmt::format("{}", fmt::join(axes_, ", "))},
+        {"Standard cut",
+         fmt::format("{}, {} milling", plan_.entry, plan_.side == estimation::CutSide::down ? "down" : "up")},
+        {"Tool", fmt::format("{} teeth, Ø{:g} mm", plan_.flutes, plan_.tool_diameter_mm)},
+    };
+    const Facts process = facts_of_this_process();
+    page.facts.insert(page.facts.end(), process.begin(), process.end());
+    page.facts.emplace_back("Written", date_and_time());
     page.verdicts = verdicts_;
     if (idle_watch_) {
         page.idle = idle_watch_->plateaus();

@@ -17,81 +17,110 @@ namespace millforce::host {
 
 namespace {
 
-constexpr std::string_view page_frame = R"(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<title>Commissioning</title>
-<style>{{style}}
-main { max-width: 60rem; margin: 0 auto; padding: 1rem; }
-table { border-collapse: collapse; } td, th { padding: 0.15rem 0.8rem 0.15rem 0; text-align: left; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
-pre { overflow-x: auto; } svg { max-width: 100%; height: auto; }
-.good { color: var(--held); } .repeat { color: var(--over); }
-</style>
-</head>
-<body><main>
-<h1>Commissioning</h1>
-<p class="{{class}}"><strong>{{headline}}</strong></p>
-<h2>Steps</h2>
-{{steps}}
-<h2>Fitted values</h2>
-{{values}}
-<h2>Measured points</h2>
-{{plots}}
-<h2>Validation</h2>
-{{validation}}
-</main></body>
+constexpr double rad_s_per_1000_rpm = 1000.0 * std::numbers::pi / 30.0;
+
+constexpr std::string_view page_style = R"(
+.verdicts { margin: 0; padding: 0; list-style: none; }
+.verdicts li { display: grid; grid-template-columns: 6.5em minmax(0, 1fr); padding: 6px 0;
+  border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
+.good strong { color: var(--held); }
+.repeat strong { color: var(--over); }
+details { color: var(--muted); }
+pre { overflow-x: auto; }
+.keys th[scope="row"]::first-letter { text-transform: none; }
+.figures.keys th code { margin-left: 0; color: inherit; overflow-wrap: normal; }
+.figures.keys .explanation { width: 45%; }
+.plots { display: flex; flex-wrap: wrap; gap: 12px 24px; }
+svg { max-width: 100%; height: auto; }
+)";
+
+constexpr std::string_view page_frame = R"({{head}}<body>
+<main>
+
+<header>
+  <p class="origin">millforce commission</p>
+  <h1>Commissioning</h1>
+  <dl class="facts">
+{{facts}}  </dl>
+</header>
+
+<section class="headline {{class}}" aria-label="Result">
+  <strong>{{headline}}</strong>
+</section>
+
+<section>
+  <h2>Steps</h2>
+{{steps}}</section>
+
+<section>
+  <h2>Fitted values</h2>
+{{values}}</section>
+
+<section>
+  <h2>Measured points</h2>
+  <p class="how">Points: measured. Line: the fit.</p>
+  <div class="plots">
+{{plots}}  </div>
+</section>
+
+<section>
+  <h2>Validation</h2>
+{{validation}}</section>
+
+</main>
+</body>
 </html>
 )";
 
 std::string steps_html(const std::vector<StepVerdict>& verdicts) {
-    std::string text = "<table><tr><th>step</th><th>verdict</th></tr>\n";
+    std::string text = "<ul class=\"verdicts\">\n";
     for (const StepVerdict& verdict : verdicts) {
-        text += fmt::format("<tr><td>{}</td><td class=\"{}\">{}</td></tr>\n", html_escaped(verdict.step),
-                            verdict.is_good ? "good" : "repeat", html_escaped(verdict.words));
+        text += fmt::format("<li class=\"{}\"><b>{}</b><div>{}", verdict.is_good ? "good" : "repeat",
+                            html_escaped(verdict.step), html_escaped(verdict.words));
+        text += verdict.details.empty() ? ""
+                                        : fmt::format("<details><summary>details</summary><pre>{}</pre></details>",
+                                                      html_escaped(verdict.details));
+        text += "</div></li>\n";
     }
-    text += "</table>\n";
-    for (const StepVerdict& verdict : verdicts) {
-        if (!verdict.details.empty()) {
-            text += fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n", html_escaped(verdict.step),
-                                html_escaped(verdict.details));
-        }
-    }
-    return text;
+    return text + "</ul>\n";
 }
 
-std::string value_row(const FittedKey& key) {
+std::string value_row(std::string_view name_html, double value, std::optional<double> standard_error,
+                      std::string_view unit, std::string_view meaning) {
     return fmt::format(
-        "<tr><td>{}.{}</td><td class=\"number\">{:.4g}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
-        html_escaped(key.table), html_escaped(key.key), key.value,
-        key.standard_error ? fmt::format("{:.2g}", *key.standard_error) : "", html_escaped(key.unit),
-        html_escaped(key.sentence));
+        "<tr><th scope=\"row\">{}</th><td>{:.4g}</td><td>{}</td><td>{}</td><td class=\"explanation\">{}</td></tr>\n",
+        name_html, value, standard_error ? fmt::format("{:.2g}", *standard_error) : "", html_escaped(unit),
+        html_escaped(meaning));
+}
+
+std::string key_row(const FittedKey& key) {
+    const std::string name = fmt::format("<code>{}.{}</code>", html_escaped(key.table), html_escaped(key.key));
+    return value_row(name, key.value, key.standard_error, key.unit, key.sentence);
 }
 
 std::string idle_rows(const IdleFit& fit) {
-    return value_row({"idle", "current at rest", fit.offset_A, fit.offset_se, "A", "Of the line over the speed."}) +
-           value_row(
-               {"idle", "slope", fit.slope_A_s, fit.slope_se, "A·s/rad", "Growth of the idle current with speed."}) +
-           value_row({"idle", "residual", fit.residual_A, {}, "A", "Of the line, rms."}) +
-           value_row({"idle", "noise", fit.noise_A, {}, "A", "Of one sample of the spindle current."});
+    return value_row("idle current at rest", fit.offset_A, fit.offset_se, "A", "Of the line over the speed.") +
+           value_row("idle current, slope", fit.slope_A_s * rad_s_per_1000_rpm, fit.slope_se * rad_s_per_1000_rpm,
+                     "A per 1000/min", "Growth with the spindle's speed.") +
+           value_row("idle current, residual", fit.residual_A, {}, "A", "Of the line, rms.") +
+           value_row("idle current, noise", fit.noise_A, {}, "A", "Of one sample of the spindle current.");
 }
 
 std::string values_html(const CommissionPage& page, const Session& session) {
     std::string text =
-        "<table><tr><th>key</th><th>value</th><th>standard error</th><th>unit</th><th>meaning</th></tr>\n";
+        "<table class=\"figures keys side-by-side\" style=\"--values: 3\">\n<thead><tr><th scope=\"col\">Key</th>"
+        "<th scope=\"col\">value</th><th scope=\"col\">standard error</th><th scope=\"col\">unit</th>"
+        "<th scope=\"col\" class=\"explanation\">What it is</th></tr></thead>\n<tbody>\n";
     text += page.idle_fit ? idle_rows(*page.idle_fit) : "";
     for (const std::string& name : page.files) {
         if (!session.has(name)) {
             continue;
         }
         for (const FittedKey& key : fitted_keys(session.file(name))) {
-            text += value_row(key);
+            text += key_row(key);
         }
     }
-    return text + "</table>\n";
+    return text + "</tbody>\n</table>\n";
 }
 
 std::string idle_plot(const CommissionPage& page) {
@@ -144,22 +173,25 @@ std::string plots_html(const CommissionPage& page) {
 
 std::string validation_html(const std::vector<ValidatedCut>& cuts) {
     if (cuts.empty()) {
-        return "<p>Not done yet.</p>";
+        return "<p>Not done yet.</p>\n";
     }
     std::string text =
-        "<p>Cuts that the fit has not seen: forces from the drives' currents beside those of the published law. The "
-        "bound is twice the stated deviation.</p>\n<table><tr><th>axis</th><th>feed, mm/min</th><th>width, "
-        "mm</th><th>torque, N·m</th><th>by the law</th><th>error</th><th>bound</th><th>feed force, N</th><th>by the "
-        "law</th><th>error</th><th>bound</th></tr>\n";
+        "<p class=\"how\">Cuts that the fit has not seen: forces from the drives' currents beside those of the "
+        "published law. The bound is twice the stated deviation.</p>\n"
+        "<table class=\"figures side-by-side\" style=\"--values: 6\">\n<thead><tr><th scope=\"col\">Cut</th>"
+        "<th scope=\"col\">torque, N·m</th><th scope=\"col\">by the law</th><th scope=\"col\">off by</th>"
+        "<th scope=\"col\">feed force, N</th><th scope=\"col\">by the law</th><th scope=\"col\">off by</th>"
+        "</tr></thead>\n<tbody>\n";
     for (const ValidatedCut& cut : cuts) {
         text += fmt::format(
-            "<tr class=\"{}\"><td>{}</td><td>{:.0f}</td><td>{:g}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:+.1f} "
-            "%</td><td>{:.0f} %</td><td>{:.1f}</td><td>{:.1f}</td><td>{:+.1f} %</td><td>{:.0f} %</td></tr>\n",
+            "<tr class=\"{}\"><th scope=\"row\">{}, {:.0f} mm/min, {:g} mm wide</th><td>{:.3f}</td><td>{:.3f}</td>"
+            "<td><strong>{:+.1f} %</strong><small>bound {:.0f} %</small></td><td>{:.1f}</td><td>{:.1f}</td>"
+            "<td><strong>{:+.1f} %</strong><small>bound {:.0f} %</small></td></tr>\n",
             cut.holds() ? "good" : "repeat", cut.axis, cut.feed_mm_min, cut.radial_width_mm, cut.torque_Nm,
             cut.expected_torque_Nm, 100.0 * cut.torque_error(), 100.0 * cut.torque_bound, cut.feed_force_N,
             cut.expected_feed_force_N, 100.0 * cut.force_error(), 100.0 * cut.force_bound);
     }
-    return text + "</table>\n";
+    return text + "</tbody>\n</table>\n";
 }
 
 /// Done: the files were written and checked.
@@ -180,7 +212,12 @@ std::string headline(const std::vector<StepVerdict>& verdicts) {
 std::string page_text(const CommissionPage& page, const Session& session) {
     const bool is_good = is_done(page.verdicts) && std::all_of(page.verdicts.begin(), page.verdicts.end(),
                                                                [](const StepVerdict& v) { return v.is_good; });
-    return filled(page_frame, {{"style", page_assets::report_style()},
+    std::string facts;
+    for (const auto& [name, value] : page.facts) {
+        facts += fact_html(name, value);
+    }
+    return filled(page_frame, {{"facts", facts},
+                               {"head", page_head("Commissioning", {page_assets::report_style(), page_style})},
                                {"class", is_good ? "good" : "repeat"},
                                {"headline", html_escaped(headline(page.verdicts))},
                                {"steps", steps_html(page.verdicts)},

@@ -11,11 +11,13 @@
 #include "commission/idle_watch.hpp"
 #include "commission/session.hpp"
 #include "commission/validation.hpp"
+#include "report/page_origin.hpp"
 
 namespace millforce::host {
 
 /// What the page of a commissioning shows.
 struct CommissionPage {
+    Facts facts;
     std::vector<StepVerdict> verdicts;
     std::vector<IdlePlateau> idle;
     std::optional<IdleFit> idle_fit;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,12 +31,13 @@ bool Commissioning::idle() {
     }
     idle_ = *fit;
     constexpr double largest_share = 0.05;
+    constexpr double per_1000_rpm = 1000.0 * std::numbers::pi / 30.0;  // of rad/s
     const double middle_A = std::abs(idle_watch_->plateaus().front().current_A);
     judge("idle", idle_.residual_A <= largest_share * middle_A,
-          fmt::format("the idle current is {:.4f} ± {:.4f} A + ({:.3g} ± {:.2g}) A·s/rad × speed to within {:.4f} A "
-                      "({:.1f} %, bound {:.0f} %){}",
-                      idle_.offset_A, idle_.offset_se, idle_.slope_A_s, idle_.slope_se, idle_.residual_A,
-                      100.0 * idle_.residual_A / middle_A, 100.0 * largest_share,
+          fmt::format("the idle current is {:.4f} ± {:.4f} A at rest, and grows by {:.4f} ± {:.4f} A per 1000/min, to "
+                      "within {:.4f} A ({:.1f} %, bound {:.0f} %){}",
+                      idle_.offset_A, idle_.offset_se, per_1000_rpm * idle_.slope_A_s, per_1000_rpm * idle_.slope_se,
+                      idle_.residual_A, 100.0 * idle_.residual_A / middle_A, 100.0 * largest_share,
                       idle_.residual_A <= largest_share * middle_A
                           ? ""
                           : "; run the spindle warm for ten minutes, then start again with --repeat idle"));
@@ -94,7 +96,7 @@ double Commissioning::smallest_rise_A(const std::vector<CutPass>& passes) const 
         const double radius_mm = 0.5 * plan_.tool_diameter_mm;
         const auto forces = estimation::average_forces<double>(
             entry_.law, {feed_per_tooth_mm, pass.axial_depth_mm,
-                         estimation::engagement_angles(estimation::CutSide::down, pass.radial_width_mm / radius_mm),
+                         estimation::engagement_angles(plan_.side, pass.radial_width_mm / radius_mm),
                          static_cast<double>(plan_.flutes)});
         const double torque_Nm = forces.tangential_N * 1e-3 * radius_mm;
         smallest_A = std::min(smallest_A, torque_Nm / static_cast<double>(first_.machine.spindle.K_t1_Nm_per_A));
@@ -119,7 +121,8 @@ bool Commissioning::record_cuts(const std::string& step, const CutWatchSettings&
     }
     CutWatch cut_watch(settings);
     const std::string hint =
-        fmt::format("Origin: top corner of the block, {:.1f} mm long or more; down milling.", block_length_mm(plan_));
+        fmt::format("Origin: top corner of the block, {:.1f} mm long or more; {} milling.", block_length_mm(plan_),
+                    plan_.side == estimation::CutSide::down ? "down" : "up");
     if (!watch(step, cut_watch, false, hint)) {
         return false;
     }

@@ -89,7 +89,7 @@ class Commissioning {
 /// 0 x, 1 y, 2 z.
 std::size_t axis_number(const std::string& axis);
 
-/// Where the tool can cut along: down milling on the side of a block.
+/// Where the tool can cut along: the side of a block.
 std::vector<std::string> cutting_axes(const std::vector<std::string>& axes);
 
 }  // namespace millforce::host

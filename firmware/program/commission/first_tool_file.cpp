@@ -57,8 +57,8 @@ ToolAnswers ask_for_tool(Answers& answers, const std::optional<KnownLaw>& known)
     tool.helix_deg = answers.number({"tool.helix_deg", "Tool: helix angle, 0 for inserts", "°", 0.0, 60.0, 30.0});
     q.overhang_mm = answers.number({"tool.overhang_mm", "Tool: from the holder to the tip", "mm", 0.1, 1000.0});
     const double usual_depth_mm = std::min(q.diameter_mm, tool.flute_length_mm);
-    q.deepest_cut_mm = answers.number({"tool.deepest_cut_mm", "Deepest cut that it is to make", "mm", 0.01, 300.0,
-                                       std::isnan(usual_depth_mm) ? std::optional<double>() : usual_depth_mm});
+    q.deepest_cut_mm =
+        answers.number({"tool.deepest_cut_mm", "Deepest cut that it is to make", "mm", 0.01, 300.0, usual_depth_mm});
     const bool is_carbide =
         answers.word({"tool.material", "Tool material", {"carbide", "hss"}, "carbide"}) == "carbide";
     q.strength_N_per_mm2 =

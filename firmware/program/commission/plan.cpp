@@ -62,9 +62,8 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes) {
     CommissionPlan plan;
     plan.axes = axes;
     const double fastest_rpm = answers.number({"idle.highest_rpm", "Highest speed of the spindle", "1/min", 10.0, 1e5});
-    const double slowest_rpm =
-        answers.number({"idle.lowest_rpm", "Lowest speed of the spindle that is used", "1/min", 10.0, 1e5,
-                        std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.2 * fastest_rpm)});
+    const double slowest_rpm = answers.number({"idle.lowest_rpm", "Lowest speed of the spindle that is used", "1/min",
+                                               10.0, 1e5, std::round(0.2 * fastest_rpm)});
     plan.idle_rpm =
         geometric(slowest_rpm, fastest_rpm, answers.integer({"idle.speeds", "Number of speeds", "", 3.0, 20.0, 4.0}));
     plan.idle_dwell_s = answers.number({"idle.dwell_s", "Time at each speed", "s", 0.5, 600.0, 10.0});
@@ -76,8 +75,8 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes) {
         geometric(slowest, fastest, answers.integer({"air.feeds", "Number of feeds", "", 4.0, 20.0, 7.0}));
     plan.air_travel_mm =
         answers.number({"air.travel_mm", "Travel of each air cut, several turns of the screw", "mm", 1.0, 1e4, 40.0});
-    plan.air_rpm = answers.number({"air.spindle_rpm", "Speed of the spindle in the air cuts", "1/min", 10.0, 1e5,
-                                   std::isnan(fastest_rpm) ? std::optional<double>() : std::round(0.5 * fastest_rpm)});
+    plan.air_rpm = answers.number(
+        {"air.spindle_rpm", "Speed of the spindle in the air cuts", "1/min", 10.0, 1e5, std::round(0.5 * fastest_rpm)});
     plan.database =
         answers.word({"standard_cut.database", "File with the coefficients of the standard tool and steel", {}, {}});
     plan.entry = answers.word({"standard_cut.entry", "Its entry", {}, {}});
@@ -90,6 +89,9 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes) {
         answers.number({"standard_cut.axial_depth_mm", "Standard cut: axial depth", "mm", 0.01, 300.0});
     const double width =
         answers.number({"standard_cut.radial_width_mm", "Standard cut: middle radial width", "mm", 0.01, 500.0});
+    const std::string side = answers.word(
+        {"standard_cut.side", "Standard cut: down (climb) or up (conventional) milling", {"down", "up"}, "down"});
+    plan.side = side == "up" ? estimation::CutSide::up : estimation::CutSide::down;
     for (const std::string& axis : axes) {
         plan.travel_per_motor_turn_mm =
             std::max(plan.travel_per_motor_turn_mm,
@@ -129,15 +131,19 @@ double block_length_mm(const CommissionPlan& plan) {
 
 std::string cut_program(const CommissionPlan& plan, const std::string& axis, const std::vector<CutPass>& passes) {
     const double radius_mm = 0.5 * plan.tool_diameter_mm;
-    const double start_mm = -(stretch_mm(plan) + radius_mm + clear_mm);
-    const double end_mm = block_length_mm(plan) + radius_mm + clear_mm;
+    const double air_mm = stretch_mm(plan) + radius_mm + clear_mm;
+    const double run_out_mm = radius_mm + clear_mm;
+    const bool is_down = plan.side == estimation::CutSide::down;
+    const double start_mm = is_down ? -air_mm : block_length_mm(plan) + air_mm;
+    const double end_mm = is_down ? block_length_mm(plan) + run_out_mm : -run_out_mm;
     const bool along_x = axis == "x";
     const double away = along_x ? 1.0 : -1.0;  // from the block: +y, or −x
     const std::string along = along_x ? "X" : "Y";
     const std::string across = along_x ? "Y" : "X";
     std::string text =
-        fmt::format("%\n(Down milling along +{}: {} passes on a block {:.1f} mm long)\n{}S{:.0f} M3\nG4 P2\nG0 Z{:g}\n",
-                    axis, passes.size(), block_length_mm(plan), program_head, plan.cut_rpm, safe_height_mm);
+        fmt::format("%\n({} milling along {}{}: {} passes on a block {:.1f} mm long)\n{}S{:.0f} M3\nG4 P2\nG0 Z{:g}\n",
+                    is_down ? "Down" : "Up", is_down ? "+" : "-", axis, passes.size(), block_length_mm(plan),
+                    program_head, plan.cut_rpm, safe_height_mm);
     double taken_mm = 0.0;
     for (const CutPass& pass : passes) {
         taken_mm += pass.radial_width_mm;

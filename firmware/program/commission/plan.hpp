@@ -7,6 +7,7 @@
 
 #include "commission/answers.hpp"
 #include "commission/cut_watch.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
 
 namespace millforce::host {
 
@@ -24,6 +25,7 @@ struct CommissionPlan {
     double travel_per_motor_turn_mm = 0.0;  ///< the largest of the axes
     std::vector<CutPass> standard;
     std::vector<CutPass> validation;
+    estimation::CutSide side = estimation::CutSide::down;
     std::filesystem::path database;
     std::string entry;
 };
@@ -35,8 +37,8 @@ CommissionPlan plan_of(Answers& answers, const std::vector<std::string>& axes);
 /// Programs for the CNC (G-code, mm): idling, air, and cuts along `axis` ("x" or "y").
 std::string idle_program(const CommissionPlan& plan);
 std::string air_program(const CommissionPlan& plan);
-/// Down milling with M3: the origin is the corner of the block where its face towards +y (passes along +x) or −x (along
-/// +y) begins, on its top.
+/// With M3: the origin is the corner of the block where its face towards +y (passes along x) or −x (along y) begins, on
+/// its top. Down milling goes in +, up milling comes back in −.
 std::string cut_program(const CommissionPlan& plan, const std::string& axis, const std::vector<CutPass>& passes);
 /// Of the block, for the operator: length along the passes, and what they take off its face.
 double block_length_mm(const CommissionPlan& plan);

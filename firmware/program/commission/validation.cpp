@@ -14,7 +14,7 @@ bool ValidatedCut::holds() const {
 
 std::vector<ValidatedCut> validate_cuts(const std::vector<std::filesystem::path>& recordings,
                                         const std::filesystem::path& cuts, const MachineParameters& machine,
-                                        const LibraryEntry& entry) {
+                                        const LibraryEntry& entry, estimation::CutSide side) {
     constexpr double deviations = 2.0;
     const std::vector<RecordedStretch> stretches = read_recorded_cuts(recordings, cuts);
     const std::vector<CutRow> rows = forces_of_cuts(stretches, machine);
@@ -27,8 +27,8 @@ std::vector<ValidatedCut> validate_cuts(const std::vector<std::filesystem::path>
         const CutRow& row = rows.at(row_number++);
         const double immersion = row.radial_width_mm / row.radius_mm();
         const auto expected = estimation::average_forces_with_doubt<double>(
-            entry.law, {row.feed_per_tooth_mm(), row.axial_depth_mm,
-                        estimation::engagement_angles(estimation::CutSide::down, immersion), row.flutes});
+            entry.law,
+            {row.feed_per_tooth_mm(), row.axial_depth_mm, estimation::engagement_angles(side, immersion), row.flutes});
         ValidatedCut cut;
         cut.axis = axis_tables.at(stretch.axis);
         cut.feed_mm_min = row.feed_mm_s * 60.0;

@@ -30,6 +30,6 @@ struct ValidatedCut {
 /// Throws InputError as read_recorded_cuts() and forces_of_cuts() do.
 std::vector<ValidatedCut> validate_cuts(const std::vector<std::filesystem::path>& recordings,
                                         const std::filesystem::path& cuts, const MachineParameters& machine,
-                                        const LibraryEntry& entry);
+                                        const LibraryEntry& entry, estimation::CutSide side);
 
 }  // namespace millforce::host

@@ -107,13 +107,13 @@
     const silence = Date.now() - heardAt;
     byId("connection").textContent = !newestRow ? "Waiting for the first tick."
       : silence > silentMs ? `No tick for ${Math.round(silence / 1000)} s: what is below is old.`
-      : `Ticks come. Time of the samples: ${newestRow[column.get("time_s")].toFixed(1)} s`;
+      : `Live. Time of the samples: ${newestRow[column.get("time_s")].toFixed(1)} s`;
     byId("connection").classList.toggle("alarm", silence > silentMs);
   }
 
   function addEvent(event) {
     const item = element("li", event.level);
-    item.append(element("time", "", new Date(event.unix_ms).toLocaleTimeString()), inWords(event.text));
+    item.append(element("time", "", new Date(event.unix_ms).toTimeString().slice(0, 8)), inWords(event.text));
     byId("events").prepend(item);
     while (byId("events").childElementCount > mostEvents) byId("events").lastElementChild.remove();
   }

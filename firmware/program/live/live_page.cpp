@@ -9,6 +9,7 @@
 #include "live/live_assets.hpp"
 #include "report/json_writer.hpp"
 #include "report/page_assets.hpp"
+#include "report/page_parts.hpp"
 #include "report/page_template.hpp"
 #include "telemetry/prometheus.hpp"
 #include "telemetry/telemetry_fields.hpp"
@@ -75,8 +76,10 @@ LivePage::LivePage(const std::string& title) : title_(printable(title)) {}
 
 std::optional<WebResource> LivePage::resource(std::string_view path) const {
     if (path == "/") {
+        const std::string title = html_escaped(title_);
+        const std::string head = served_page_head(title, {"dygraph.css", "live.css"});
         return WebResource{"text/html; charset=utf-8",
-                           filled(live_assets::live_template(), {{"title", html_escaped(title_)}})};
+                           filled(live_assets::live_template(), {{"head", head}, {"title", title}})};
     }
     if (path == "/fields.json") {
         return WebResource{"application/json", fields_json(title_)};

@@ -85,7 +85,7 @@ void EstimateTable::show_notes() const {
 
 void EstimateTable::commit(std::string_view about_the_log, const WideBandCells::Estimates& made) {
     if (!file_) {
-        std::cout << held_back_.str();
+        std::cout << (settings_.may_print ? held_back_.str() : std::string());
         return;
     }
     file_->commit();

@@ -48,9 +48,10 @@ enum class WideBandSource : std::uint8_t { none, drives, force_sensor };
 class EstimateTable {
   public:
     struct Settings {
-        std::string log;     ///< named in the notes
-        std::string output;  ///< file; empty: standard output
-        double interval_s;   ///< between two rows; 0: a row for each sample
+        std::string log;        ///< named in the notes
+        std::string output;     ///< file; empty: standard output
+        double interval_s;      ///< between two rows; 0: a row for each sample
+        bool may_print = true;  ///< false: standard output is taken, and without a file the rows are dropped
     };
     /// One tick, as the table shows it.
     struct Row {

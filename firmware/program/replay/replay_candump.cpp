@@ -67,10 +67,12 @@ bool is_candump_log(const std::string& file) {
     return false;
 }
 
-int replay_candump(const ReplayCandumpOptions& options) {
+int replay_candump(const ReplayCandumpOptions& options, const std::function<Playback(const ToolSet&)>& playback_with) {
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
     CandumpReplay replay(settings_of(options, tools));
-    EstimateTable table({options.log, options.output, options.interval_s}, tools, WideBandSource::none);
+    Playback playback = playback_with(tools);
+    EstimateTable table({options.log, options.output, options.interval_s, options.may_print}, tools,
+                        WideBandSource::none);
     ReplayMcap mcap(options.mcap, tools);
     std::optional<RunCheck> check;
     if (!options.run_log.empty()) {
@@ -88,18 +90,21 @@ int replay_candump(const ReplayCandumpOptions& options) {
             if (EstimateEntry entry; check && entries.add(record, controller.tool(), entry)) {
                 check->add(entry);
             }
+            const TelemetrySample shown{.tick = record,
+                                        .tool = controller.tool(),
+                                        .is_held = controller.sent_override().hold,
+                                        .drives = controller.sample(),
+                                        .program = controller.program(),
+                                        .conditions = controller.conditions()};
+            playback.show(seconds_of(record.time_us), shown);
             if (table.is_due(seconds_of(controller.tick_time_us()))) {
                 table.write({seconds_of(record.time_us), record, controller.tool(), controller.controller().roughness(),
                              controller.controller().wide_band()});
-                mcap.write(seconds_of(record.time_us), {.tick = record,
-                                                        .tool = controller.tool(),
-                                                        .is_held = controller.sent_override().hold,
-                                                        .drives = controller.sample(),
-                                                        .program = controller.program(),
-                                                        .conditions = controller.conditions()});
+                mcap.write(seconds_of(record.time_us), shown);
             }
         },
         [&](double share) { table.show_progress(share); });
+    playback.finish();
     if (table.is_empty()) {
         throw InputError(
             fmt::format("{}: {} frames and no complete sample; expected SYNC and the PDOs of the machine's "

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "firmware/way_source.hpp"
 #include "parameters/tool_set.hpp"
+#include "replay/playback.hpp"
 #include "run_log/bus_clock.hpp"
 
 namespace millforce::host {
@@ -22,12 +24,13 @@ struct ReplayCandumpOptions {
     BusPace pace{};
     std::string report{};                       ///< folder for the page; empty: none
     firmware::WaySource<float>* way = nullptr;  ///< what lies ahead of one tool; outlives the replay
+    bool may_print = true;                      ///< rows without a file to standard output
 };
 
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.
 bool is_candump_log(const std::string& file);
 
-/// 1 where the run's log has other estimates.
-int replay_candump(const ReplayCandumpOptions& options);
+/// 1 where the run's log has other estimates. `playback`: to show it with these tools.
+int replay_candump(const ReplayCandumpOptions& options, const std::function<Playback(const ToolSet&)>& playback);
 
 }  // namespace millforce::host

@@ -3,25 +3,56 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "files/csv.hpp"
+#include "firmware/tick_record.hpp"
 
 namespace millforce::host {
 
 namespace {
 
 using Estimate = estimation::Measurement<float>;
+using Estimates = firmware::WideBandEstimate<float>;
+using Tool = firmware::ToolParameters<float>;
 
-void write_with_sd(std::ostream& out, const Estimate& m) {
-    out << ',' << (m.valid ? CsvWriter::cell(m.value) + ',' + CsvWriter::cell(std::sqrt(m.variance)) : ",");
+constexpr float no_estimate = firmware::TickRecord::no_estimate;
+
+float value_of(const Estimate& m) {
+    return m.valid ? m.value : no_estimate;
 }
 
-void write_variation(std::ostream& out, const Estimate& m, float nominal) {
-    out << ',' << (m.valid ? CsvWriter::cell(100.0F * (m.value / nominal - 1.0F)) : "");
+float sd_of(const Estimate& m) {
+    return m.valid ? std::sqrt(m.variance) : no_estimate;
 }
+
+float variation_percent(const Estimate& m, float nominal) {
+    return m.valid ? 100.0F * (m.value / nominal - 1.0F) : no_estimate;
+}
+
+constexpr std::array<WideBandColumn, 8> columns{{
+    {"force_drop_immersion", [](const Estimates& e, const Tool&) { return value_of(e.force_drop_immersion); }},
+    {"force_drop_immersion_sd", [](const Estimates& e, const Tool&) { return sd_of(e.force_drop_immersion); }},
+    {"depth_shape_axial_depth_mm", [](const Estimates& e, const Tool&) { return value_of(e.axial_depth_mm); }},
+    {"depth_shape_axial_depth_sd_mm", [](const Estimates& e, const Tool&) { return sd_of(e.axial_depth_mm); }},
+    {"depth_shape_radial_width_mm", [](const Estimates& e, const Tool&) { return value_of(e.radial_width_mm); }},
+    {"depth_shape_radial_width_sd_mm", [](const Estimates& e, const Tool&) { return sd_of(e.radial_width_mm); }},
+    {"depth_shape_axial_variation_percent",
+     [](const Estimates& e, const Tool& tool) {
+         return variation_percent(e.axial_depth_mm, tool.depth_shape.nominal_axial_depth_mm);
+     }},
+    {"depth_shape_radial_variation_percent",
+     [](const Estimates& e, const Tool& tool) {
+         return variation_percent(e.radial_width_mm, tool.depth_shape.nominal_radial_width_mm);
+     }},
+}};
 
 }  // namespace
+
+std::span<const WideBandColumn> wide_band_columns() {
+    return columns;
+}
 
 void WideBandCells::show_what_is_missing() const {
     for (const std::string_view line : {lacking_for_force_drops(), lacking_for_depths()}) {
@@ -32,21 +63,18 @@ void WideBandCells::show_what_is_missing() const {
 }
 
 void WideBandCells::write_header(std::ostream& out) const {
-    out << (is_there_ ? ",force_drop_immersion,force_drop_immersion_sd,depth_shape_axial_depth_mm,"
-                        "depth_shape_axial_depth_sd_mm,depth_shape_radial_width_mm,depth_shape_radial_width_sd_mm,"
-                        "depth_shape_axial_variation_percent,depth_shape_radial_variation_percent"
-                      : "");
+    for (const WideBandColumn& column : columns) {
+        out << (is_there_ ? fmt::format(",{}", column.name) : "");
+    }
 }
 
 void WideBandCells::write(std::ostream& out, const Estimates& made) const {
-    if (!is_there_) {
-        return;
+    for (const WideBandColumn& column : columns) {
+        if (is_there_) {
+            const float value = column.value(made, tool_);
+            out << ',' << (std::isnan(value) ? "" : CsvWriter::cell(value));
+        }
     }
-    write_with_sd(out, made.force_drop_immersion);
-    write_with_sd(out, made.axial_depth_mm);
-    write_with_sd(out, made.radial_width_mm);
-    write_variation(out, made.axial_depth_mm, tool_.depth_shape.nominal_axial_depth_mm);
-    write_variation(out, made.radial_width_mm, tool_.depth_shape.nominal_radial_width_mm);
 }
 
 std::string WideBandCells::summary(const Estimates& made) const {

@@ -9,6 +9,41 @@
 
 namespace millforce::host {
 
+namespace {
+
+constexpr std::string_view head = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{{title}} – millforce</title>
+{{more}}</head>
+)";
+
+/// Nothing is loaded from anywhere.
+constexpr std::string_view of_one_file = R"(<meta http-equiv="Content-Security-Policy"
+      content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'">
+)";
+
+}  // namespace
+
+std::string page_head(std::string_view title, std::initializer_list<std::string_view> styles) {
+    std::string more(of_one_file);
+    for (const std::string_view style : styles) {
+        more += fmt::format("<style>{}</style>\n", style);
+    }
+    return filled(head, {{"title", title}, {"more", more}});
+}
+
+std::string served_page_head(std::string_view title, std::initializer_list<std::string_view> style_files) {
+    std::string more = "<link rel=\"icon\" href=\"data:,\">\n";
+    for (const std::string_view file : style_files) {
+        more += fmt::format("<link rel=\"stylesheet\" href=\"{}\">\n", file);
+    }
+    return filled(head, {{"title", title}, {"more", more}});
+}
+
 std::string readable_time(double time_s, double longest_s) {
     if (!std::isfinite(time_s)) {
         return "–";

@@ -183,6 +183,8 @@ std::string events_html(const RunHistory& history) {
 std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
     const RunTotals& totals = history.totals();
     const std::string title = html_escaped(origin.title);
+    const std::string head = page_head(title, {without_source_map(page_assets::dygraphs_style()),
+                                               page_assets::report_style(), run_page_assets::run_style()});
     const std::string facts = facts_html(history, origin);
     const std::string stats = stats_html(totals, origin);
     const std::string verdict = verdict_html(history, origin);
@@ -194,6 +196,7 @@ std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
     const std::string data = run_page_json(history);
     return filled(run_page_assets::run_template(),
                   {
+                      {"head", head},
                       {"title", title},
                       {"facts", facts},
                       {"stats", stats},
@@ -204,12 +207,9 @@ std::string run_page_html(const RunHistory& history, const RunOrigin& origin) {
                       {"depth", depth},
                       {"events", events},
                       {"data", data},
-                      {"report_style", page_assets::report_style()},
-                      {"run_style", run_page_assets::run_style()},
                       {"charts_script", page_assets::charts_script()},
                       {"run_script", run_page_assets::run_script()},
                       {"dygraphs_script", without_source_map(page_assets::dygraphs_script())},
-                      {"dygraphs_style", without_source_map(page_assets::dygraphs_style())},
                   });
 }
 

@@ -86,6 +86,10 @@ std::unique_ptr<RunReport> started_report(const RunReport::Settings& settings, c
     return settings.folder.empty() ? nullptr : std::make_unique<RunReport>(settings, tools);
 }
 
+std::unique_ptr<RunRecorder> recorder_of(RunReport* report, RunNotes& notes, RunClock clock) {
+    return report == nullptr ? nullptr : std::make_unique<RunRecorder>(report->history(), notes, clock);
+}
+
 bool finish_report(RunReport* report, std::FILE* stream) {
     if (report == nullptr) {
         return true;

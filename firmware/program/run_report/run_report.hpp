@@ -10,6 +10,7 @@
 #include "parameters/tool_set.hpp"
 #include "run_report/run_history.hpp"
 #include "run_report/run_page.hpp"
+#include "run_report/run_recorder.hpp"
 
 namespace millforce::host {
 
@@ -45,6 +46,9 @@ class RunReport {
 
 /// Null where no folder is given.
 [[nodiscard]] std::unique_ptr<RunReport> started_report(const RunReport::Settings& settings, const ToolSet& tools);
+
+/// Fills the report of a live run; null without one. Both outlive it.
+[[nodiscard]] std::unique_ptr<RunRecorder> recorder_of(RunReport* report, RunNotes& notes, RunClock clock);
 
 /// Writes the page and says on `stream` where it is; nothing without a report. False, and a line on standard error,
 /// where it could not be written: the run is over, and its other files are worth keeping.

@@ -10,6 +10,8 @@
 #include "live/live_assets.hpp"
 #include "report/json_writer.hpp"
 #include "report/page_assets.hpp"
+#include "report/page_parts.hpp"
+#include "report/page_template.hpp"
 #include "shop/shop_assets.hpp"
 
 namespace millforce::host {
@@ -69,7 +71,8 @@ std::string Shop::shop_json() const {
 
 std::optional<WebResource> Shop::resource(std::string_view path) const {
     if (path == "/") {
-        return WebResource{"text/html; charset=utf-8", std::string(shop_assets::shop_page())};
+        return WebResource{"text/html; charset=utf-8",
+                           filled(shop_assets::shop_page(), {{"head", served_page_head("Machines", {"shop.css"})}})};
     }
     if (path == "/shop.css") {
         return WebResource{"text/css; charset=utf-8",

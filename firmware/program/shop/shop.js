@@ -14,7 +14,7 @@
     if (!isNumber(unixS)) return "–";
     const time = new Date(1000 * unixS);
     const isToday = time.toDateString() === new Date().toDateString();
-    return isToday ? time.toLocaleTimeString() : time.toLocaleString();
+    return isToday ? time.toTimeString().slice(0, 8) : time.toLocaleString();
   }
 
   /** An object, or null where the text is none. */
@@ -80,7 +80,7 @@
   }
 
   function jobInWords(job) {
-    const faults = Array.isArray(job.faults) && job.faults.length ? `, ${job.faults.length} faults` : "";
+    const faults = Array.isArray(job.faults) && job.faults.length ? `, faults: ${job.faults.length}` : "";
     return `cut for ${number(job.cutting_s, 0, "s")}, largest load ${number(100 * job.largest_load, 0, "%")}, ` +
       `mean override ${number(100 * job.mean_override, 0, "%")}${faults}`;
   }
@@ -92,7 +92,7 @@
     const online = shop.machines.filter((machine) => machine.is_online).length;
     byId("summary").textContent = shop.trouble
       ? `Broker ${shop.broker}: ${shop.trouble}. What is shown may be old.`
-      : `${shop.machines.length} machines, ${online} connected, ${cutting} cut.`;
+      : `${shop.machines.length} machines, ${online} connected, ${cutting} cutting.`;
     byId("machines").replaceChildren(...cards);
     byId("events").replaceChildren(...notes(shop.machines, "events", (note) => note.unix_s, (note) => inWords(note.text)));
     byId("jobs").replaceChildren(...notes(shop.machines, "jobs", (job) => job.end_unix_s, jobInWords));

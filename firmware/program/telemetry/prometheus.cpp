@@ -18,19 +18,25 @@ struct UnitWord {
     std::string_view unit;
     std::string_view suffix;  ///< in the names of fields
     std::string_view word;    ///< in the names of metrics
+    double in_metric = 1.0;   ///< the field's unit: Prometheus wants base units
 };
 
 constexpr std::array unit_words{
-    UnitWord{"s", "_s", "seconds"},       UnitWord{"1", "", "ratio"},
-    UnitWord{"N", "_N", "newtons"},       UnitWord{"A", "_A", "amperes"},
-    UnitWord{"mm", "_mm", "millimeters"}, UnitWord{"mm/s", "_mm_s", "millimeters_per_second"},
+    UnitWord{"s", "_s", "seconds"},        UnitWord{"1", "", "ratio"},
+    UnitWord{"N", "_N", "newtons"},        UnitWord{"A", "_A", "amperes"},
+    UnitWord{"mm", "_mm", "meters", 1e-3}, UnitWord{"mm/s", "_mm_s", "meters_per_second", 1e-3},
 };
+
+/// Null: a field without a unit.
+const UnitWord* unit_of(const TelemetryField& field) {
+    const auto* unit = std::find_if(unit_words.begin(), unit_words.end(),
+                                    [&field](const UnitWord& word) { return word.unit == field.unit; });
+    return unit != unit_words.end() ? unit : nullptr;
+}
 
 std::string metric_name(const TelemetryField& field) {
     std::string name = fmt::format("millforce_{}", field.name);
-    const auto* unit = std::find_if(unit_words.begin(), unit_words.end(),
-                                    [&field](const UnitWord& word) { return word.unit == field.unit; });
-    if (unit != unit_words.end()) {
+    if (const UnitWord* unit = unit_of(field)) {
         name.resize(name.size() - unit->suffix.size());
         name += fmt::format("_{}", unit->word);
     }
@@ -52,6 +58,8 @@ std::string sample_lines(const std::string& name, const TelemetryField& field, c
     }
     if (const auto* flag = std::get_if<bool>(&value)) {
         text = fmt::format("{} {}\n", name, *flag ? 1 : 0);
+    } else if (const auto* number = std::get_if<float>(&value); number != nullptr && unit_of(field) != nullptr) {
+        text = fmt::format("{} {:.7g}\n", name, unit_of(field)->in_metric * static_cast<double>(*number));
     } else if (field.words.empty() && !std::holds_alternative<std::monostate>(value)) {
         text = fmt::format("{} {}\n", name, json_value(value));
     }

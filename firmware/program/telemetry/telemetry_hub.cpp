@@ -11,7 +11,8 @@ namespace millforce::host {
 namespace {
 
 constexpr auto turn_period = std::chrono::milliseconds(20);
-constexpr int lowest_priority = 19;
+/// Behind a desktop, and still heard on a busy computer: the page of a run has every tick.
+constexpr int low_priority = 5;
 
 std::int64_t unix_offset_us() {
     using std::chrono::microseconds;
@@ -47,7 +48,7 @@ void TelemetryHub::finish() {
 }
 
 void TelemetryHub::run() {
-    setpriority(PRIO_PROCESS, 0, lowest_priority);  // on Linux: of this thread
+    setpriority(PRIO_PROCESS, 0, low_priority);  // on Linux: of this thread
     for_each_sink([](TelemetrySink& sink) { sink.on_begin(); });
     while (!ended_.load()) {
         std::this_thread::sleep_for(turn_period);

@@ -30,7 +30,7 @@ class TelemetrySink {
     [[nodiscard]] virtual std::string failed_file() const { return {}; }
 };
 
-/// Takes samples from the real-time thread and hands them to all sinks, in a thread of its own with the lowest
+/// Takes samples from the real-time thread and hands them to all sinks, in a thread of its own with a low
 /// priority. Made before the caller becomes real-time: the thread inherits its scheduler.
 class TelemetryHub {
   public:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sensorless force control for milling, from Python: estimator and controller (Tick), the simulated machine (simulate,
-Plant), and the calibrations (calibrate_friction and others).
+Plant), part maps (PartMap), and the calibrations (calibrate_friction and others).
 
 A table is a dictionary of numpy arrays. Its keys are the columns of the program's CSV files, with their units in their
 names: time_s, spindle_angle_rad, spindle_current_A, x_current_A, x_velocity_mm_s … NaN is "no measurement" or
@@ -26,7 +26,8 @@ from numpy.typing import ArrayLike
 from . import _millforce
 from ._millforce import InputError
 
-__all__ = ["InputError", "Parameters", "Tick", "Plant", "Run", "Fit", "read_csv", "write_csv", "replay", "simulate",
+__all__ = ["InputError", "Parameters", "Tick", "Plant", "Run", "Fit", "PartMap", "read_csv", "write_csv", "read_tools", "replay",
+           "simulate",
            "calibrate_friction", "calibrate_spindle", "calibrate_standard_cut", "calibrate_cutting"]
 
 Table = Mapping[str, ArrayLike]
@@ -66,7 +67,7 @@ def write_csv(path: PathLike, table: Table) -> None:
 def _cell(value: Any) -> str:
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"' if set(value) & set(',"\n') else value
-    return "" if value != value else repr(float(value))
+    return "" if value != value else repr(value) if isinstance(value, int) else repr(float(value))
 
 
 def _toml(table: Mapping[str, Any], name: str = "") -> str:
@@ -125,15 +126,33 @@ class Parameters:
         return json.loads(self._parameters.tool_json())
 
 
+def read_tools(machine: Mapping[str, Any] | PathLike, folder: PathLike) -> dict[int, Parameters]:
+    """The tools of a folder by their numbers, as `millforce run --tools`: T1.toml, T2.toml … Each has the same machine."""
+    def of_tool(parameters: Any) -> Parameters:
+        made = Parameters.__new__(Parameters)
+        made._parameters = parameters
+        return made
+    tools = _millforce.read_tools(*_text_and_name(machine, "machine"), os.fspath(folder))
+    return {number: of_tool(parameters) for number, parameters in tools.items()}
+
+
 class Tick:
     """Estimator and controller, the same code as on a machine, fed with samples.
 
     >>> tick = Tick(Parameters("machine.toml", "tool.toml"))
     >>> estimates = tick.step(read_csv("recording.csv"))
-    >>> plt.plot(estimates["time_s"], estimates["radial_immersion"])"""
+    >>> plt.plot(estimates["time_s"], estimates["radial_immersion"])
 
-    def __init__(self, parameters: Parameters):
-        self._tick = _millforce.Tick(parameters._parameters)
+    With several tools, a dictionary of their parameters by number (read_tools): the samples' column `tool` says which
+    is in the spindle, NaN and 0: not known. A tool changes where the axes rest and nothing cuts."""
+
+    def __init__(self, parameters: Parameters | Mapping[int, Parameters]):
+        if not isinstance(parameters, Mapping):
+            self._tick = _millforce.Tick(parameters._parameters)
+            return
+        if len({json.dumps(one.machine) for one in parameters.values()}) != 1:
+            raise InputError("parameters: expected at least one tool, and one machine for all")
+        self._tick = _millforce.Tick({number: one._parameters for number, one in parameters.items()})
 
     def step(self, samples: Data) -> Arrays:
         """One estimate and one override for each sample, after what the calls before have brought.
@@ -144,16 +163,83 @@ class Tick:
 
         Returns time_s, state, tangential_force_N, feed_force_N, radial_immersion, radial_immersion_sd, axial_depth_mm,
         axial_depth_sd_mm, peak_force_N, force_limit_N, override, tooth_force_N, limit, fault, hold. NaN is
-        "no estimate". The forces are means over a tooth period, radial_immersion is a_e/R (0…2), *_sd are standard
+        "no estimate". With several tools also tool, 0: not known. With one, and with fx_N and fy_N or a tool that has
+        [force_drop]: force_drop_immersion, depth_shape_axial_depth_mm, depth_shape_radial_width_mm, each with its
+        standard deviation, and the two depths' variations from the nominal ones. The forces are means over a tooth period, radial_immersion is a_e/R (0…2), *_sd are standard
         deviations. The numbers are those of `millforce replay --interval 0`. Cost: some 7 µs a sample."""
         table = read_csv(samples) if not isinstance(samples, Mapping) else samples
         numbers = {name: column for name, column in table.items() if np.asarray(column).dtype.kind not in "US"}
         return self._tick.step(list(numbers), [np.asarray(column, dtype=float) for column in numbers.values()])
 
 
-def replay(samples: Data, parameters: Parameters) -> Arrays:
+def replay(samples: Data, parameters: Parameters | Mapping[int, Parameters]) -> Arrays:
     """The estimates of a whole recording: Tick(parameters).step(samples)."""
     return Tick(parameters).step(samples)
+
+
+# ---- part maps
+
+class PartMap:
+    """What a tool meets along its program, as `millforce preview` writes it.
+
+    >>> part = PartMap.read("pocket.map")
+    >>> part.arcs_at(150.0)                            # [(11.5, 168.5, 5.0)]
+    >>> deeper = dict(part.table, axial_depth_mm=2 * part.table["axial_depth_mm"])
+    >>> PartMap.of(deeper, "pocket.ngc", "endmill_10mm", parameters).write("deeper.map")"""
+
+    COLUMNS = ("path_mm", "block_end_mm", "line", "rapid", "feed_mm_min", "spindle_rpm", "entry_deg", "exit_deg",
+               "axial_depth_mm")
+
+    def __init__(self, part_map: Any):
+        self._map = part_map
+
+    @classmethod
+    def read(cls, path: PathLike) -> PartMap:
+        """Raises InputError with file and line for a map that the controller would not take."""
+        return cls(_millforce.PartMap(os.fspath(path)))
+
+    @classmethod
+    def of(cls, table: Table, program: PathLike, tool: str, parameters: Parameters) -> PartMap:
+        """A map of a table with COLUMNS, for this program and this tool: the controller takes it with no other.
+        Raises InputError as read(), with the lines of a file map.csv."""
+        if set(table) != set(cls.COLUMNS):
+            raise InputError(f"table: columns {', '.join(table)}; expected {', '.join(cls.COLUMNS)}")
+        columns = {name: np.asarray(table[name], dtype=int if name in ("line", "rapid") else float)
+                   for name in cls.COLUMNS}
+        name, crc32, tool_name, tool_crc32 = _millforce.map_origin(os.fspath(program), tool, parameters._parameters)
+        with _files() as path_of:
+            path = path_of(columns, "map.csv")
+            rows = Path(path).read_text(encoding="utf-8")
+            Path(path).write_text(f"# millforce part map 1\n# program {name} crc32 {crc32:08x}\n"
+                                  f"# tool {tool_name} crc32 {tool_crc32:08x}\n{rows}", encoding="utf-8")
+            return cls.read(path)
+
+    def write(self, path: PathLike) -> None:
+        """Writes places that differ from the one before, the file appears whole."""
+        self._map.write(os.fspath(path))
+
+    @property
+    def program(self) -> str:
+        """Name of the program that it belongs to."""
+        return self._map.program
+
+    @property
+    def tool(self) -> str:
+        """Name of the tool that it belongs to."""
+        return self._map.tool
+
+    @property
+    def table(self) -> Arrays:
+        """The columns of the file. A row holds up to the next; further arcs at a place are further rows with the same
+        path_mm; NaN in the last three columns: air. Angles are from the normal to the feed, 0 to 180 degrees."""
+        air = [(np.nan, np.nan, np.nan)]
+        rows = [(*place, *arc) for *place, arcs in self._map.rows() for arc in arcs or air]
+        return {name: np.array(column) for name, column in zip(self.COLUMNS, zip(*rows))}
+
+    def arcs_at(self, path_mm: float) -> list[tuple[float, float, float]]:
+        """The engaged arcs where this much of the program's path is done: entry and exit in degrees, axial depth in mm.
+        Empty: air."""
+        return self._map.arcs_at(path_mm)
 
 
 # ---- the simulated machine

@@ -22,5 +22,6 @@ void bind_tables(py::module_& module);
 void bind_tick(py::module_& module);
 void bind_plant(py::module_& module);
 void bind_calibration(py::module_& module);
+void bind_part_maps(py::module_& module);
 
 }  // namespace millforce::python

@@ -11,4 +11,5 @@ PYBIND11_MODULE(_millforce, module) {
     python::bind_tick(module);
     python::bind_plant(module);
     python::bind_calibration(module);
+    python::bind_part_maps(module);
 }

@@ -122,6 +122,74 @@ class SameAsTheProgram(WithFolder):
             self.assert_refused(ended.stderr.removeprefix("millforce: ").strip(), function, data)
 
 
+class MoreOfTheReplay(WithFolder):
+    """Columns and files that only some recordings have."""
+
+    def assert_as_replayed(self, samples, parameters, columns, *tool_words):
+        millforce.write_csv(self.folder / "samples.csv", samples)
+        ended = program("replay", self.folder / "samples.csv", "--machine", MACHINE, *tool_words, "--interval", "0", "-o",
+                        self.folder / "estimates.csv")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        theirs = millforce.read_csv(self.folder / "estimates.csv")
+        ours = millforce.replay(samples, parameters)
+        for name in columns:
+            np.testing.assert_array_equal(ours[name].astype(np.float32), np.nan_to_num(theirs[name].astype(np.float32))
+                                          if name == "tool" else theirs[name].astype(np.float32), name)
+        return ours
+
+    def test_wide_band_columns_of_a_force_sensor(self):
+        tool = ROOT / "sim/scenarios/tools/facemill_40mm_dynamometer.toml"
+        millforce.simulate(ROOT / "sim/scenarios/face_mill_dynamometer.toml", recording=self.folder / "cut.csv")
+        samples = {name: column[:30000] for name, column in millforce.read_csv(self.folder / "cut.csv").items()}
+        wide_band = ("force_drop_immersion", "force_drop_immersion_sd", "depth_shape_axial_depth_mm",
+                     "depth_shape_radial_variation_percent")
+        ours = self.assert_as_replayed(samples, millforce.Parameters(MACHINE, tool), wide_band, "--tool", tool)
+        self.assertGreater(np.isfinite(ours["force_drop_immersion"]).sum(), 100)
+
+    def test_tools_by_number(self):
+        (self.folder / "tools").mkdir()
+        text = TOOL.read_text()
+        (self.folder / "tools/T3.toml").write_text(text)
+        (self.folder / "tools/T20.toml").write_text(text.replace("teeth = 4", "teeth = 3"))
+        tools = millforce.read_tools(MACHINE, self.folder / "tools")
+        self.assertEqual({number: one.tool["tool"]["teeth"] for number, one in tools.items()}, {3: 4, 20: 3})
+        millforce.simulate(SLOT, recording=self.folder / "slot.csv")
+        samples = millforce.read_csv(self.folder / "slot.csv")
+        samples["tool"] = np.where(samples["time_s"] < -0.5, 20.0, 3.0)
+        ours = self.assert_as_replayed(samples, tools, ("tool", "axial_depth_mm", "peak_force_N", "override"), "--tools",
+                                       self.folder / "tools")
+        self.assertEqual(set(ours["tool"]), {3, 20})
+        del samples["tool"]
+        self.assert_refused("no column 'tool'", millforce.replay, samples, tools)
+        self.assert_refused("one machine for all", millforce.Tick, {})
+
+    def test_a_part_map_is_read_asked_changed_and_written(self):
+        ended = program("preview", ROOT / "sim/scenarios/pocket.ngc", "--stock", ROOT / "sim/scenarios/pocket.toml",
+                        "--tool", TOOL, "-o", self.folder / "pocket.map")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        part = millforce.PartMap.read(self.folder / "pocket.map")
+        self.assertEqual((part.program, part.tool), ("pocket.ngc", "endmill_10mm"))
+        part.write(self.folder / "again.map")
+        self.assertEqual((self.folder / "again.map").read_bytes(), (self.folder / "pocket.map").read_bytes())
+
+        table = part.table
+        row = np.flatnonzero(np.isfinite(table["axial_depth_mm"]))[0]
+        arcs = part.arcs_at(table["path_mm"][row] + 1e-6)
+        self.assertEqual(arcs[0], tuple(table[name][row] for name in ("entry_deg", "exit_deg", "axial_depth_mm")))
+        self.assertEqual(part.arcs_at(-1.0), [])
+
+        shallow = dict(table, axial_depth_mm=0.5 * table["axial_depth_mm"])
+        made = millforce.PartMap.of(shallow, ROOT / "sim/scenarios/pocket.ngc", "endmill_10mm",
+                                    millforce.Parameters(MACHINE, TOOL))
+        self.assertEqual(made.arcs_at(table["path_mm"][row])[0][2], 0.5 * arcs[0][2])
+        made.write(self.folder / "shallow.map")
+        self.assertEqual((self.folder / "shallow.map").read_text().splitlines()[:3],
+                         (self.folder / "pocket.map").read_text().splitlines()[:3])
+        table["path_mm"][row] = -5.0
+        self.assert_refused("map.csv:", millforce.PartMap.of, table, ROOT / "sim/scenarios/pocket.ngc", "endmill_10mm",
+                            millforce.Parameters(MACHINE, TOOL))
+
+
 class TickOnArrays(WithFolder):
     @classmethod
     def setUpClass(cls):

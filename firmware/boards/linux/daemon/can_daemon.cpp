@@ -35,7 +35,6 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
                      Journal& journal, const CanDaemonSettings& settings, firmware::TickListener* watcher)
     : journal_(journal),
       watcher_(watcher),
-      page_(settings.page),
       telemetry_(settings.telemetry),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
@@ -174,17 +173,20 @@ void CanDaemon::on_tick(const firmware::CanController& controller) {
     if (unrecorded_count_ == unrecorded_.size()) {
         record_ticks();  // so many at once are a backlog: all but the last are too late for the CNC
     }
-    unrecorded_[unrecorded_count_++] = sample_of(controller);
+    TelemetrySample& sample = unrecorded_[unrecorded_count_++];
+    sample.tick = controller.record();
+    sample.tool = controller.tool();
+    if (telemetry_ != nullptr) {
+        add_for_watchers(controller, sample);
+    }
 }
 
-TelemetrySample CanDaemon::sample_of(const firmware::CanController& controller) const {
-    return {.monotonic_us = socketcan::monotonic_us(),
-            .tick = controller.record(),
-            .tool = controller.tool(),
-            .is_held = controller.sent_override().hold,
-            .drives = controller.sample(),
-            .program = controller.program(),
-            .conditions = reported_};
+void CanDaemon::add_for_watchers(const firmware::CanController& controller, TelemetrySample& sample) const {
+    sample.monotonic_us = socketcan::monotonic_us();
+    sample.is_held = controller.sent_override().hold;
+    sample.drives = controller.sample();
+    sample.program = controller.program();
+    sample.conditions = reported_;
 }
 
 void CanDaemon::record_ticks() {
@@ -192,9 +194,6 @@ void CanDaemon::record_ticks() {
         const TelemetrySample& sample = unrecorded_[k];
         if (entries_.add(sample.tick, sample.tool, newest_)) {
             journal_.estimate(newest_);
-        }
-        if (page_ != nullptr) {
-            page_->tick(sample.tick.time_us, sample.tick, sample.tool);
         }
         if (telemetry_ != nullptr) {
             telemetry_->put(sample);

@@ -8,7 +8,6 @@
 #include "daemon/journal.hpp"
 #include "daemon/latency.hpp"
 #include "daemon/pause_watch.hpp"
-#include "daemon/run_recorder.hpp"
 #include "daemon/service.hpp"
 #include "firmware_can/can_controller.hpp"
 #include "parameters/machine_bus.hpp"
@@ -21,7 +20,6 @@ namespace millforce::host {
 struct CanDaemonSettings {
     bool records = false;  ///< every frame of the bus goes to the journal; else the kernel keeps out what is of no use
     BusTime time{};
-    RunRecorder* page = nullptr;                ///< gets every tick; outlives the daemon
     TelemetryFeed* telemetry = nullptr;         ///< for who watches; outlives the daemon
     firmware::WaySource<float>* way = nullptr;  ///< what lies ahead of one tool; outlives the daemon
 };
@@ -53,7 +51,7 @@ class CanDaemon final : private firmware::TickListener {
     void send_all();
     void end(std::uint64_t duration_us);
     void record_ticks();
-    [[nodiscard]] TelemetrySample sample_of(const firmware::CanController& controller) const;
+    void add_for_watchers(const firmware::CanController& controller, TelemetrySample& sample) const;
     void report(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
@@ -64,7 +62,6 @@ class CanDaemon final : private firmware::TickListener {
 
     Journal& journal_;
     firmware::TickListener* watcher_;
-    RunRecorder* page_;
     TelemetryFeed* telemetry_;
     std::uint32_t override_id_;
     TickEntries entries_;

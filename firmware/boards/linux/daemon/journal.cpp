@@ -152,8 +152,8 @@ void Journal::write_status(const StatusEntry& entry) {
         const std::string list = entry.conditions.none() ? "all is well" : condition_list(entry);
         notify_service_manager(fmt::format("STATUS={}", list).c_str());
         print_line(stderr, fmt::format("millforce: {}: {}", settings_.interface, list));
-        if (settings_.page != nullptr) {
-            settings_.page->note(entry.unix_us,
+        if (settings_.notes != nullptr) {
+            settings_.notes->add(entry.unix_us,
                                  entry.conditions.none() ? "Drives and bus are well." : condition_words(entry));
         }
     } else if (settings_.status_line) {

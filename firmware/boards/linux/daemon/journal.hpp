@@ -10,21 +10,21 @@
 #include <variant>
 
 #include "daemon/log_file.hpp"
-#include "daemon/run_recorder.hpp"
 #include "daemon/status_lines.hpp"
 #include "run_log/estimate_entry.hpp"
 #include "run_log/spsc_ring.hpp"
 #include "run_log/tool_forces.hpp"
+#include "run_report/run_notes.hpp"
 
 namespace millforce::host {
 
 struct JournalSettings {
     std::string interface;
-    std::string record_file;      ///< candump log of every frame, with local_line()s between; empty: none
-    std::string log_file;         ///< JSON lines; empty: none
-    bool status_line = false;     ///< on standard output, once a second
-    ToolForces forces;            ///< for the log
-    RunRecorder* page = nullptr;  ///< is told of conditions as they come and go; outlives the journal
+    std::string record_file;    ///< candump log of every frame, with local_line()s between; empty: none
+    std::string log_file;       ///< JSON lines; empty: none
+    bool status_line = false;   ///< on standard output, once a second
+    ToolForces forces;          ///< for the log
+    RunNotes* notes = nullptr;  ///< of conditions as they come and go; outlive the journal
 };
 
 /// The files of a run, written by a separate thread: the real-time thread hands over without waiting. Entries that did
