@@ -142,6 +142,25 @@ class FeedDrive {
             noise};
     }
 
+    /// The least force on an axis that stands: what its motor carries beyond static friction. Not valid where static
+    /// friction may carry it all.
+    [[nodiscard]] Measurement<Scalar> least_force_at_rest_N(const Average& average) const {
+        // Break-away is up to a third above K_x3, the friction of a sliding axis, which is known to within two
+        // deviations.
+        constexpr Scalar break_away = literal<Scalar>(1.3L);
+        const Scalar held_A =
+            break_away * parameters_.K_x3_A * (Scalar(1) + Scalar(2) * parameters_.friction_relative_sd);
+        const Scalar shown_A = average.current_A - parameters_.gravity_A;
+        const Scalar beyond_A = shown_A < Scalar(0) ? shown_A + held_A : shown_A - held_A;
+        if (!rests(average) || !(held_A > Scalar(0)) || !(beyond_A * shown_A > Scalar(0))) {
+            return {};
+        }
+        const Scalar force = parameters_.K_x4_N_per_A * beyond_A;
+        const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples;
+        const Scalar by_gain = square(parameters_.gain_relative_sd * parameters_.K_x4_N_per_A * shown_A);
+        return {true, force, noise + by_gain, noise};
+    }
+
     /// What a change of current between two averages of so many samples is as a force, at an unchanged velocity
     /// (force_change.hpp).
     [[nodiscard]] Measurement<Scalar> change_N(Scalar change_A, Scalar samples) const {
@@ -177,13 +196,12 @@ class FeedDrive {
     }
 
     [[nodiscard]] bool is_moving(const Average& average) const {
-        if (!average.present || !(average.samples > Scalar(0)) || !(parameters_.K_x4_N_per_A > Scalar(0))) {
-            return false;
-        }
-        const Scalar speed = average.velocity_mm_s < Scalar(0) ? -average.velocity_mm_s : average.velocity_mm_s;
-        const Scalar change = average.acceleration_mm_s2 * average.duration_s * Scalar(0.5F);
-        const Scalar magnitude = change < Scalar(0) ? -change : change;
-        return speed - magnitude >= parameters_.velocity_floor_mm_s;
+        return has_current(average) && speed_mm_s(average) - speed_change_mm_s(average) >= parameters_.velocity_floor_mm_s;
+    }
+
+    /// It does not move, or by less than it must for its friction to be known.
+    [[nodiscard]] bool rests(const Average& average) const {
+        return has_current(average) && speed_mm_s(average) + speed_change_mm_s(average) < parameters_.velocity_floor_mm_s;
     }
 
     /// Moving, and at nearly the same speed throughout the average.
@@ -197,6 +215,17 @@ class FeedDrive {
     /// Of M dv/dt: what the slope of an average misses of an acceleration that changes within it.
     static constexpr Scalar inertia_share_in_doubt = literal<Scalar>(0.15L);
 
+    [[nodiscard]] bool has_current(const Average& average) const {
+        return average.present && average.samples > Scalar(0) && parameters_.K_x4_N_per_A > Scalar(0);
+    }
+    [[nodiscard]] static Scalar speed_mm_s(const Average& average) {
+        return average.velocity_mm_s < Scalar(0) ? -average.velocity_mm_s : average.velocity_mm_s;
+    }
+    /// From the middle of the average to its ends.
+    [[nodiscard]] static Scalar speed_change_mm_s(const Average& average) {
+        const Scalar change = halved(average.acceleration_mm_s2 * average.duration_s);
+        return change < Scalar(0) ? -change : change;
+    }
     [[nodiscard]] static std::size_t direction(const Average& average) {
         return average.velocity_mm_s > Scalar(0) ? 1U : 0U;
     }
