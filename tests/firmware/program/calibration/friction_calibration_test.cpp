@@ -218,6 +218,19 @@ TEST(FrictionCalibration, leaves_out_of_fit_and_file_what_the_feeds_do_not_deter
     CHECK(left_out >= 3);
 }
 
+TEST(FrictionCalibration, writes_from_which_feeds_it_is_and_what_they_leave_open_beyond) {
+    const TemporaryFolder folder;
+    const std::vector<double> feeds{6.0, -6.0, 7.8, -7.8, 9.7, -9.7, 6.0, -6.0, 9.7, -9.7};
+    const Run run = calibrate({folder.write("air.csv", recording(feeds, 0.05))});
+    DOUBLES_EQUAL(0.36, value(run, "x", "friction_speed_min_m_per_min"), 0.002);
+    DOUBLES_EQUAL(0.582, value(run, "x", "friction_speed_max_m_per_min"), 0.002);
+    CHECK(value(run, "x", "K_x1_sd_A_min2_per_m2") > 0.1);
+    CHECK(contains(run.text, "known from 0.36 to 0.582 m/min"));
+    const Run wide = calibrate({folder.write(
+        "wide.csv", recording({10.0, -10.0, 50.0, -50.0, 200.0, -200.0, 10.0, -10.0, 200.0, -200.0}, 0.05))});
+    CHECK(value(wide, "x", "K_x1_sd_A_min2_per_m2") < 0.01);
+}
+
 TEST(FrictionCalibration, refuses_a_recording_with_reversed_current_or_in_other_units) {
     const TemporaryFolder folder;
     const std::vector<double> feeds{10, 30, 60, -10, -30, -60, 10, -10, 30, -30};
