@@ -49,10 +49,10 @@ int parts_of_slow_samples(const std::filesystem::path& log, std::uint32_t encode
     }
     const double turn_rev = middle_turn_rev(recording, encoder_counts_per_rev);
     if (turn_rev >= too_far_rev) {
-        throw InputError(fmt::format(
-            "{}: the spindle turns by {:.3g} revolutions between two samples; expected less than {:g}, and "
-            "spindle_angle_rad in rad",
-            log.string(), turn_rev, too_far_rev));
+        throw InputError(
+            fmt::format("{}: the spindle turns by {:.3g} revolutions between two samples; expected less than {:g}, and "
+                        "spindle_angle_rad in rad",
+                        log.string(), turn_rev, too_far_rev));
     }
     return turn_rev < farthest_rev ? 1 : static_cast<int>(std::ceil(turn_rev * filled_samples_per_rev));
 }

@@ -22,7 +22,8 @@ inline constexpr double filled_samples_per_rev = 20.0;
 [[nodiscard]] int parts_of_slow_samples(const std::filesystem::path& log, std::uint32_t encoder_counts_per_rev);
 
 /// Each sample's noise is in all parts of its step: as much as `parts` samples with √parts of the noise show.
-[[nodiscard]] firmware::MachineParameters<float> for_slow_samples(firmware::MachineParameters<float> machine, int parts);
+[[nodiscard]] firmware::MachineParameters<float> for_slow_samples(firmware::MachineParameters<float> machine,
+                                                                  int parts);
 
 /// The share 0…1 of the way from one sample to the next. Both have an encoder.
 [[nodiscard]] hal::DriveSample sample_between(const hal::DriveSample& from, const hal::DriveSample& to, double share);

@@ -115,8 +115,7 @@ TEST(FeedDrive, doubts_its_friction_beyond_the_feeds_of_the_calibration) {
     const FeedDrive<double> axis(p);
     const auto sd_beyond_N = [&](double w) {
         const auto average = moving(w / 0.06, p.positive.at(w) + p.K_x3_A + p.gravity_A);
-        return std::sqrt(axis.force_N(average).variance -
-                         FeedDrive<double>(paper_axis()).force_N(average).variance);
+        return std::sqrt(axis.force_N(average).variance - FeedDrive<double>(paper_axis()).force_N(average).variance);
     };
     DOUBLES_EQUAL(0.0, sd_beyond_N(0.4), 1e-3);
     DOUBLES_EQUAL(100.0 * 1.31 * (6.0 - 0.58) * (6.0 - 0.36), sd_beyond_N(6.0), 1.0);

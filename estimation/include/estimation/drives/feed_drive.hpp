@@ -112,9 +112,9 @@ struct FeedDriveParameters {
 /// (FrictionScale). An axis below its velocity floor, or one that turned round within the average, gives no estimate:
 /// at rest the force hides in static friction, and K_x5/w is singular there.
 ///
-/// The calibration knows I_f between its slowest and its fastest feed. At a distance d beyond them, the curvature that it
-/// left open adds σ(K_x1) d (d + w_max − w_min) to the deviation of I_f: by so much two parabolas that agree at both ends
-/// are apart. Not thread-safe.
+/// The calibration knows I_f between its slowest and its fastest feed. At a distance d beyond them, the curvature that
+/// it left open adds σ(K_x1) d (d + w_max − w_min) to the deviation of I_f: by so much two parabolas that agree at both
+/// ends are apart. Not thread-safe.
 template <typename Scalar>
 class FeedDrive {
   public:
@@ -207,12 +207,14 @@ class FeedDrive {
     }
 
     [[nodiscard]] bool is_moving(const Average& average) const {
-        return has_current(average) && speed_mm_s(average) - speed_change_mm_s(average) >= parameters_.velocity_floor_mm_s;
+        return has_current(average) &&
+               speed_mm_s(average) - speed_change_mm_s(average) >= parameters_.velocity_floor_mm_s;
     }
 
     /// It does not move, or by less than it must for its friction to be known.
     [[nodiscard]] bool rests(const Average& average) const {
-        return has_current(average) && speed_mm_s(average) + speed_change_mm_s(average) < parameters_.velocity_floor_mm_s;
+        return has_current(average) &&
+               speed_mm_s(average) + speed_change_mm_s(average) < parameters_.velocity_floor_mm_s;
     }
 
     /// Moving, and at nearly the same speed throughout the average.
