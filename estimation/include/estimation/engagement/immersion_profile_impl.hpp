@@ -80,9 +80,8 @@ Scalar ImmersionProfile<Scalar, Nodes>::misfit_of_resting_axis(const typename Ta
                                                                const LawDoubt& doubt, Scalar depth_mm) const {
     const Scalar t_x = forces_.feed_direction_x;
     const Scalar t_y = forces_.feed_direction_y;
-    const Measurement<Scalar>& least_N = forces_.resting.least_N;
-    const Term term = forces_.resting.is_x ? along_axis(least_N, model, doubt, t_x, t_y)
-                                           : along_axis(least_N, model, doubt, t_y, -t_x);
+    const bool is_x = forces_.resting.is_x;
+    const Term term = along_axis(forces_.resting.least_N, model, doubt, is_x ? t_x : t_y, is_x ? t_y : -t_x);
     const Scalar missing_N = term.measured - depth_mm * term.per_mm;
     return missing_N * term.measured > Scalar(0) ? term.weight * square(missing_N) : Scalar(0);
 }
