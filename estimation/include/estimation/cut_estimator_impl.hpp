@@ -250,6 +250,9 @@ void CutEstimator<Scalar>::begin_engagement(Scalar passed_s) {
     forces.tangential_N = in_work_.tangential_N;
     forces.x_N = in_work_.x_N;
     forces.y_N = in_work_.y_N;
+    forces.resting.is_x = square(direction_x_) < square(direction_y_);
+    const std::size_t across = forces.resting.is_x ? 0 : 1;
+    forces.resting.least_N = drives_.axes[across].least_force_at_rest_N(axis_average(window_, across));
     forces.feed_direction_x = direction_x_;
     forces.feed_direction_y = direction_y_;
     periods_since_memory_ += in_work_.tooth_periods;

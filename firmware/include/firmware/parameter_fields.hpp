@@ -24,7 +24,7 @@ struct ParameterName {
 };
 
 /// How many fields for_each_parameter visits.
-inline constexpr std::size_t machine_parameter_count = 185;
+inline constexpr std::size_t machine_parameter_count = 194;
 inline constexpr std::size_t tool_parameter_count = 128;
 inline constexpr std::size_t parameter_count = machine_parameter_count + tool_parameter_count;
 
@@ -105,6 +105,9 @@ void visit_axis(Machine& machine, std::size_t place, Visit& visit) {
     field("velocity_floor_mm_s", axis.velocity_floor_mm_s, 0.01F, 1e3F);
     field("gain_relative_sd", axis.gain_relative_sd, 0.0F, 1.0F);
     field("friction_relative_sd", axis.friction_relative_sd, 0.0F, 2.0F);
+    field("friction_speed_min_m_per_min", axis.friction_speed_min_m_per_min, 0.0F, 1e3F);
+    field("friction_speed_max_m_per_min", axis.friction_speed_max_m_per_min, 0.0F, 1e3F);
+    field("K_x1_sd_A_min2_per_m2", axis.K_x1_sd_A_min2_per_m2, 0.0F, 1e3F);
     field("friction_walk_per_sqrt_s", axis.friction_walk_per_sqrt_s, 0.0F, 1.0F);
     field("friction_ripple_A", axis.friction_ripple_A, 0.0F, 1e2F);
     field("current_sd_A", axis.current_sd_A, 0.0F, 1e3F);

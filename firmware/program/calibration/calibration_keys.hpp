@@ -50,6 +50,13 @@ inline const std::array<CalibrationKey, 6> feed_current_keys{{
     key_of("axis", "gravity_A"),
 }};
 
+/// Range of the feeds, and what they leave open beyond it.
+inline const CalibrationKey slowest_friction_feed_key = key_of("axis", "friction_speed_min_m_per_min");
+inline const CalibrationKey fastest_friction_feed_key = key_of("axis", "friction_speed_max_m_per_min");
+inline const CalibrationKey friction_curvature_sd_key = key_of("axis", "K_x1_sd_A_min2_per_m2");
+
+inline const CalibrationKey feed_gain_key = key_of("axis", "K_x4_N_per_A");
+
 inline const CalibrationKey friction_current_residual_key = key_of("axis", "friction_residual_rms_A");
 
 /// Table [spindle]; order of estimation::SpindleFitIndex.

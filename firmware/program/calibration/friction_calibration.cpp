@@ -72,6 +72,7 @@ struct AxisFit {
     estimation::LeastSquaresSolution<double, 6> solution{};
     unsigned held_at_zero = 0;
     std::vector<FittedValue> left_out;
+    double curvature_sd = 0.0;  ///< of K_x1, the larger of both directions, before any term was left out
 
     [[nodiscard]] bool is_held(int j) const { return ((held_at_zero >> static_cast<unsigned>(j)) & 1U) != 0U; }
     /// Along the motion: positive, unless a sign is reversed.
@@ -89,6 +90,8 @@ AxisFit fit_what_is_determined(const std::vector<SteadyFeed>& feeds) {
     }
     AxisFit result;
     result.solution = fit.solve();
+    result.curvature_sd = std::max(result.solution.standard_error(estimation::positive_K_x1),
+                                   result.solution.standard_error(estimation::negative_K_x1));
     const auto leave_out = [&](std::vector<int> candidates, auto band) {
         while (const auto vague = most_vague(result.solution, candidates, band())) {
             std::erase(candidates, *vague);
@@ -193,6 +196,22 @@ bool check_drift(std::ostream& out, const FrictionDrift& drift) {
     return !changed;
 }
 
+/// The feeds from which the friction is known, and how uncertain it is beyond them.
+void write_range(const std::vector<SteadyFeed>& feeds, const AxisFit& fit, TomlWriter& toml, std::ostream& out) {
+    const auto [slowest, fastest] =
+        std::minmax_element(feeds.begin(), feeds.end(), [](const SteadyFeed& a, const SteadyFeed& b) {
+            return std::abs(a.feed_m_per_min) < std::abs(b.feed_m_per_min);
+        });
+    const double slow = std::abs(slowest->feed_m_per_min);
+    const double fast = std::abs(fastest->feed_m_per_min);
+    toml.key(slowest_friction_feed_key.name, slow);
+    toml.key(fastest_friction_feed_key.name, fast);
+    toml.key(friction_curvature_sd_key.name, fit.curvature_sd);
+    const auto doubt_at_A = [&](double w) { return fit.curvature_sd * (w - fast) * (w - slow); };
+    out << fmt::format("  known from {:.3g} to {:.3g} m/min; at {:.3g} m/min ± {:.2g} A, at {:.3g} m/min ± {:.2g} A\n",
+                       slow, fast, 2.0 * fast, doubt_at_A(2.0 * fast), 10.0 * fast, doubt_at_A(10.0 * fast));
+}
+
 /// Writes the axis' table; returns whether its friction kept.
 bool fit_axis(const std::string& file, char axis, const std::vector<SteadyFeed>& feeds, TomlWriter& toml,
               std::ostream& out) {
@@ -213,6 +232,7 @@ bool fit_axis(const std::string& file, char axis, const std::vector<SteadyFeed>&
     for (const FittedValue& left_out : fit.left_out) {
         print_left_out(out, left_out);
     }
+    write_range(feeds, fit, toml, out);
     toml.key(friction_current_residual_key.name, fit.solution.residual_rms);
     out << fmt::format("  residual {:.4g} A rms\n", fit.solution.residual_rms);
     return check_drift(out, drift_of(feeds, fit));

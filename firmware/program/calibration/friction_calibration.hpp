@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct FrictionCalibrationOptions {
     std::string axis = "x";           ///< table for data of a single axis (position_m, motor_force_N).
     double low_pass_hz = 20.0;        ///< corner for position and force alike
     double minimum_speed_mm_s = 2.0;  ///< slower samples are pre-sliding: left out.
+    std::optional<double> force_constant_N_per_A;  ///< of motor_force_N: the friction as a current is written, too
 };
 
 /// Friction and inertia of feed axes from motion without cutting. The columns show which kind of data it is:

@@ -262,6 +262,32 @@ void report(std::ostream& out, TomlWriter& toml, const Keys& keys, const FormFit
     out << fmt::format("  residual {:.2f} N rms\n", fit.solution.residual_rms);
 }
 
+/// The same friction as the current that the controller takes off: I_f = K_x2 w + K_x3 by direction. What pulls one way
+/// is in gravity_A (estimation/drives/feed_drive.hpp).
+void write_as_current(std::ostream& out, TomlWriter& toml, const FormFit<5>& fit, double force_constant_N_per_A) {
+    constexpr double m_s_per_m_min = 1.0 / 60.0;
+    const double A_per_N = 1.0 / force_constant_N_per_A;
+    const auto value = [&](int j) { return fit.solution.parameters(j) * A_per_N; };
+    const auto error = [&](int j) { return fit.standard_error(j) * A_per_N; };
+    const double dry_A = 0.5 * std::hypot(error(estimation::positive_coulomb), error(estimation::negative_coulomb));
+    using estimation::negative_coulomb;
+    using estimation::positive_coulomb;
+    out << fmt::format("as a current, by {:g} N/A:\n", force_constant_N_per_A);
+    for (const FittedValue& fitted :
+         {FittedValue{feed_current_keys[estimation::positive_K_x2], value(estimation::positive_viscous) * m_s_per_m_min,
+                      error(estimation::positive_viscous) * m_s_per_m_min},
+          FittedValue{feed_current_keys[estimation::negative_K_x2], value(estimation::negative_viscous) * m_s_per_m_min,
+                      error(estimation::negative_viscous) * m_s_per_m_min},
+          FittedValue{feed_current_keys[estimation::common_K_x3],
+                      0.5 * (value(positive_coulomb) + value(negative_coulomb)), dry_A},
+          FittedValue{feed_current_keys[estimation::gravity_offset],
+                      0.5 * (value(positive_coulomb) - value(negative_coulomb)), dry_A}}) {
+        print_fitted(out, fitted);
+        write_fitted(toml, fitted);
+    }
+    toml.key(feed_gain_key.name, force_constant_N_per_A);
+}
+
 void refuse_files_given_twice(const std::vector<std::filesystem::path>& files) {
     for (std::size_t k = 0; k < files.size(); ++k) {
         for (std::size_t j = 0; j < k; ++j) {
@@ -294,6 +320,12 @@ int calibrate_motion_friction(const FrictionCalibrationOptions& options, std::os
     out << "by direction:\n";
     report(out, toml, directional_friction_keys, result.directional);
     toml.key(friction_force_residual_key.name, result.directional.solution.residual_rms);
+    if (options.force_constant_N_per_A) {
+        write_as_current(out, toml, result.directional, *options.force_constant_N_per_A);
+    } else {
+        out << "the controller does not use friction in newtons: with --force-constant K_x2, K_x3, gravity_A and K_x4 "
+               "are written, too\n";
+    }
     file.commit();
     return check_second_half(
                out, second_half(motions, options.minimum_speed_mm_s / 1000.0, result.directional.solution.residual_rms))

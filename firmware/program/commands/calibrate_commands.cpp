@@ -82,6 +82,10 @@ void add_friction(Command& calibrate) {
     command.option("--minimum-speed", options->minimum_speed_mm_s, "Samples below this speed in mm/s are ignored")
         .within(0.001, 1e4)
         .shows_default();
+    command
+        .option("--force-constant", options->force_constant_N_per_A,
+                "Force per ampere of the motor, N/A, of motor_force_N: writes the friction as a current, too")
+        .within(0.001, 1e5);
     command.on_run([options] { return report_when_done(calibrate_friction, *options); });
 }
 

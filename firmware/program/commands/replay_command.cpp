@@ -27,6 +27,7 @@
 #include "replay/replay_candump.hpp"
 #include "replay/replay_findings.hpp"
 #include "replay/replay_mcap.hpp"
+#include "replay/slow_samples.hpp"
 #include "run_log/tool_forces.hpp"
 #include "run_report/run_report.hpp"
 
@@ -86,10 +87,20 @@ Playback playback_of(const ReplayOptions& options, const ToolSet& tools) {
             options.is_watched() ? stop_on_signal() : never_stopped};
 }
 
+/// What a slow source leaves out between two samples (replay/slow_samples.hpp).
+void step_between(firmware::ToolTick& tick, const std::optional<hal::DriveSample>& last, const hal::DriveSample& now,
+                  int parts, const hal::ProgramStatus& program) {
+    for (int part = 1; last && part < parts; ++part) {
+        firmware::step_and_work(tick, sample_between(*last, now, static_cast<double>(part) / parts), program);
+    }
+}
+
 /// The same tick as in the loop, open: the recording goes in, estimates and the override that it would have commanded
 /// come out.
 int replay_table(const ReplayOptions& options) {
-    const ToolSet tools(read_machine_parameters(options.machine), options.tools);
+    const firmware::MachineParameters<float> machine = read_machine_parameters(options.machine);
+    const int parts = parts_of_slow_samples(options.log, machine.encoder_counts_per_rev);
+    const ToolSet tools(for_slow_samples(machine, parts), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
     RecordingReader recording(options.log, parameters.machine.encoder_counts_per_rev);
     if (!recording.has_force_sensor()) {
@@ -104,9 +115,12 @@ int replay_table(const ReplayOptions& options) {
                         recording.has_force_sensor() ? WideBandSource::force_sensor : WideBandSource::drives);
     ReplayMcap mcap(options.mcap, tools);
     ReplayFindings findings(parameters.machine.encoder_counts_per_rev);
+    std::optional<hal::DriveSample> last;
     while (recording.next()) {
         table.show_progress(recording.fraction_read());
         tick.follow_tool(recording.tool(), hal::axes_rest(recording.sample().axis_velocity_mm_s));
+        step_between(tick, last, recording.sample(), parts, program_of(recording, options));
+        last = recording.sample();
         const hal::FeedOverride output =
             firmware::step_and_work(tick, recording.sample(), program_of(recording, options));
         const firmware::TickRecord record = firmware::tick_record(tick.of_tool(), output, 0);
@@ -131,6 +145,12 @@ int replay_table(const ReplayOptions& options) {
         throw InputError(fmt::format("{}: no rows after the header, expected a recording", options.log));
     }
     show_findings(recording, findings, options.log);
+    if (parts > 1) {
+        fmt::print(stderr,
+                   "millforce: note: {}: the spindle turns by {:.2g} revolutions between two samples: forces are "
+                   "averages, changes are seen late, and what happens within a revolution is not\n",
+                   options.log, parts / filled_samples_per_rev);
+    }
     table.show_notes();
     mcap.commit();
     table.commit("", tick.of_tool().wide_band());

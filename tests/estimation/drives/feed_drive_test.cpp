@@ -3,6 +3,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <cmath>
+
 using namespace millforce::estimation;
 
 namespace {
@@ -89,4 +91,48 @@ TEST(FeedDrive, takes_the_moved_mass_out) {
     auto accelerating = moving(10.0, 18.0);
     accelerating.acceleration_mm_s2 = 100.0;
     DOUBLES_EQUAL(-20.0, axis.force_N(accelerating).value - axis.force_N(moving(10.0, 18.0)).value, 1e-9);
+}
+
+TEST(FeedDrive, knows_of_a_standing_axis_what_its_motor_carries_beyond_static_friction) {
+    auto p = paper_axis();
+    p.friction_relative_sd = 0.1;
+    const FeedDrive<double> axis(p);
+    const double held_A = 1.3 * 1.2 * p.K_x3_A;
+    for (const double sign : {-1.0, 1.0}) {
+        CHECK_FALSE(axis.least_force_at_rest_N(moving(0.0, p.gravity_A + sign * 0.99 * held_A)).valid);
+        const auto least_N = axis.least_force_at_rest_N(moving(0.0, p.gravity_A + sign * (held_A + 4.0)));
+        CHECK(least_N.valid);
+        DOUBLES_EQUAL(sign * 400.0, least_N.value, 1e-6);
+    }
+    CHECK_FALSE(axis.least_force_at_rest_N(moving(5.0, p.gravity_A + 2.0 * held_A)).valid);
+}
+
+TEST(FeedDrive, doubts_its_friction_beyond_the_feeds_of_the_calibration) {
+    auto p = paper_axis();
+    p.friction_speed_min_m_per_min = 0.36;
+    p.friction_speed_max_m_per_min = 0.58;
+    p.K_x1_sd_A_min2_per_m2 = 1.31;
+    const FeedDrive<double> axis(p);
+    const auto sd_beyond_N = [&](double w) {
+        const auto average = moving(w / 0.06, p.positive.at(w) + p.K_x3_A + p.gravity_A);
+        return std::sqrt(axis.force_N(average).variance - FeedDrive<double>(paper_axis()).force_N(average).variance);
+    };
+    DOUBLES_EQUAL(0.0, sd_beyond_N(0.4), 1e-3);
+    DOUBLES_EQUAL(100.0 * 1.31 * (6.0 - 0.58) * (6.0 - 0.36), sd_beyond_N(6.0), 1.0);
+    DOUBLES_EQUAL(100.0 * 1.31 * (0.36 - 0.1) * (0.58 - 0.1), sd_beyond_N(0.1), 0.1);
+}
+
+TEST(FeedDrive, learns_nothing_of_the_cuts_feed_from_a_rapid_that_its_calibration_does_not_know) {
+    auto p = paper_axis();
+    p.friction_speed_max_m_per_min = 0.6;
+    p.K_x1_sd_A_min2_per_m2 = 2.0;
+    FeedDrive<double> axis(p);
+    const double w = 6.0;
+    const double truly_A = p.positive.at(w) + p.K_x3_A - 1.5 * w * w;  // its curvature was not determined
+    for (int k = 0; k < 20; ++k) {
+        axis.rezero(moving(w / 0.06, truly_A + p.gravity_A));
+    }
+    CHECK_FALSE(axis.is_implausible());
+    const auto in_the_cut = axis.force_N(moving(5.0, p.positive.at(0.3) + p.K_x3_A + p.gravity_A));
+    CHECK(std::abs(in_the_cut.value) < 2.0 * std::sqrt(in_the_cut.variance));
 }

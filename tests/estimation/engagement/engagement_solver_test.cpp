@@ -153,6 +153,41 @@ TEST(EngagementSolver, has_no_estimate_where_neither_side_explains_the_forces) {
     }
 }
 
+TEST(EngagementSolver, has_no_estimate_of_a_weak_spindle_current_that_the_resting_axis_contradicts) {
+    const Cut slot{.immersion = 1.5};
+    auto forces = measured(slot, 5.0);
+    forces.tangential_N.value *= 0.3;
+    CHECK(solver(0.02).solve(forces, 0.05, CutSide::down).immersion_valid);
+    constexpr double static_friction_N = 300.0;
+    forces.resting.least_N = {true, forces.y_N.value + static_friction_N, 25.0};
+    CHECK(forces.resting.least_N.value < 0.0);
+    CHECK_FALSE(solver(0.02).solve(forces, 0.05, CutSide::down).immersion_valid);
+}
+
+TEST(EngagementSolver, lets_static_friction_or_a_brake_carry_the_force_on_a_resting_axis) {
+    for (const double share_that_the_motor_carries : {0.0, 0.5, 1.0}) {
+        const Cut cut{.immersion = 1.0};
+        const auto without = measured(cut, 5.0);
+        auto with = without;
+        with.resting.least_N = {true, share_that_the_motor_carries * without.y_N.value, 25.0};
+        const auto e = solver(0.02).solve(with, 0.05, CutSide::down);
+        CHECK(e.immersion_valid);
+        DOUBLES_EQUAL(1.0, e.radial_immersion, 0.02);
+        CHECK(e.misfit < 1.0);
+    }
+}
+
+TEST(EngagementSolver, widens_the_interval_of_a_law_that_explains_the_forces_badly) {
+    const auto exact = measured({.immersion = 0.8, .y_moves = true}, 5.0);
+    auto off = exact;
+    off.y_N.value *= 1.1;
+    const auto e = solver(0.02).solve(exact, 0.05, CutSide::down);
+    const auto doubted = solver(0.02).solve(off, 0.05, CutSide::down);
+    CHECK(doubted.misfit > 4.0);
+    CHECK(doubted.immersion_valid);
+    CHECK(doubted.radial_immersion_sd > 1.9 * e.radial_immersion_sd);
+}
+
 TEST(EngagementSolver, gives_no_depth_beyond_the_flutes) {
     EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
     settings.flute_length_mm = 5.0;

@@ -94,6 +94,10 @@ struct FeedDriveParameters {
     Scalar gain_relative_sd{literal<Scalar>(0.03L)};  ///< relative deviation of K_x4, from its calibration
     Scalar friction_relative_sd{
         literal<Scalar>(0.2L)};  ///< relative deviation of I_f before the first re-zeroing in air
+    /// The calibration's feeds: beyond them I_f is less certain (FeedDrive). A largest speed of 0: not known.
+    Scalar friction_speed_min_m_per_min{0};
+    Scalar friction_speed_max_m_per_min{0};
+    Scalar K_x1_sd_A_min2_per_m2{0};  ///< deviation of K_x1 from that calibration, also where it is left out as 0
     Scalar friction_walk_per_sqrt_s{literal<Scalar>(0.002L)};  ///< drift of I_f, relative
     Scalar friction_ripple_A{literal<Scalar>(0.05L)};  ///< position-dependent part of friction that no average removes
     Scalar current_sd_A{literal<Scalar>(0.1L)};        ///< noise of one current sample
@@ -106,7 +110,11 @@ struct FeedDriveParameters {
 ///
 /// positive in the axis' + direction, as a force on the workpiece. κ scales the friction and is re-zeroed in air
 /// (FrictionScale). An axis below its velocity floor, or one that turned round within the average, gives no estimate:
-/// at rest the force hides in static friction, and K_x5/w is singular there. Not thread-safe.
+/// at rest the force hides in static friction, and K_x5/w is singular there.
+///
+/// The calibration knows I_f between its slowest and its fastest feed. At a distance d beyond them, the curvature that
+/// it left open adds σ(K_x1) d (d + w_max − w_min) to the deviation of I_f: by so much two parabolas that agree at both
+/// ends are apart. Not thread-safe.
 template <typename Scalar>
 class FeedDrive {
   public:
@@ -133,13 +141,32 @@ class FeedDrive {
         const Scalar inertial_N = inertial_force_N(average);
         const Scalar force = parameters_.K_x4_N_per_A * cut_A + force_by_speed_N(average) - inertial_N;
         const Scalar friction_variance =
-            square(friction_A) * friction_scale_.variance(direction(average)) + square(parameters_.friction_ripple_A);
+            square(friction_A) * friction_scale_.variance(direction(average)) + other_friction_variance_A2(average);
         const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
                              square(inertia_share_in_doubt * inertial_N);
         return {
             true, force,
             noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
             noise};
+    }
+
+    /// The least force on an axis that stands: what its motor carries beyond static friction. Not valid where static
+    /// friction may carry it all.
+    [[nodiscard]] Measurement<Scalar> least_force_at_rest_N(const Average& average) const {
+        // Break-away is up to a third above K_x3, the friction of a sliding axis, which is known to within two
+        // deviations.
+        constexpr Scalar break_away = literal<Scalar>(1.3L);
+        const Scalar held_A =
+            break_away * parameters_.K_x3_A * (Scalar(1) + Scalar(2) * parameters_.friction_relative_sd);
+        const Scalar shown_A = average.current_A - parameters_.gravity_A;
+        const Scalar beyond_A = shown_A < Scalar(0) ? shown_A + held_A : shown_A - held_A;
+        if (!rests(average) || !(held_A > Scalar(0)) || !(beyond_A * shown_A > Scalar(0))) {
+            return {};
+        }
+        const Scalar force = parameters_.K_x4_N_per_A * beyond_A;
+        const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples;
+        const Scalar by_gain = square(parameters_.gain_relative_sd * parameters_.K_x4_N_per_A * shown_A);
+        return {true, force, noise + by_gain, noise};
     }
 
     /// What a change of current between two averages of so many samples is as a force, at an unchanged velocity
@@ -155,10 +182,13 @@ class FeedDrive {
 
     /// The tool is known to be in air: the current is friction, weight and inertia alone. A current that the stated
     /// deviation of the friction cannot explain teaches nothing: the signal is implausible, and there is no force until
-    /// one in air is plausible again.
+    /// one in air is plausible again. Beyond the calibration's feeds, where I_f itself may be off by as much as its
+    /// drift, nothing is learnt: the same error in each window would not average out.
     void rezero(const Average& average) {
         const Scalar friction_A = signed_friction_A(average);
-        if (!is_steady(average) || !(square(friction_A) > Scalar(0))) {
+        const Scalar drift_A = halved(parameters_.friction_relative_sd * friction_A);
+        const bool is_known_here = !(square(extrapolation_sd_A(average)) > square(drift_A));
+        if (!is_steady(average) || !(square(friction_A) > Scalar(0)) || !is_known_here) {
             return;
         }
         const Scalar other_A =
@@ -177,13 +207,14 @@ class FeedDrive {
     }
 
     [[nodiscard]] bool is_moving(const Average& average) const {
-        if (!average.present || !(average.samples > Scalar(0)) || !(parameters_.K_x4_N_per_A > Scalar(0))) {
-            return false;
-        }
-        const Scalar speed = average.velocity_mm_s < Scalar(0) ? -average.velocity_mm_s : average.velocity_mm_s;
-        const Scalar change = average.acceleration_mm_s2 * average.duration_s * Scalar(0.5F);
-        const Scalar magnitude = change < Scalar(0) ? -change : change;
-        return speed - magnitude >= parameters_.velocity_floor_mm_s;
+        return has_current(average) &&
+               speed_mm_s(average) - speed_change_mm_s(average) >= parameters_.velocity_floor_mm_s;
+    }
+
+    /// It does not move, or by less than it must for its friction to be known.
+    [[nodiscard]] bool rests(const Average& average) const {
+        return has_current(average) &&
+               speed_mm_s(average) + speed_change_mm_s(average) < parameters_.velocity_floor_mm_s;
     }
 
     /// Moving, and at nearly the same speed throughout the average.
@@ -197,6 +228,17 @@ class FeedDrive {
     /// Of M dv/dt: what the slope of an average misses of an acceleration that changes within it.
     static constexpr Scalar inertia_share_in_doubt = literal<Scalar>(0.15L);
 
+    [[nodiscard]] bool has_current(const Average& average) const {
+        return average.present && average.samples > Scalar(0) && parameters_.K_x4_N_per_A > Scalar(0);
+    }
+    [[nodiscard]] static Scalar speed_mm_s(const Average& average) {
+        return average.velocity_mm_s < Scalar(0) ? -average.velocity_mm_s : average.velocity_mm_s;
+    }
+    /// From the middle of the average to its ends.
+    [[nodiscard]] static Scalar speed_change_mm_s(const Average& average) {
+        const Scalar change = halved(average.acceleration_mm_s2 * average.duration_s);
+        return change < Scalar(0) ? -change : change;
+    }
     [[nodiscard]] static std::size_t direction(const Average& average) {
         return average.velocity_mm_s > Scalar(0) ? 1U : 0U;
     }
@@ -219,7 +261,21 @@ class FeedDrive {
         return parameters_.mass_kg * average.acceleration_mm_s2 * m_per_mm;
     }
     [[nodiscard]] Scalar current_variance_A2(const Average& average) const {
-        return square(parameters_.current_sd_A) / average.samples + square(parameters_.friction_ripple_A);
+        return square(parameters_.current_sd_A) / average.samples + other_friction_variance_A2(average);
+    }
+    /// What the scale of the friction does not describe.
+    [[nodiscard]] Scalar other_friction_variance_A2(const Average& average) const {
+        return square(parameters_.friction_ripple_A) + square(extrapolation_sd_A(average));
+    }
+    [[nodiscard]] Scalar extrapolation_sd_A(const Average& average) const {
+        const Scalar slowest = parameters_.friction_speed_min_m_per_min;
+        const Scalar fastest = parameters_.friction_speed_max_m_per_min;
+        const Scalar signed_w = velocity_m_per_min(average);
+        const Scalar w = signed_w < Scalar(0) ? -signed_w : signed_w;
+        const Scalar beyond = w > fastest ? w - fastest : slowest - w;
+        return fastest > Scalar(0) && beyond > Scalar(0)
+                   ? parameters_.K_x1_sd_A_min2_per_m2 * beyond * (beyond + fastest - slowest)
+                   : Scalar(0);
     }
 
     FeedDriveParameters<Scalar> parameters_;

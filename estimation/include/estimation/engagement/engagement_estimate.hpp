@@ -8,12 +8,21 @@
 
 namespace millforce::estimation {
 
+/// The axis of a straight move that stands still. Static friction may carry all of the force on it, and a brake, too;
+/// but what its motor carries beyond static friction is force of the cut.
+template <typename Scalar>
+struct RestingAxis {
+    bool is_x = false;
+    Measurement<Scalar> least_N{};  ///< the force is at least that, in its direction; not valid: nothing is known
+};
+
 /// Average forces as the drives show them, along the machine's axes, acting on the workpiece.
 template <typename Scalar>
 struct AverageForceMeasurement {
     Measurement<Scalar> tangential_N{};      ///< F_at, from the spindle
     Measurement<Scalar> x_N{};               ///< along machine x; not valid if the x drive is at rest
     Measurement<Scalar> y_N{};               ///< along machine y
+    RestingAxis<Scalar> resting{};           ///< the axis whose force is not valid because it is at rest
     Measurement<Scalar> radial_immersion{};  ///< immersion from elsewhere (force drops), if there is one
     Scalar feed_direction_x{1};              ///< unit vector of the tool's travel relative to the workpiece
     Scalar feed_direction_y{0};

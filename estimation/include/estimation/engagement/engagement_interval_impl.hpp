@@ -21,7 +21,7 @@ inline constexpr Scalar J_not_known = literal<Scalar>(1e9L);
 
 template <typename Scalar, int Nodes>
 bool EngagementSolver<Scalar, Nodes>::Search::is_inside(std::size_t node) const {
-    return J_[node] <= best_.misfit + threshold_of_95_percent<Scalar>;
+    return J_[node] <= best_.misfit + rise_of_interval(best_.misfit);
 }
 
 /// The outermost node below the estimate that lies within the interval, or the nearest one.
@@ -81,7 +81,7 @@ void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
     const auto& J = s.J_;
     const std::size_t low = low_end(s);
     const std::size_t high = high_end(s);
-    const Scalar threshold = s.best_.misfit + threshold_of_95_percent<Scalar>;
+    const Scalar threshold = s.best_.misfit + rise_of_interval(s.best_.misfit);
     const auto crossing_rad = [&](std::size_t inside, std::size_t outside) {
         const Scalar rise = J[outside] - J[inside];
         const Scalar share = rise > Scalar(0) ? clamp((threshold - J[inside]) / rise, Scalar(0), Scalar(1)) : Scalar(0);
@@ -89,7 +89,7 @@ void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
         return inside_rad + (forces.angle_rad(Scalar(static_cast<int>(outside))) - inside_rad) * share;
     };
     const Scalar half_by_curvature = s.curvature_ > Scalar(0)
-                                         ? deviations_of_95_percent<Scalar> * sqrt(Scalar(2) / s.curvature_)
+                                         ? sqrt(Scalar(2) * rise_of_interval(s.best_.misfit) / s.curvature_)
                                          : forces.step_rad();
     Scalar theta_low = s.centre_rad_ - half_by_curvature;
     Scalar theta_high = s.centre_rad_ + half_by_curvature;
@@ -130,7 +130,7 @@ void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     const Scalar by_K_s = square(best.depth_mm) * s.profile_.doubt_of_K_s().variance_at(best.ln_t_in_references);
     const Scalar flute_mm = settings_.flute_length_mm;
     e.axial_depth_mm = flute_mm > Scalar(0) && best.depth_mm > flute_mm ? flute_mm : best.depth_mm;
-    const Scalar by_forces = square(spread_mm) + Scalar(1) / best.information;
+    const Scalar by_forces = square(spread_mm) + variance_per_stated(best.misfit) / best.information;
     e.axial_depth_force_sd_mm = sqrt(by_forces);
     e.axial_depth_sd_mm = sqrt(by_forces + by_K_s);
     e.depth_valid = e.immersion_valid && e.axial_depth_sd_mm < e.axial_depth_mm;

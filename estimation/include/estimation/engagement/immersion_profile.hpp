@@ -22,9 +22,10 @@ struct KnownDepth {
 ///   a_p = Σ w m g / Σ w g²,   J(R_r) = Σ w (m − a_p g)²,   w = 1/σ²,   0 ≤ a_p ≤ a_p,max
 ///
 /// σ² of a force along an axis also holds the misfit of the closed law and the uncertainty of r_1 and K_s; an immersion
-/// from another method adds (R_r − R_other)²/σ², a known depth (a_p − a_known)²/σ². a_p,max is the length of the
-/// flutes, larger by two deviations of K_s: an immersion that asks for more explains nothing. Cost of a value: some
-/// hundred instructions at a node of the table, twice as many between nodes. Bodies: immersion_profile_impl.hpp.
+/// from another method adds (R_r − R_other)²/σ², a known depth (a_p − a_known)²/σ². An axis at rest adds (m − a_p
+/// g)²/σ² where its least force m exceeds a_p g; it does not act on a_p. a_p,max is the length of the flutes, larger by
+/// two deviations of K_s: an immersion that asks for more explains nothing. Cost of a value: some hundred instructions
+/// at a node of the table, twice as many between nodes. Bodies: immersion_profile_impl.hpp.
 template <typename Scalar, int Nodes>
 class ImmersionProfile {
   public:
@@ -76,6 +77,8 @@ class ImmersionProfile {
     [[nodiscard]] Term along_axis(const Measurement<Scalar>& force_N, const typename Table::Forces& model,
                                   const LawDoubt& doubt, Scalar direction_x, Scalar direction_y) const;
     [[nodiscard]] Term of_known_depth(const LawDoubt& doubt) const;
+    [[nodiscard]] Scalar misfit_of_resting_axis(const typename Table::Forces& model, const LawDoubt& doubt,
+                                                Scalar depth_mm) const;
 
     AverageForceMeasurement<Scalar> forces_{};  // variances along the axes with the law's misfit
     KnownDepth<Scalar> known_{};

@@ -19,6 +19,7 @@ ImmersionProfile<Scalar, Nodes>::ImmersionProfile(const Table& law, const Averag
     const Scalar law_variance = square(law_relative_sd * forces.tangential_N.value);
     forces_.x_N.variance += law_variance;
     forces_.y_N.variance += law_variance;
+    forces_.resting.least_N.variance += law_variance;
 }
 
 template <typename Scalar, int Nodes>
@@ -73,6 +74,18 @@ typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::
     return {known_.depth_mm, Scalar(1), Scalar(1) / (square(known_.depth_mm) * relative_variance)};
 }
 
+/// Of a force that is smaller than the least one, or opposite to it.
+template <typename Scalar, int Nodes>
+Scalar ImmersionProfile<Scalar, Nodes>::misfit_of_resting_axis(const typename Table::Forces& model,
+                                                               const LawDoubt& doubt, Scalar depth_mm) const {
+    const Scalar t_x = forces_.feed_direction_x;
+    const Scalar t_y = forces_.feed_direction_y;
+    const bool is_x = forces_.resting.is_x;
+    const Term term = along_axis(forces_.resting.least_N, model, doubt, is_x ? t_x : t_y, is_x ? t_y : -t_x);
+    const Scalar missing_N = term.measured - depth_mm * term.per_mm;
+    return missing_N * term.measured > Scalar(0) ? term.weight * square(missing_N) : Scalar(0);
+}
+
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>::value_of(
     const typename Table::Forces& model, Scalar theta_rad) const {
@@ -101,6 +114,7 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
     for (const Term& term : terms) {
         value.misfit += term.weight * square(term.measured - value.depth_mm * term.per_mm);
     }
+    value.misfit += misfit_of_resting_axis(model, doubt, value.depth_mm);
     if (forces_.radial_immersion.valid) {
         const Scalar immersion = Scalar(1) - cos(theta_rad);
         value.misfit += square(immersion - forces_.radial_immersion.value) / forces_.radial_immersion.variance;

@@ -15,6 +15,19 @@ inline constexpr Scalar width_of_95_percent = literal<Scalar>(3.92L);
 template <typename Scalar>
 inline constexpr Scalar threshold_of_95_percent = literal<Scalar>(3.84L);
 
+/// How much larger the variances of the forces must be than stated for the model to explain them: J, of about one
+/// force more than there are unknowns. A model that explains them badly is believed less.
+template <typename Scalar>
+[[nodiscard]] Scalar variance_per_stated(Scalar misfit) {
+    return misfit > Scalar(1) ? misfit : Scalar(1);
+}
+
+/// By how much J rises to the ends of the 95 % interval.
+template <typename Scalar>
+[[nodiscard]] Scalar rise_of_interval(Scalar misfit) {
+    return threshold_of_95_percent<Scalar> * variance_per_stated(misfit);
+}
+
 /// J of a model that does not describe the measured forces. J is a sum of at most two squares in deviations: where the
 /// model holds, one window in 3 000 exceeds it.
 template <typename Scalar>

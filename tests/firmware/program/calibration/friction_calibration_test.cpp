@@ -27,11 +27,12 @@ struct Run {
     toml::table toml;
 };
 
-Run calibrate(const std::vector<std::filesystem::path>& data) {
+Run calibrate(const std::vector<std::filesystem::path>& data, std::optional<double> force_constant_N_per_A = {}) {
     const TemporaryFolder folder;
     FrictionCalibrationOptions options;
     options.data = data;
     options.output = folder.path("out.toml");
+    options.force_constant_N_per_A = force_constant_N_per_A;
     Run run;
     std::ostringstream out;
     run.error = message_of<InputError>([&] { run.code = calibrate_friction(options, out); });
@@ -110,6 +111,24 @@ TEST(FrictionCalibration, sees_that_viscous_friction_of_the_measured_axis_differ
     const double error =
         std::hypot(value(run, "x", "negative_viscous_N_s_per_m_se"), value(run, "x", "positive_viscous_N_s_per_m_se"));
     CHECK(difference > 5.0 * error);
+}
+
+TEST(FrictionCalibration, of_a_motion_with_the_motors_force_constant_gives_what_the_controller_uses) {
+    STRCMP_CONTAINS("the controller does not use friction in newtons", calibrate({measured_axis}).text.c_str());
+    const Run run = calibrate({measured_axis}, 50.0);
+    const auto force_N = [&](double velocity_m_s) {
+        const bool forward = velocity_m_s > 0.0;
+        const double w = 60.0 * std::abs(velocity_m_s);
+        const double friction_A =
+            value(run, "x", forward ? "K_x2_positive_A_min_per_m" : "K_x2_negative_A_min_per_m") * w +
+            value(run, "x", "K_x3_A");
+        return value(run, "x", "K_x4_N_per_A") *
+               (value(run, "x", "gravity_A") + (forward ? friction_A : -friction_A));
+    };
+    DOUBLES_EQUAL(value(run, "x", "positive_viscous_N_s_per_m") * 0.1 + value(run, "x", "positive_coulomb_N"),
+                  force_N(0.1), 1e-6);
+    DOUBLES_EQUAL(-value(run, "x", "negative_viscous_N_s_per_m") * 0.1 - value(run, "x", "negative_coulomb_N"),
+                  force_N(-0.1), 1e-6);
 }
 
 TEST(FrictionCalibration, on_the_first_half_of_the_measured_axis_sees_no_cutting_force_in_the_second) {
@@ -216,6 +235,19 @@ TEST(FrictionCalibration, leaves_out_of_fit_and_file_what_the_feeds_do_not_deter
         DOUBLES_EQUAL(0.012 * 9.0 + 0.09 * 3.0 + 1.9, far_beyond_A, 0.5);
     }
     CHECK(left_out >= 3);
+}
+
+TEST(FrictionCalibration, writes_from_which_feeds_it_is_and_what_they_leave_open_beyond) {
+    const TemporaryFolder folder;
+    const std::vector<double> feeds{6.0, -6.0, 7.8, -7.8, 9.7, -9.7, 6.0, -6.0, 9.7, -9.7};
+    const Run run = calibrate({folder.write("air.csv", recording(feeds, 0.05))});
+    DOUBLES_EQUAL(0.36, value(run, "x", "friction_speed_min_m_per_min"), 0.002);
+    DOUBLES_EQUAL(0.582, value(run, "x", "friction_speed_max_m_per_min"), 0.002);
+    CHECK(value(run, "x", "K_x1_sd_A_min2_per_m2") > 0.1);
+    CHECK(contains(run.text, "known from 0.36 to 0.582 m/min"));
+    const Run wide = calibrate({folder.write(
+        "wide.csv", recording({10.0, -10.0, 50.0, -50.0, 200.0, -200.0, 10.0, -10.0, 200.0, -200.0}, 0.05))});
+    CHECK(value(wide, "x", "K_x1_sd_A_min2_per_m2") < 0.01);
 }
 
 TEST(FrictionCalibration, refuses_a_recording_with_reversed_current_or_in_other_units) {
