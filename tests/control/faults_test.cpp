@@ -244,7 +244,8 @@ TEST(Faults, each_parameter_below_its_range_or_not_finite_is_a_bad_configuration
          {&Parameters::tooth_force_limit_N, &Parameters::setpoint_share, &Parameters::recovery_per_rev,
           &Parameters::slew_up_per_s, &Parameters::slew_down_per_s, &Parameters::entry_feed_per_tooth_mm,
           &Parameters::air_feed_per_tooth_mm, &Parameters::max_feed_per_tooth_mm, &Parameters::contact_force_N,
-          &Parameters::surge_share, &Parameters::depth_step_share, &Parameters::overload_share, &Parameters::stale_s, &Parameters::teeth}) {
+          &Parameters::surge_share, &Parameters::depth_step_share, &Parameters::overload_share, &Parameters::stale_s,
+          &Parameters::teeth}) {
         for (const float value : {0.0F, -1.0F, not_a_number, beyond_all}) {
             CHECK_TRUE(is_refused(positive, value));
         }

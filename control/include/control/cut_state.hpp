@@ -122,9 +122,10 @@ constexpr const char* name(Fault fault) {
 }
 
 constexpr const char* name(Limit limit) {
-    constexpr const char* names[limit_count] = {
-        "none",           "force",       "override_max",   "override_min", "air_feed",   "entry_feed", "surge",
-        "operator_limit", "no_estimate", "feed_per_tooth", "roughness",    "law_misfit", "way_ahead",  "feed_mismatch", "depth_step"};
+    constexpr const char* names[limit_count] = {"none",        "force",          "override_max", "override_min",
+                                                "air_feed",    "entry_feed",     "surge",        "operator_limit",
+                                                "no_estimate", "feed_per_tooth", "roughness",    "law_misfit",
+                                                "way_ahead",   "feed_mismatch",  "depth_step"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

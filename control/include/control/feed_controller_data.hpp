@@ -47,8 +47,8 @@ struct FeedControllerParameters {
     /// Override at which the program has run before, and no contact broke a tooth: what may come without warning holds
     /// the feed no lower. 0: not known.
     Scalar proven_override{0};
-    Scalar turn_radial_immersion{2};             ///< immersion assumed after a sharp turn of the path; 0: none
-    Scalar turn_travel_mm{2};                    ///< travel after a turn for which that immersion is assumed
+    Scalar turn_radial_immersion{2};  ///< immersion assumed after a sharp turn of the path; 0: none
+    Scalar turn_travel_mm{2};         ///< travel after a turn for which that immersion is assumed
     Scalar overload_share{
         literal<Scalar>(1.35L)};     ///< share of the limit above which the feed is held and the fault latched
     Scalar overload_revolutions{3};  ///< length of an overload that is a fault, though the override already falls

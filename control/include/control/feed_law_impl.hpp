@@ -57,8 +57,7 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
 
 template <typename Scalar>
 bool FeedLaw<Scalar>::guards_against_a_step(const Parameters& parameters, const ControlInput<Scalar>& input) {
-    return !input.way.known &&
-           parameters.depth_step_share < parameters.setpoint_share * parameters.depth_step_ratio;
+    return !input.way.known && parameters.depth_step_share < parameters.setpoint_share * parameters.depth_step_ratio;
 }
 
 template <typename Scalar>
@@ -79,8 +78,8 @@ Scalar FeedLaw<Scalar>::not_below_safe_feed(const Parameters& parameters, const 
     if (!(safe.present_force_N > Scalar(0))) {
         return safe.override_ratio;
     }
-    const Scalar certain = override_for(
-        parameters, input, {parameters.setpoint_share, safe.present_force_N, input.cut.cutting_share});
+    const Scalar certain =
+        override_for(parameters, input, {parameters.setpoint_share, safe.present_force_N, input.cut.cutting_share});
     const Scalar floor = safe.override_ratio < certain ? safe.override_ratio : certain;
     return demand > floor ? demand : floor;
 }

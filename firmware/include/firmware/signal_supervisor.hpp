@@ -24,8 +24,9 @@
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
 ///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions
-///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is that move's
-///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer
+///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is that
+///   move's feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for
+///   longer
 ///                      than the CNC takes to react and 0.15 s. Whether it follows the override is not judged: a
 ///                      recording may have been made without one.
 ///
