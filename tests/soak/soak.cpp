@@ -183,7 +183,7 @@ int run(std::uint64_t hours) {
     std::barrier both(2);  // where they meet, one of them measures
     std::array<MemoryInUse, 2> memory;
     std::uint64_t milled = 0;
-    bool goes_on = true;
+    std::atomic<bool> goes_on{true};
     std::jthread beside([&] {
         for (std::uint64_t hour = 0; goes_on; ++hour) {
             fixed_endurance.run_hour(hour);
