@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include "control/cut_state.hpp"
+#include "replay/slow_samples.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-/// Beyond it the direction of the turn is not known (estimation/signal/encoder_angle.hpp).
-constexpr double farthest_rev = 0.45;
 constexpr std::size_t few_samples = 20;  // in which no force is to be expected
 
 }  // namespace

@@ -14,9 +14,6 @@ namespace millforce::host {
 
 namespace {
 
-/// The tick cannot tell the direction of a longer turn (estimation/signal/encoder_angle.hpp).
-constexpr double farthest_rev = 0.45;
-
 double middle_turn_rev(RecordingReader& recording, std::uint32_t encoder_counts_per_rev) {
     constexpr std::size_t looked_at = 2000;
     std::vector<double> turns_rev;

@@ -13,6 +13,9 @@ namespace millforce::host {
 /// the tick then cannot tell the direction of the turn. Between two samples the spindle is taken to turn evenly and all
 /// else to change evenly; so the averages over revolutions hold, and nothing within a revolution does.
 
+/// The tick cannot tell the direction of a longer turn (estimation/signal/encoder_angle.hpp).
+inline constexpr double farthest_rev = 0.45;
+
 /// Samples in a revolution that the tick is given of such a recording.
 inline constexpr double filled_samples_per_rev = 20.0;
 
