@@ -13,10 +13,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "commands/command_line.hpp"
 #include "commands/plant_commands.hpp"
+#include "files/input_error.hpp"
 #include "firmware/tick.hpp"
 #include "loop/recorder.hpp"
 #include "loop/simulation.hpp"
@@ -145,9 +148,20 @@ int bench(const std::string& path) {
 
 void add_bench(host::Command& program) {
     auto scenario = std::make_shared<std::string>();
-    host::Command command = program.subcommand("bench", "Print the performance tables");
-    command.option("scenario", *scenario, "Scenario to run").required().value_name("SCENARIO.toml");
-    command.on_run([scenario] { return bench(*scenario); });
+    auto exit_code_of_control = std::make_shared<std::optional<int>>();
+    host::Command command =
+        program.subcommand("bench", "Print the performance tables; 'bench control' compares feed controllers");
+    command.option("scenario", *scenario, "Scenario to run").value_name("SCENARIO.toml");
+    add_bench_control(command, exit_code_of_control);
+    command.on_run([scenario, exit_code_of_control] {
+        if (*exit_code_of_control) {
+            return **exit_code_of_control;
+        }
+        if (scenario->empty()) {
+            throw host::InputError("bench: expected SCENARIO.toml or 'control'");
+        }
+        return bench(*scenario);
+    });
 }
 
 }  // namespace millforce::sim

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "commands/command_line.hpp"
 
 namespace millforce::sim {
@@ -13,6 +16,8 @@ void add_plant(host::Command& program);
 void add_ensemble(host::Command& program);
 void add_kinds(host::Command& program);
 void add_bench(host::Command& program);
+/// Below `bench`, whose own function is called after this one: `exit_code` tells it that this one has run.
+void add_bench_control(host::Command& bench, const std::shared_ptr<std::optional<int>>& exit_code);
 void add_reproduce(host::Command& program);
 void add_cut_table(host::Command& program);
 

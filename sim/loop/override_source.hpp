@@ -107,28 +107,7 @@ class ConstantFeed : public OverrideSource {
     float ratio_;
 };
 
-/// The habit of today's adaptive controls: hold the spindle load at one reference per tool, learnt by teach-in, with a
-/// fixed gain; the engagement is not known. The reference here is the mean load at which the tooth's limit is reached
-/// in a slot, so that the tool is safe in the worst engagement.
-class ConstantLoad : public OverrideSource {
-  public:
-    ConstantLoad(const firmware::Parameters<float>& parameters, double reference_tangential_N);
-    hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
-    void describe(TracePoint& point) const override { monitor_.describe(point); }
-
-  private:
-    firmware::CncParameters<float> cnc_;
-    MillforceController monitor_;
-    float reference_N_;
-    float ratio_;
-    float filtered_N_ = 0.0F;
-};
-
-/// The load that a teach-in would set for a tool: the mean tangential force at which the tooth's limit is reached in a
-/// slot at the entry feed, at a quarter of the flute length.
-double constant_load_reference_N(const firmware::Parameters<float>& parameters);
-
-/// The controllers by name: "millforce", "millforce_fixed", "constant", "constant_load".
+/// The controllers by name: "millforce", "millforce_fixed", "constant".
 std::vector<std::string> controller_names();
 /// One of them. `constant_ratio`: the override of "constant".
 std::unique_ptr<OverrideSource> controller_named(const std::string& name, const firmware::Parameters<float>& parameters,

@@ -79,7 +79,7 @@ struct RunFigures {
 };
 
 struct RunResult {
-    std::string controller;  ///< "millforce", "millforce_fixed", "constant", "constant_hindsight", "constant_load"
+    std::string controller;  ///< "millforce", "millforce_fixed", "constant", "constant_hindsight"
     std::vector<TracePoint> trace;
     RunFigures figures;
 };

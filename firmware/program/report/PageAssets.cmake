@@ -16,7 +16,7 @@ add_custom_target(embedded_assets)
 function(millforce_embed_assets target header namespace)
     set(assets ${ARGN})
     set(files ${ARGN})
-    list(FILTER files INCLUDE REGEX "[.](html|css|js)$")
+    list(FILTER files INCLUDE REGEX "[.](html|css|js|toml)$")
     set(script ${PROJECT_SOURCE_DIR}/firmware/program/report/embed_assets.cmake)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/assets/${target}.cpp)
     add_custom_command(

@@ -261,7 +261,7 @@ def simulate(scenario: PathLike, controller: str | float | Callable[[Message], A
              current_noise_share: float | None = None, recording: PathLike | None = None) -> Run:
     """Mills a scenario in closed loop. The same arguments give the same run.
 
-    `controller`: "millforce", "millforce_fixed" or "constant_load"; a number, which is a constant override; or a
+    `controller`: "millforce" or "millforce_fixed"; a number, which is a constant override; or a
     function that is called with each sample's message and returns what Plant.step takes. With the names and a number,
     `recording` is a file for each sample that the controller saw, as `millforce simulate --record` writes it.
     `cutting_force_scale` and `friction_scale` are true values over those the controller knows, `current_noise_share`

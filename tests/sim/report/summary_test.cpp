@@ -47,7 +47,7 @@ std::string line_with(const std::string& text, const std::string& label) {
 
 TEST_GROUP(Summary) {
     ScenarioInfo info;
-    std::vector<RunResult> runs{run_of("millforce", 61.2), run_of("constant", 98.4), run_of("constant_load", 70.0)};
+    std::vector<RunResult> runs{run_of("millforce", 61.2), run_of("constant", 98.4), run_of("socket", 70.0)};
 
     void setup() override {
         info.name = "pocket";

@@ -105,9 +105,9 @@ TEST(TraceCsv, AControllerNameWithACommaIsQuoted) {
 TEST(TraceCsv, TheControlledRunIsTraceCsvAndABaselineNamesItself) {
     std::vector<RunResult> runs(3);
     runs[0].controller = "millforce";
-    runs[1].controller = "constant_load";
+    runs[1].controller = "constant_hindsight";
     runs[2].controller = "../x y";
     STRCMP_EQUAL("trace.csv", trace_file_name(runs[0], runs).c_str());
-    STRCMP_EQUAL("trace_constant_load.csv", trace_file_name(runs[1], runs).c_str());
+    STRCMP_EQUAL("trace_constant_hindsight.csv", trace_file_name(runs[1], runs).c_str());
     STRCMP_EQUAL("trace____x_y.csv", trace_file_name(runs[2], runs).c_str());
 }

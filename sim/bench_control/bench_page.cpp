@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_control/bench_page.hpp"
+
+#include <fmt/format.h>
+
+#include "bench_control/bench_assets.hpp"
+#include "bench_control/text_file.hpp"
+#include "report/page_assets.hpp"
+#include "report/page_parts.hpp"
+#include "report/page_template.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+std::string table_html(const BenchTable& table) {
+    std::string html = "<table class=\"figures\">\n<thead><tr>";
+    for (const std::string& cell : table.head) {
+        html += fmt::format("<th scope=\"col\">{}</th>", host::html_escaped(cell));
+    }
+    html += "</tr></thead>\n<tbody>\n";
+    for (const auto& row : table.rows) {
+        html += fmt::format("<tr><th scope=\"row\">{}</th>", host::html_escaped(row.front()));
+        for (std::size_t k = 1; k < row.size(); ++k) {
+            html += fmt::format("<td>{}</td>", host::html_escaped(row[k]));
+        }
+        html += "</tr>\n";
+    }
+    return html + "</tbody>\n</table>\n";
+}
+
+std::string facts_html(const host::Facts& facts) {
+    std::string html;
+    for (const auto& [name, value] : facts) {
+        html += host::fact_html(name, value);
+    }
+    return html;
+}
+
+}  // namespace
+
+void write_bench_page(const std::filesystem::path& folder, const std::vector<BenchRun>& runs,
+                      const host::Facts& origin) {
+    const std::vector<ContenderFigures> figures = figures_of_runs(runs);
+    const std::vector<PartFigures> parts = figures_of_parts(runs, figures);
+    std::string plots;
+    for (const BenchPlot& plot : bench_plots(figures, parts)) {
+        write_text_file(folder / plot.file_name, "<!-- SPDX-License-Identifier: Apache-2.0 -->\n" + plot.svg);
+        plots += "<figure>\n" + plot.svg + "</figure>\n";
+    }
+    const std::string table = table_html(table_of(figures));
+    const std::string part_table = table_html(table_of_parts(parts, figures));
+    const std::string facts = facts_html(origin);
+    write_text_file(folder / "bench.html", host::filled(bench_assets::page_template(),
+                                                   {
+                                                       {"report_style", host::page_assets::report_style()},
+                                                       {"facts", facts},
+                                                       {"table", table},
+                                                       {"plots", plots},
+                                                       {"part_table", part_table},
+                                                   }));
+}
+
+}  // namespace millforce::sim

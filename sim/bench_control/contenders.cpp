@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_control/contenders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bench_control/disturbance.hpp"
+#include "bench_control/load_control.hpp"
+#include "bench_control/load_rules.hpp"
+#include "loop/simulation.hpp"
+#include "preview/clairvoyant.hpp"
+#include "preview/preview.hpp"
+
+namespace millforce::sim {
+
+namespace {
+
+using enum Contender::Kind;
+
+constexpr std::array all_contenders{
+    Contender{"ours", "millforce, without a map", ours},
+    Contender{"ours_map", "millforce, map from geometry", ours, BenchMachine::currents, true},
+    Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, BenchMachine::spindle_alone, true},
+    Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, BenchMachine::converter, true},
+    Contender{"constant", "Constant feed, safe everywhere", rival},
+    Contender{"afc", "AFC (HEIDENHAIN)", rival},
+    Contender{"haas", "Autofeed (Haas)", rival},
+    Contender{"toolscope", "TS-AFC (ToolScope)", rival},
+    Contender{"synfct", "SYNFCT (Siemens)", rival},
+    Contender{"pid", "PID on the load (LinuxCNC)", rival},
+    Contender{"plan", "the clairvoyant bound", bound},
+};
+
+const Scenario& drawn(const PreparedPart& part, BenchMachine machine) {
+    return part.on_machine[static_cast<std::size_t>(machine)];
+}
+
+std::unique_ptr<OverrideSource> controller_of(const Contender& contender, const PreparedPart& part,
+                                              const Scenario& plant, const RuleSettings& settings) {
+    if (contender.kind == rival) {
+        const auto found = settings.find(contender.name);
+        return std::make_unique<LoadControl>(
+            load_settings(plant, part.feed_ratio, part.taught_load),
+            make_rule(contender.name, found->second, 0.5 * part.part.tool_diameter_mm));
+    }
+    if (contender.has_map) {
+        return std::make_unique<MappedController>(plant.parameters, part.map);
+    }
+    return std::make_unique<MillforceController>(plant.parameters);
+}
+
+/// The thickest chip that a tooth meets: f_z where the cut reaches the tool's front, else f_z sin φ at its edge.
+double thickest_chip_mm(double feed_per_tooth_mm, double radial_immersion) {
+    const double cosine = 1.0 - std::min(radial_immersion, 1.0);
+    return feed_per_tooth_mm * std::sqrt(1.0 - cosine * cosine);
+}
+
+double rubbing_s(const RunResult& result, const PreparedPart& part) {
+    const auto& tool = drawn(part, BenchMachine::currents).parameters.tool;
+    const double least_mm = static_cast<double>(tool.law.minimum_chip_thickness_mm);
+    const double teeth_per_s = part.part.spindle_rpm / 60.0 * part.part.teeth;
+    double sum_s = 0.0;
+    double last_s = 0.0;
+    for (const TracePoint& point : result.trace) {
+        const bool is_cutting = std::isfinite(point.true_radial_immersion);
+        if (is_cutting && thickest_chip_mm(point.feed_mm_s / teeth_per_s, point.true_radial_immersion) < least_mm) {
+            sum_s += point.time_s - last_s;
+        }
+        last_s = point.time_s;
+    }
+    return sum_s;
+}
+
+BenchRun figures_of(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
+                    const RunResult& result) {
+    const RunFigures& figures = result.figures;
+    BenchRun run;
+    run.part = part.part.name;
+    run.controller = contender.name;
+    run.seed = seed;
+    run.time_s = figures.time_s;
+    run.cutting_time_s = figures.cutting_time_s;
+    run.peak_over_limit = figures.peak_over_limit;
+    run.revolutions_over = figures.time_over_limit_s * part.part.spindle_rpm / 60.0;
+    run.teeth_broken = figures.teeth_broken;
+    run.rubbing_s = rubbing_s(result, part);
+    run.finished = figures.finished ? 1.0 : 0.0;
+    return run;
+}
+
+}  // namespace
+
+std::span<const Contender> contenders() {
+    return all_contenders;
+}
+
+const Contender* contender_named(std::string_view name) {
+    const auto* const found = std::ranges::find(all_contenders, name, &Contender::name);
+    return found == all_contenders.end() ? nullptr : found;
+}
+
+PreparedPart prepare(const std::filesystem::path& folder, const BenchPart& part) {
+    write_part_files(folder, part);
+    PreparedPart prepared{part, {}, {}};
+    for (const auto machine : {BenchMachine::currents, BenchMachine::spindle_alone, BenchMachine::converter}) {
+        prepared.on_machine[static_cast<std::size_t>(machine)] = read_bench_part(folder, part, machine);
+    }
+    const Scenario& scenario = drawn(prepared, BenchMachine::currents);
+    prepared.map = preview(scenario);
+    prepared.safe_ratio = safe_constant_override(scenario);
+    return prepared;
+}
+
+void teach(PreparedPart& prepared, double feed_share) {
+    constexpr double patience = 4.0;
+    prepared.feed_ratio = feed_share * prepared.safe_ratio;
+    const TaughtCut taught = taught_cut(drawn(prepared, BenchMachine::currents), prepared.feed_ratio);
+    prepared.taught_load = taught.load;
+    prepared.longest_run_s = patience * taught.time_s;
+}
+
+BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
+                       const RuleSettings& settings) {
+    const Scenario plant =
+        disturbed(drawn(part, contender.machine), drawn_disturbance(seed), part.part.depth_mm, seed);
+    if (contender.kind == bound) {
+        RunResult result;
+        result.figures = clairvoyant_run(plant);
+        return figures_of(contender, part, seed, result);
+    }
+    SimulationSettings simulation;
+    simulation.longest_run_s = part.longest_run_s;
+    const auto controller = controller_of(contender, part, plant, settings);
+    return figures_of(contender, part, seed,
+                      simulate(plant, *controller, std::string(contender.name), simulation).result);
+}
+
+}  // namespace millforce::sim
