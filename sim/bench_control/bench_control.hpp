@@ -27,8 +27,8 @@ using BenchProgress = std::function<void(const std::string& what, double share)>
 /// Writes the parts' files into OUT/parts and works out what their runs need, on all threads. Parts are not taught yet.
 [[nodiscard]] std::vector<PreparedPart> prepare_all(const BenchSettings& settings, const BenchProgress& progress);
 
-/// All runs that OUT/runs.csv does not hold yet, in the order of seeds, so that an interrupted benchmark has a little of
-/// everything. Returns those of the settings' parts, contenders and seeds. Throws InputError.
+/// All runs that OUT/runs.csv does not hold yet, in the order of seeds, so that an interrupted benchmark has a little
+/// of everything. Returns those of the settings' parts, contenders and seeds. Throws InputError.
 [[nodiscard]] std::vector<BenchRun> run_bench(const BenchSettings& settings, const BenchProgress& progress);
 
 }  // namespace millforce::sim

@@ -51,14 +51,14 @@ void write_bench_page(const std::filesystem::path& folder, const std::vector<Ben
     const std::string table = table_html(table_of(figures));
     const std::string part_table = table_html(table_of_parts(parts, figures));
     const std::string facts = facts_html(origin);
-    write_text_file(folder / "bench.html", host::filled(bench_assets::page_template(),
-                                                   {
-                                                       {"report_style", host::page_assets::report_style()},
-                                                       {"facts", facts},
-                                                       {"table", table},
-                                                       {"plots", plots},
-                                                       {"part_table", part_table},
-                                                   }));
+    write_text_file(folder / "bench.html",
+                    host::filled(bench_assets::page_template(), {
+                                                                    {"report_style", host::page_assets::report_style()},
+                                                                    {"facts", facts},
+                                                                    {"table", table},
+                                                                    {"plots", plots},
+                                                                    {"part_table", part_table},
+                                                                }));
 }
 
 }  // namespace millforce::sim

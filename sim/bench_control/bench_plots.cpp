@@ -34,12 +34,16 @@ std::string colour_of(const Contender& contender) {
 class RowPlot {
   public:
     RowPlot(std::string title, double low, double high, std::size_t rows)
-        : title_(std::move(title)), low_(low), high_(high), height_(plot_top + row_height * static_cast<double>(rows) + 30.0) {
+        : title_(std::move(title)),
+          low_(low),
+          high_(high),
+          height_(plot_top + row_height * static_cast<double>(rows) + 30.0) {
         text(plot_left, 18.0, "start", title_);
     }
 
     [[nodiscard]] double x(double value) const {
-        return plot_left + (plot_width - plot_left - plot_right) * (std::clamp(value, low_, high_) - low_) / (high_ - low_);
+        return plot_left +
+               (plot_width - plot_left - plot_right) * (std::clamp(value, low_, high_) - low_) / (high_ - low_);
     }
     [[nodiscard]] static double y(std::size_t row) { return plot_top + row_height * (static_cast<double>(row) + 0.5); }
 
@@ -71,8 +75,7 @@ class RowPlot {
     }
 
   private:
-    void line(double x1, double y1, double x2, double y2, double thickness, const std::string& colour,
-              double opacity) {
+    void line(double x1, double y1, double x2, double y2, double thickness, const std::string& colour, double opacity) {
         svg_ += fmt::format(
             "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"{}\" "
             "stroke-opacity=\"{}\"/>\n",

@@ -128,18 +128,17 @@ std::vector<PartFigures> figures_of_parts(const std::vector<BenchRun>& runs,
 
 BenchTable table_of(const std::vector<ContenderFigures>& figures) {
     BenchTable table;
-    table.head = {"controller",  "runs",       "time over the bound, median", "95 %",         "peak, median", "95 %",
-                  "worst",       "revolutions above the limit, a part",       "teeth broken", "rubbing",      "not finished"};
+    table.head = {"controller",  "runs",  "time over the bound, median",         "95 %",         "peak, median",
+                  "95 %",        "worst", "revolutions above the limit, a part", "teeth broken", "rubbing",
+                  "not finished"};
     for (const ContenderFigures& f : figures) {
         const bool is_bound = f.contender->kind == Contender::Kind::bound;
-        table.rows.push_back({std::string(f.contender->title), fmt::to_string(f.runs), ratio_text(f.time(0.5)),
-                              ratio_text(f.time(0.95)), percent_text(f.peak(0.5)), percent_text(f.peak(0.95)),
-                              percent_text(f.peak(1.0)), fmt::format("{:.1f}", f.revolutions_over_mean),
-                              f.teeth_broken == 0
-                                  ? "0"
-                                  : fmt::format("{} in {} runs", f.teeth_broken, f.runs_with_a_broken_tooth),
-                              is_bound ? "–" : fmt::format("{:.1f} %", 100.0 * f.rubbing_share),
-                              fmt::to_string(f.unfinished)});
+        table.rows.push_back(
+            {std::string(f.contender->title), fmt::to_string(f.runs), ratio_text(f.time(0.5)), ratio_text(f.time(0.95)),
+             percent_text(f.peak(0.5)), percent_text(f.peak(0.95)), percent_text(f.peak(1.0)),
+             fmt::format("{:.1f}", f.revolutions_over_mean),
+             f.teeth_broken == 0 ? "0" : fmt::format("{} in {} runs", f.teeth_broken, f.runs_with_a_broken_tooth),
+             is_bound ? "–" : fmt::format("{:.1f} %", 100.0 * f.rubbing_share), fmt::to_string(f.unfinished)});
     }
     return table;
 }

@@ -72,8 +72,7 @@ double rubbing_s(const RunResult& result, const PreparedPart& part) {
     return sum_s;
 }
 
-BenchRun figures_of(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
-                    const RunResult& result) {
+BenchRun figures_of(const Contender& contender, const PreparedPart& part, std::uint64_t seed, const RunResult& result) {
     const RunFigures& figures = result.figures;
     BenchRun run;
     run.part = part.part.name;
@@ -122,8 +121,7 @@ void teach(PreparedPart& prepared, double feed_share) {
 
 BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
                        const RuleSettings& settings) {
-    const Scenario plant =
-        disturbed(drawn(part, contender.machine), drawn_disturbance(seed), part.part.depth_mm, seed);
+    const Scenario plant = disturbed(drawn(part, contender.machine), drawn_disturbance(seed), part.part.depth_mm, seed);
     if (contender.kind == bound) {
         RunResult result;
         result.figures = clairvoyant_run(plant);

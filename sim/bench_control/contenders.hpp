@@ -40,9 +40,9 @@ struct PreparedPart {
     BenchPart part;
     std::array<Scenario, 3> on_machine;  ///< by BenchMachine
     host::PartMap map;
-    double safe_ratio = 0.0;    ///< largest constant feed over F that is safe for a K_s 30 % higher, on the drawn blank
-    double feed_ratio = 0.0;    ///< F of the rules
-    double taught_load = 0.0;   ///< largest load at that F
+    double safe_ratio = 0.0;   ///< largest constant feed over F that is safe for a K_s 30 % higher, on the drawn blank
+    double feed_ratio = 0.0;   ///< F of the rules
+    double taught_load = 0.0;  ///< largest load at that F
     double longest_run_s = 0.0;  ///< a run that takes so long is given up
 };
 

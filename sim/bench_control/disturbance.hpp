@@ -14,9 +14,9 @@ struct Disturbance {
     double friction_scale = 1.0;       ///< of axes and spindle: 0.8 … 1.2
     double runout_mm = 0.006;          ///< 0 … 20 µm
     double runout_angle_rad = 0.0;
-    double current_noise_share = 0.01;   ///< of the rated current, per sample: 0.3 … 3 %
-    double override_latency_s = 0.010;   ///< 10 … 100 ms
-    double offset_x_mm = 0.0;            ///< of the blank: -1 … 1 mm
+    double current_noise_share = 0.01;  ///< of the rated current, per sample: 0.3 … 3 %
+    double override_latency_s = 0.010;  ///< 10 … 100 ms
+    double offset_x_mm = 0.0;           ///< of the blank: -1 … 1 mm
     double offset_y_mm = 0.0;
     double oversize = 0.0;  ///< 0 … 10 %: of the deepest cut, by which all tops are higher
 };

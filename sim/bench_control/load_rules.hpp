@@ -8,8 +8,8 @@
 
 /// How today's products set a feed by the spindle's load, each by its published rule. A load is the spindle's current
 /// above that of idling, as a share of the rated current. A rule's answer is a factor on F, within the window of
-/// 50 to 130 % that all are given. Where a product leaves a setting to its user, it is a parameter with a range, and the
-/// benchmark chooses its value on the training parts.
+/// 50 to 130 % that all are given. Where a product leaves a setting to its user, it is a parameter with a range, and
+/// the benchmark chooses its value on the training parts.
 
 namespace millforce::sim {
 
@@ -73,8 +73,8 @@ class AfcRule : public LoadRule {
 };
 
 /// Haas Autofeed (Haas UK, "Protect your tools"; parameters 299 to 301): every 0.1 s; above the tool's load limit the
-/// feed falls by 20 % per second, below 95 % of the limit it rises by 10 % per second, up to the feed that was in effect
-/// when the cut began.
+/// feed falls by 20 % per second, below 95 % of the limit it rises by 10 % per second, up to the feed that was in
+/// effect when the cut began.
 class HaasRule : public LoadRule {
   public:
     struct Settings {
@@ -118,9 +118,9 @@ class SynfctRule : public LoadRule {
     Settings settings_;
 };
 
-/// A PID controller of the spindle's load on the adaptive feed, as users of LinuxCNC build it from the components pid(9)
-/// and motion.adaptive-feed (M52): error = 1 − load / reference, bias 1, limited output, the integral held while it is
-/// at a limit.
+/// A PID controller of the spindle's load on the adaptive feed, as users of LinuxCNC build it from the components
+/// pid(9) and motion.adaptive-feed (M52): error = 1 − load / reference, bias 1, limited output, the integral held while
+/// it is at a limit.
 class PidRule : public LoadRule {
   public:
     struct Settings {

@@ -37,9 +37,8 @@ std::string tool_text(const BenchPart& part) {
         "maximum_chip_thickness_mm = 0.1445\n\n"
         "[control]\nsetpoint_share = 0.95\nentry_feed_per_tooth_mm = {:.4f}\nair_feed_per_tooth_mm = {:.4f}\n"
         "max_feed_per_tooth_mm = {:.3f}\nhighest_programmed_feed_mm_s = {:.3f}\n",
-        part.name, d, part.teeth, part.teeth, d, 2.2 * d, part.shape == "one_way" ? "up" : "down", tooth_force_limit_N(d),
-        0.0018 * d,
-        0.0018 * d, 0.02 * d, programmed_feed_mm_min(part) / 60.0);
+        part.name, d, part.teeth, part.teeth, d, 2.2 * d, part.shape == "one_way" ? "up" : "down",
+        tooth_force_limit_N(d), 0.0018 * d, 0.0018 * d, 0.02 * d, programmed_feed_mm_min(part) / 60.0);
 }
 
 std::string box_text(std::string_view heading, const StockBox& box) {
@@ -57,8 +56,9 @@ std::string stock_text(const StockSettings& stock) {
         text += box_text("\n[[stock.box]]", box);
     }
     for (const StockCylinder& hole : stock.drilled) {
-        text += fmt::format("\n[[stock.drilled]]\nx_mm = {:.3f}\ny_mm = {:.3f}\ndiameter_mm = {:.3f}\ntop_mm = {:.3f}\n",
-                            hole.x_mm, hole.y_mm, hole.diameter_mm, hole.top_mm);
+        text +=
+            fmt::format("\n[[stock.drilled]]\nx_mm = {:.3f}\ny_mm = {:.3f}\ndiameter_mm = {:.3f}\ntop_mm = {:.3f}\n",
+                        hole.x_mm, hole.y_mm, hole.diameter_mm, hole.top_mm);
     }
     return text;
 }

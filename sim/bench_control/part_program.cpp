@@ -334,11 +334,16 @@ struct Shape {
 };
 
 constexpr Shape shapes[] = {
-    {"spiral", draw_spiral},     {"long_way", draw_long_way}, {"plain", draw_slot},      {"shoulder", draw_shoulder},
-    {"step", draw_step},         {"turn", draw_turn},         {"equal", draw_equal_ribs}, {"growing", draw_growing_ribs},
-    {"passes", draw_rib_passes}, {"zigzag", draw_zigzag},     {"holes", draw_holes},     {"one_way", draw_one_way},
-    {"ramp", draw_ramp},         {"stairs", draw_stairs},     {"doubling", draw_doubling}, {"outwards", draw_outwards},
-    {"trochoid", draw_trochoid}, {"boss", draw_boss},         {"island", draw_island},
+    {"spiral", draw_spiral},     {"long_way", draw_long_way},
+    {"plain", draw_slot},        {"shoulder", draw_shoulder},
+    {"step", draw_step},         {"turn", draw_turn},
+    {"equal", draw_equal_ribs},  {"growing", draw_growing_ribs},
+    {"passes", draw_rib_passes}, {"zigzag", draw_zigzag},
+    {"holes", draw_holes},       {"one_way", draw_one_way},
+    {"ramp", draw_ramp},         {"stairs", draw_stairs},
+    {"doubling", draw_doubling}, {"outwards", draw_outwards},
+    {"trochoid", draw_trochoid}, {"boss", draw_boss},
+    {"island", draw_island},
 };
 
 }  // namespace

@@ -45,7 +45,8 @@ class TrainingRuns {
         : parts_(parts), first_seed_(first_seed), seeds_(static_cast<std::size_t>(seeds)), threads_(threads) {}
 
     void teach_all(double feed_share) {
-        run_parallel(parts_.size(), threads_, [&](std::size_t k) { teach(parts_[k], feed_share); }, [](double) {});
+        run_parallel(
+            parts_.size(), threads_, [&](std::size_t k) { teach(parts_[k], feed_share); }, [](double) {});
     }
 
     double cost(const RuleDescription& rule, const std::vector<double>& values) {

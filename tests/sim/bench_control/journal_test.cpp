@@ -17,7 +17,9 @@ BenchRun run_of(const std::string& part, const std::string& controller, std::uin
 
 }  // namespace
 
-TEST_GROUP(Journal) { test::TemporaryFolder folder; };
+TEST_GROUP(Journal) {
+    test::TemporaryFolder folder;
+};
 
 TEST(Journal, knows_after_a_restart_what_has_been_run) {
     {
