@@ -20,6 +20,7 @@ using enum Contender::Kind;
 
 constexpr std::array all_contenders{
     Contender{"ours", "millforce, without a map", ours},
+    Contender{"ours_proven", "millforce, told the safe constant feed", ours, BenchMachine::currents, false, true},
     Contender{"ours_map", "millforce, map from geometry", ours, BenchMachine::currents, true},
     Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, BenchMachine::spindle_alone, true},
     Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, BenchMachine::converter, true},
@@ -44,10 +45,14 @@ std::unique_ptr<OverrideSource> controller_of(const Contender& contender, const 
             load_settings(plant, part.feed_ratio, part.taught_load),
             make_rule(contender.name, found->second, 0.5 * part.part.tool_diameter_mm));
     }
-    if (contender.has_map) {
-        return std::make_unique<MappedController>(plant.parameters, part.map);
+    firmware::Parameters<float> parameters = plant.parameters;
+    if (contender.knows_feed) {
+        parameters.tool.control.proven_override = static_cast<float>(part.feed_ratio);
     }
-    return std::make_unique<MillforceController>(plant.parameters);
+    if (contender.has_map) {
+        return std::make_unique<MappedController>(parameters, part.map);
+    }
+    return std::make_unique<MillforceController>(parameters);
 }
 
 /// The thickest chip that a tooth meets: f_z where the cut reaches the tool's front, else f_z sin φ at its edge.

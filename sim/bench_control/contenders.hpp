@@ -24,7 +24,8 @@ struct Contender {
     std::string_view title;
     Kind kind;
     BenchMachine machine = BenchMachine::currents;
-    bool has_map = false;  ///< from geometry: program, drawn blank, tool
+    bool has_map = false;     ///< from geometry: program, drawn blank, tool
+    bool knows_feed = false;  ///< ours: that the program has run at the constant feed which the load controls drive on
 };
 
 /// Ours, the rules of load_rules.hpp by their names, and "plan", the clairvoyant bound.
