@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CppUTest/TestHarness.h>
+#include "bench_control/parts.hpp"
 
 #include <map>
 #include <set>
 
 #include "bench_control/disturbance.hpp"
 #include "bench_control/part_files.hpp"
-#include "bench_control/parts.hpp"
 #include "preview/preview.hpp"
 #include "temporary_folder.hpp"
+
+#include <CppUTest/TestHarness.h>  // after the containers: it replaces `new`
 
 using namespace millforce;
 using namespace millforce::sim;
