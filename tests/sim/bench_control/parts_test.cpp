@@ -51,7 +51,7 @@ TEST(BenchParts, each_is_cut_to_its_stated_depth) {
             }
             way_in_cut_mm += place.cut.empty() ? 0.0 : 0.5;
         }
-        DOUBLES_EQUAL_TEXT(part.depth_mm, deepest_mm, 0.05, std::string(part.name).c_str());
+        DOUBLES_EQUAL_TEXT(part.depth_mm, deepest_mm, 0.01 * part.depth_mm, std::string(part.name).c_str());
         CHECK_COMPARE(way_in_cut_mm, >, 60.0);
     }
 }
