@@ -104,7 +104,7 @@ double PidRule::step(const LoadView& view) {
 
 namespace {
 
-constexpr RuleParameter reference_share{"reference_share", 0.4, 1.6, 1.0};
+constexpr RuleParameter reference_share{"reference_share", 0.4, 1.6, 1.2};
 
 constexpr std::array constant_parameters{RuleParameter{"feed_share", 0.5, 1.3, 0.9}};
 constexpr std::array afc_parameters{reference_share, RuleParameter{"gain_per_s", 0.1, 6.0, 2.0},
