@@ -21,7 +21,7 @@ namespace millforce::sim {
                                           unsigned threads, int evaluations,
                                           const std::function<void(const std::string& rule, double share)>& progress);
 
-/// The settings that the program brings along: the file tuned.toml, of the form that `millforce bench control --tune` writes.
+/// The settings that the program brings along: tuned.toml, of the form that `millforce bench control --tune` writes.
 [[nodiscard]] RuleSettings built_in_settings();
 /// A file of the same form. Throws InputError.
 [[nodiscard]] RuleSettings read_settings(const std::string& file);
