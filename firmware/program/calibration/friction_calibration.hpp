@@ -13,9 +13,9 @@ namespace millforce::host {
 struct FrictionCalibrationOptions {
     std::vector<std::filesystem::path> data;
     std::filesystem::path output;
-    std::string axis = "x";           ///< table for data of a single axis (position_m, motor_force_N).
-    double low_pass_hz = 20.0;        ///< corner for position and force alike
-    double minimum_speed_mm_s = 2.0;  ///< slower samples are pre-sliding: left out.
+    std::string axis = "x";                        ///< table for data of a single axis (position_m, motor_force_N).
+    double low_pass_hz = 20.0;                     ///< corner for position and force alike
+    double minimum_speed_mm_s = 2.0;               ///< slower samples are pre-sliding: left out.
     std::optional<double> force_constant_N_per_A;  ///< of motor_force_N: the friction as a current is written, too
 };
 

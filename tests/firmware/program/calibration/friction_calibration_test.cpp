@@ -122,8 +122,7 @@ TEST(FrictionCalibration, of_a_motion_with_the_motors_force_constant_gives_what_
         const double friction_A =
             value(run, "x", forward ? "K_x2_positive_A_min_per_m" : "K_x2_negative_A_min_per_m") * w +
             value(run, "x", "K_x3_A");
-        return value(run, "x", "K_x4_N_per_A") *
-               (value(run, "x", "gravity_A") + (forward ? friction_A : -friction_A));
+        return value(run, "x", "K_x4_N_per_A") * (value(run, "x", "gravity_A") + (forward ? friction_A : -friction_A));
     };
     DOUBLES_EQUAL(value(run, "x", "positive_viscous_N_s_per_m") * 0.1 + value(run, "x", "positive_coulomb_N"),
                   force_N(0.1), 1e-6);
