@@ -160,8 +160,8 @@ TEST(Run, replay_gives_a_row_for_each_sample_of_a_recording_at_50_hertz) {
     inputs.write("log.csv", at_50_hertz);
     const Ended ended = inputs.replay();
     LONGS_EQUAL(0, ended.exit_code);
-    // And says why they hold no force: 4000 rpm are 1.3 revolutions in 20 ms.
-    CHECK(contains(ended.error, "samples: the spindle turns by 0.45 revolutions or more between two samples"));
+    // 4000 rpm are 1.3 revolutions in 20 ms.
+    CHECK(contains(ended.error, "the spindle turns by 1.4 revolutions between two samples: forces are averages"));
     LONGS_EQUAL(samples, csv_rows(inputs.read("out.csv")).size());
 }
 
@@ -184,7 +184,7 @@ TEST(Run, replay_says_in_words_why_its_rows_say_nothing) {
     };
     CHECK(contains(note_for("spindle_angle_rad", -1.0), "the spindle turns backwards"));
     CHECK(contains(note_for("spindle_angle_rad", 0.0), "the spindle does not turn"));
-    CHECK(contains(note_for("spindle_angle_rad", 57.3), "0.45 revolutions or more"));
+    CHECK(contains(note_for("spindle_angle_rad", 57.3), "or its angle is not in radians"));
 }
 
 TEST(Run, ctrl_c_in_a_long_simulation_leaves_no_file_and_a_pipe_sees_no_progress) {

@@ -150,7 +150,7 @@ TEST(Tools, one_tool_or_a_folder_must_be_given_and_a_part_map_is_for_one_tool) {
     STRCMP_EQUAL("", not_refused(run_millforce(both), {"--tool, --tools: both were given"}).c_str());
     const std::vector<std::string> with_map =
         inputs.with_tools({"serve", inputs.name("a.sock"), "--program", "part.ngc", "--map", "part.map"});
-    STRCMP_EQUAL("", not_refused(run_millforce(with_map), {"--map: with --tools"}).c_str());
+    STRCMP_EQUAL("", not_refused(run_millforce(with_map), {"--map, --learn: with --tools"}).c_str());
 }
 
 TEST(Tools, a_bus_without_a_program_status_cannot_tell_a_tool) {
@@ -163,7 +163,7 @@ TEST(Tools, of_a_folder_become_a_block_for_flash_that_is_printed_as_their_files)
     const Ended written =
         run_millforce(inputs.with_tools({"parameters", "--write-block", inputs.name("parameters.bin")}));
     LONGS_EQUAL(0, written.exit_code);
-    CHECK(contains(written.out, "1780 bytes, tools 7 12"));
+    CHECK(contains(written.out, "1840 bytes, tools 7 12"));
     const Ended read = run_millforce({"parameters", "--read-block", inputs.name("parameters.bin")});
     LONGS_EQUAL(0, read.exit_code);
     const std::size_t first = read.out.find("# T7.toml");

@@ -148,7 +148,8 @@ int replay_table(const ReplayOptions& options) {
     if (parts > 1) {
         fmt::print(stderr,
                    "millforce: note: {}: the spindle turns by {:.2g} revolutions between two samples: forces are "
-                   "averages, changes are seen late, and what happens within a revolution is not\n",
+                   "averages, changes are seen late, and what happens within a revolution is not; or its angle is "
+                   "not in radians\n",
                    options.log, parts / filled_samples_per_rev);
     }
     table.show_notes();

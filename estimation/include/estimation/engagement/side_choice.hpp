@@ -15,11 +15,12 @@ inline constexpr Scalar width_of_95_percent = literal<Scalar>(3.92L);
 template <typename Scalar>
 inline constexpr Scalar threshold_of_95_percent = literal<Scalar>(3.84L);
 
-/// How much larger the variances of the forces must be than stated for the model to explain them: J, of about one
-/// force more than there are unknowns. A model that explains them badly is believed less.
+/// By how much larger than stated the variances of the forces are taken, of a model that explains them badly: 1 up to
+/// the misfit that one window in 20 of the right model exceeds, and from there as J grows.
 template <typename Scalar>
 [[nodiscard]] Scalar variance_per_stated(Scalar misfit) {
-    return misfit > Scalar(1) ? misfit : Scalar(1);
+    const Scalar beyond_usual = misfit - threshold_of_95_percent<Scalar>;
+    return beyond_usual > Scalar(0) ? Scalar(1) + beyond_usual : Scalar(1);
 }
 
 /// By how much J rises to the ends of the 95 % interval.
