@@ -318,6 +318,30 @@ TEST(SignalSupervisorAlone, finds_a_jump_of_either_axis_in_either_direction_wher
     }
 }
 
+TEST(SignalSupervisorAlone, does_not_take_the_inertia_of_an_axis_for_a_jump) {
+    auto parameters = machine_and_tool();
+    for (auto& axis : parameters.machine.axes) {
+        axis.mass_kg = 0.0F;
+    }
+    Estimate e = one_tooth();
+    e.tooth_tangential_N = known_N(250.0F);
+    e.tooth_change.tangential_N = known_N(0.0F);
+    e.tooth_change.axis_N[0] = known_N(700.0F);
+    const auto judge = [&] {
+        Supervisor supervisor(parameters);
+        judged(supervisor, one_tooth(), 8, CutState::in_cut);
+        judged(supervisor, e, 1, CutState::in_cut);
+        return judged(supervisor, one_tooth(), 6, CutState::in_cut);
+    };
+    CHECK(judge() == Fault::force_jumped);
+    parameters.machine.axes[0].mass_kg = 320.0F;  // at 0.2 × 20 mm/s × 66.7/s: 85 N
+    e.tooth_change.axis_N[0] = known_N(500.0F);
+    const bool is_found_at_500_N = judge() == Fault::force_jumped;
+    parameters.machine.axes[0].mass_kg = 2000.0F;
+    CHECK(is_found_at_500_N);
+    CHECK(judge() == Fault::none);
+}
+
 TEST(SignalSupervisorAlone, compares_a_jump_with_the_larger_of_the_torques_before_and_after) {
     struct Torque {
         float now_N;

@@ -39,6 +39,8 @@
 /// deviations of noise. A load that is told once in load_period_s shows at once what the cut changed by since the last
 /// one: s then includes the travel in that time. Where the feed changes in the revolution before or after, or before a
 /// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged.
+/// A jump of an axis must also exceed the inertia 0.2 m f n: an acceleration that a feed f which seems steady within a
+/// tenth may hide in a revolution.
 ///
 /// A slow change is not seen here. Where the axes' currents are known, the misfit of the cut's law keeps the feed from
 /// rising (limit law_misfit).
@@ -111,6 +113,7 @@ class SignalSupervisor {
     Scalar reaction_s_;
     Scalar per_acceleration_;
     Scalar load_period_s_;
+    std::array<Scalar, 2> hidden_inertia_;  // N per mm/s of feed and rad/s of the spindle
     std::int32_t counts_per_rev_;
 
     control::Fault fault_ = control::Fault::none;
