@@ -46,9 +46,11 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
     }
 }
 
-/// F_at of the window, or of the last tooth where that is clearly higher; and how fast it grows then.
+/// F_at of the window, or of the last tooth where that is clearly higher; and how fast it grows then, as far as noise
+/// does not explain it: a forecast over a CNC's latency would multiply the noise.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
+    using std::sqrt;
     constexpr Scalar clear_deviations{2};
     const Measurement<Scalar>& window = e.tangential_N;
     const Measurement<Scalar>& tooth = e.tooth_tangential_N;
@@ -59,7 +61,7 @@ Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
     const Scalar half_window_s = halved(e.window_s);
     if (has_risen && half_window_s > Scalar(0)) {
         // The window's middle is half a window old, the last tooth's nearly now.
-        e.tangential_growth_N_per_s = rise_N / half_window_s;
+        e.tangential_growth_N_per_s = (rise_N - clear_deviations * sqrt(tooth.variance)) / half_window_s;
     }
     return e.newest_tangential_N;
 }
