@@ -51,14 +51,17 @@ void write_bench_page(const std::filesystem::path& folder, const std::vector<Ben
     const std::string table = table_html(table_of(figures));
     const std::string part_table = table_html(table_of_parts(parts, figures));
     const std::string facts = facts_html(origin);
-    write_text_file(folder / "bench.html",
-                    host::filled(bench_assets::page_template(), {
-                                                                    {"report_style", host::page_assets::report_style()},
-                                                                    {"facts", facts},
-                                                                    {"table", table},
-                                                                    {"plots", plots},
-                                                                    {"part_table", part_table},
-                                                                }));
+    constexpr std::string_view own_style =
+        ".figures td:nth-child(2) { font-weight: inherit; } svg { max-width: 100%; height: auto; }";
+    const std::string head =
+        host::page_head("Feed controllers compared", {host::page_assets::report_style(), own_style});
+    write_text_file(folder / "bench.html", host::filled(bench_assets::page_template(), {
+                                                                                           {"head", head},
+                                                                                           {"facts", facts},
+                                                                                           {"table", table},
+                                                                                           {"plots", plots},
+                                                                                           {"part_table", part_table},
+                                                                                       }));
 }
 
 }  // namespace millforce::sim

@@ -222,18 +222,19 @@ std::string map_page_html(const PartMapFile& map, const std::string& title,
     const std::string gaps = gaps_html(map.map);
     const std::string facts = facts_html(map, tool);
     const std::string data = json_of(map.map, tool);
+    const std::string head =
+        page_head(escaped, {without_source_map(page_assets::dygraphs_style()), page_assets::report_style()});
     return filled(map_page_assets::map_template(),
                   {
+                      {"head", head},
                       {"title", escaped},
                       {"stats", stats},
                       {"gaps", gaps},
                       {"facts", facts},
                       {"data", data},
-                      {"report_style", page_assets::report_style()},
                       {"charts_script", page_assets::charts_script()},
                       {"map_script", map_page_assets::map_script()},
                       {"dygraphs_script", without_source_map(page_assets::dygraphs_script())},
-                      {"dygraphs_style", without_source_map(page_assets::dygraphs_style())},
                   });
 }
 
