@@ -140,12 +140,13 @@ BenchPlot peak_plot(const std::vector<ContenderFigures>& contenders) {
     return {"peak_force.svg", "Largest force on a tooth", plot.finished()};
 }
 
+/// NaN where none was milled.
 double fastest_rival(const PartFigures& part, const std::vector<ContenderFigures>& contenders) {
-    double fastest = std::numeric_limits<double>::infinity();
+    double fastest = host::no_estimate;
     for (std::size_t k = 0; k < contenders.size(); ++k) {
         const Contender& contender = *contenders[k].contender;
         if (contender.kind == Contender::Kind::rival && contender.name != "constant" &&
-            part.times_over_bound[k] < fastest) {
+            !(part.times_over_bound[k] >= fastest)) {
             fastest = part.times_over_bound[k];
         }
     }
