@@ -100,8 +100,9 @@ struct Pair {
 
 bool is_uniform_around(const PartMap& map, double path_mm) {
     const MapPlace* const here = at(map, path_mm);
-    for (double s_mm = path_mm - margin_mm; s_mm <= path_mm + margin_mm; s_mm += step_mm) {
-        const MapPlace* const place = at(map, s_mm);
+    const int steps = static_cast<int>(2.0 * margin_mm / step_mm);
+    for (int k = 0; k <= steps; ++k) {
+        const MapPlace* const place = at(map, path_mm - margin_mm + step_mm * k);
         constexpr double alike = 0.1;
         if (place == nullptr || place->cut.size() != here->cut.size() ||
             std::abs(immersion_of(*place) - immersion_of(*here)) > alike) {
@@ -160,6 +161,7 @@ void measure_hardness(const std::vector<Pair>& pairs, JoinedMap& result) {
     }
     const double middle = median(logs);
     std::vector<double> off;
+    off.reserve(logs.size());
     for (const double value : logs) {
         off.push_back(std::abs(value - middle));
     }
@@ -253,8 +255,9 @@ JoinedMap joined(const PartMap& geometry, const PartMap& run, const firmware::To
     measure_offset(contacts, result);
     shift_blocks(geometry, contacts, result.map);
     std::vector<Pair> pairs;
-    for (double s_mm = 0.0; s_mm < geometry.back().path_mm; s_mm += step_mm) {
-        if (const auto pair = pair_at(result.map, seen, s_mm, tool)) {
+    const auto steps = static_cast<std::size_t>(std::ceil(geometry.back().path_mm / step_mm));
+    for (std::size_t k = 0; k < steps; ++k) {
+        if (const auto pair = pair_at(result.map, seen, step_mm * static_cast<double>(k), tool)) {
             pairs.push_back(*pair);
         }
     }
