@@ -18,6 +18,7 @@ class Simplex {
     Simplex(const std::function<double(const std::vector<double>&)>& cost, const std::vector<SearchRange>& ranges)
         : cost_(cost), ranges_(ranges) {
         std::vector<double> start;
+        start.reserve(ranges.size());
         for (const SearchRange& range : ranges) {
             start.push_back((range.start - range.low) / (range.high - range.low));
         }

@@ -168,7 +168,8 @@ void pass_along_wall(Drawing& d, const BenchPart& part) {
 void draw_equal_ribs(Drawing& d, const BenchPart& part) {
     wall(d, part);
     const double rib_mm = 1.2 * part.tool_diameter_mm;
-    for (double x = rib_mm; x < part.length_mm; x += 2.0 * rib_mm) {
+    double x = rib_mm;
+    for (; x < part.length_mm; x += 2.0 * rib_mm) {
         d.gap(x, std::min(x + rib_mm, part.length_mm));
     }
     pass_along_wall(d, part);
@@ -177,7 +178,8 @@ void draw_equal_ribs(Drawing& d, const BenchPart& part) {
 void draw_growing_ribs(Drawing& d, const BenchPart& part) {
     wall(d, part);
     double rib_mm = 4.0;
-    for (double x = rib_mm; x < part.length_mm; x += rib_mm) {
+    double x = rib_mm;
+    for (; x < part.length_mm; x += rib_mm) {
         d.gap(x, std::min(x + part.tool_diameter_mm, part.length_mm));
         x += part.tool_diameter_mm;
         rib_mm += 6.0;
@@ -188,7 +190,8 @@ void draw_growing_ribs(Drawing& d, const BenchPart& part) {
 /// Past the same ribs three times; the width of each pass is 0.5, 1 and 1.5 times the stated one.
 void draw_rib_passes(Drawing& d, const BenchPart& part) {
     d.block(0.0, -d.radius_mm() - 6.0, part.length_mm, -d.radius_mm() + 3.0 * part.width_mm);
-    for (double x = 20.0; x < part.length_mm; x += 50.0) {
+    double x = 20.0;
+    for (; x < part.length_mm; x += 50.0) {
         d.gap(x, x + 25.0);
     }
     double y = 2.5 * part.width_mm;
@@ -204,7 +207,8 @@ void draw_rib_passes(Drawing& d, const BenchPart& part) {
 /// Paths along x that cover the block from its upper edge downwards.
 std::vector<double> face_paths(const Drawing& d, const BenchPart& part) {
     std::vector<double> paths;
-    for (double y = part.breadth_mm - part.width_mm + d.radius_mm(); y > -d.radius_mm(); y -= part.width_mm) {
+    double y = part.breadth_mm - part.width_mm + d.radius_mm();
+    for (; y > -d.radius_mm(); y -= part.width_mm) {
         paths.push_back(y);
     }
     return paths;
@@ -270,7 +274,8 @@ void draw_outwards(Drawing& d, const BenchPart& part) {
     d.block(-edge, -edge, edge, edge);
     d.start_in_hole(0.0, 0.0);
     const double last = 0.5 * part.length_mm - d.radius_mm();
-    for (double r = part.width_mm; r < last + 1e-6; r += part.width_mm) {
+    double r = part.width_mm;
+    for (; r < last + 1e-6; r += part.width_mm) {
         d.line(r, 0.0);
         d.circle(r, 0.0, -r, 0.0, false);
     }
@@ -296,7 +301,8 @@ void draw_boss(Drawing& d, const BenchPart& part) {
     const double first = std::numbers::sqrt2 * edge + d.radius_mm() - 2.0 * part.width_mm;
     const double last = 0.5 * edge + d.radius_mm() + part.width_mm;
     d.start_at(first + part.width_mm + 2.0, -0.1);
-    for (double r = first; r > last - 1e-6; r -= part.width_mm) {
+    double r = first;
+    for (; r > last - 1e-6; r -= part.width_mm) {
         d.line(r, 0.0);
         d.circle(r, 0.0, -r, 0.0, true);
     }

@@ -36,7 +36,7 @@ struct ShowOptions {
 /// The tool's file, which must be the one that the map was made for.
 firmware::ToolParameters<float> tool_of(const std::string& tool_file, const std::string& map_file,
                                         const MapOrigin& origin) {
-    const firmware::ToolParameters<float> tool = read_tool_parameters(tool_file);
+    firmware::ToolParameters<float> tool = read_tool_parameters(tool_file);
     const std::string name = std::filesystem::path(tool_file).stem().string();
     MapOrigin of_tool = origin_of({}, name, tool);
     of_tool.program = origin.program;
