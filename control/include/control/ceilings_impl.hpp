@@ -183,10 +183,9 @@ void Ceilings<Scalar>::lower_by_state(Ceiling<Scalar>& lowest, const Parameters&
                                       const ControlInput<Scalar>& input, const Situation& situation) const {
     const bool is_slower = input.programmed_feed_mm_s < highest_programmed_feed_mm_s_;
     const Scalar of_highest_feed = is_slower ? input.programmed_feed_mm_s / highest_programmed_feed_mm_s_ : Scalar(1);
-    const Scalar proven = parameters.proven_override;
-    const Scalar guarded =
-        of_highest_feed * override_of_feed_per_tooth(parameters.air_feed_per_tooth_mm, parameters.teeth, input);
-    const Scalar air = guarded > proven ? guarded : proven;
+    const Scalar air = not_below_proven(
+        parameters,
+        of_highest_feed * override_of_feed_per_tooth(parameters.air_feed_per_tooth_mm, parameters.teeth, input));
     if (input.plunging) {
         lowest.lower_to(air < Scalar(1) ? air : Scalar(1), Limit::entry_feed);
     }
@@ -197,13 +196,12 @@ void Ceilings<Scalar>::lower_by_state(Ceiling<Scalar>& lowest, const Parameters&
         lowest.lower_to(air, Limit::air_feed);
     }
     if (situation.state == CutState::entry) {
-        const Scalar usual = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
-        const Scalar entry = usual > proven ? usual : proven;
+        const Scalar entry = safe_entry(parameters, input);
         const bool is_behind_gap = situation.has_cut && override_at_state_entry_ > entry;
         lowest.lower_to(is_behind_gap ? override_at_state_entry_ : entry, Limit::entry_feed);
     }
     if (situation.state == CutState::exit) {
-        lowest.lower_to(override_at_state_entry_ > proven ? override_at_state_entry_ : proven, Limit::no_estimate);
+        lowest.lower_to(not_below_proven(parameters, override_at_state_entry_), Limit::no_estimate);
     }
 }
 
@@ -233,9 +231,7 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
 template <typename Scalar>
 void Ceilings<Scalar>::lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters,
                                       const Situation& situation) const {
-    const auto lower_to = [&](Scalar ceiling) {
-        lowest.lower_to(ceiling > parameters.proven_override ? ceiling : parameters.proven_override, Limit::surge);
-    };
+    const auto lower_to = [&](Scalar ceiling) { lowest.lower_to(not_below_proven(parameters, ceiling), Limit::surge); };
     if (surge_is_under_way(parameters)) {
         lower_to(override_before_growth_);
     }

@@ -63,6 +63,9 @@ struct Stretch {
     Scalar feed_per_softness{1};     ///< e_i; 1/(c q) for a force with the cutting share c and the exponent q
     Scalar least_share{1};           ///< of F_i that is surely there; 0 where the tool enters or leaves
     bool is_known = true;            ///< false: nothing is known of this stretch
+
+    /// The arc, and with it the direction of the force, is not known.
+    [[nodiscard]] bool is_open() const { return !is_known || least_share < Scalar(1); }
 };
 
 template <typename Scalar>

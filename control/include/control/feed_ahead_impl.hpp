@@ -152,9 +152,8 @@ auto FeedAhead<Scalar, Capacity>::expected_around(const Step& now) const -> Expe
     Expected expected;
     for_each_within(now.position_mm - now.window_mm - tolerance_mm, now.position_mm + tolerance_mm, [&](std::size_t i) {
         const Scalar force_N = force_at(i, now.mean_feed_mm_s);
-        const bool is_open = !at(i).is_known || at(i).least_share < Scalar(1);
         expected.has_unknown = expected.has_unknown || !at(i).is_known;
-        expected.has_open = expected.has_open || is_open;
+        expected.has_open = expected.has_open || at(i).is_open();
         expected.tangential_N.include(force_N);
         expected.tangential_N.include(at(i).least_share * force_N);
         if (force_N > Scalar(0)) {
@@ -173,7 +172,7 @@ auto FeedAhead<Scalar, Capacity>::mapped_within(const Step& now) const -> Mapped
     Scalar sum_N_mm{0};
     bool has_open = false;
     for_each_within(begin_mm, now.position_mm, [&](std::size_t i) {
-        has_open = has_open || !at(i).is_known || at(i).least_share < Scalar(1);
+        has_open = has_open || at(i).is_open();
         const Scalar force_N = force_at(i, now.mean_feed_mm_s);
         const Scalar of_tooth_N = force_N * at(i).tooth_per_tangential;
         tooth_N = of_tooth_N > tooth_N ? of_tooth_N : tooth_N;

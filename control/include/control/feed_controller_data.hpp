@@ -143,6 +143,12 @@ template <typename Scalar>
     return ratio > parameters.override_max ? parameters.override_max : ratio;
 }
 
+/// What may come without warning holds a proven program no lower than it has run. NaN becomes that override.
+template <typename Scalar>
+[[nodiscard]] Scalar not_below_proven(const FeedControllerParameters<Scalar>& parameters, Scalar ratio) {
+    return ratio > parameters.proven_override ? ratio : parameters.proven_override;
+}
+
 /// A feed or a speed that can be divided by: > 0, neither infinite nor NaN.
 template <typename Scalar>
 [[nodiscard]] bool is_known(Scalar feed_or_speed) {
@@ -171,6 +177,13 @@ template <typename Scalar>
     const Scalar feed_mm_s =
         feed_per_tooth_mm * teeth * input.cut.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
     return feed_mm_s / input.programmed_feed_mm_s;
+}
+
+/// The override at which the tool may meet the workpiece. Needs feed_and_speed_are_known.
+template <typename Scalar>
+[[nodiscard]] Scalar safe_entry(const FeedControllerParameters<Scalar>& parameters, const ControlInput<Scalar>& input) {
+    return not_below_proven(parameters,
+                            override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input));
 }
 
 /// F_at from which on the tool counts as in contact: what the noise makes unlikely, and not less than contact_force_N.

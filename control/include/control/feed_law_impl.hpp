@@ -44,14 +44,12 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
         return;
     }
     demand_ = override_for(parameters, input, {target_share(parameters, input), cut.tooth_force_N, cut.cutting_share});
-    const Scalar proven = parameters.proven_override;
     if (state == CutState::entry) {
-        const Scalar entry = override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
-        const Scalar safe = entry > proven ? entry : proven;
-        demand_ = not_below_safe_feed(parameters, input, demand_, {safe, cut.least_tooth_force_N});
+        const SafeFeed entry{safe_entry(parameters, input), cut.least_tooth_force_N};
+        demand_ = not_below_safe_feed(parameters, input, demand_, entry);
     } else if (cut.tooth_force_is_bound || guards_against_a_step(parameters, input)) {
         const Scalar present_N = cut.tooth_force_is_bound ? cut.least_tooth_force_N : cut.tooth_force_N;
-        demand_ = not_below_safe_feed(parameters, input, demand_, {proven, present_N});
+        demand_ = not_below_safe_feed(parameters, input, demand_, {parameters.proven_override, present_N});
     }
 }
 
