@@ -5,19 +5,11 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <string>
+
+#include "sim/preview/named_scenario.hpp"
 
 using namespace millforce::sim;
-
-namespace {
-
-Scenario scenario_named(const std::string& name, double hardness = 1.0) {
-    Scenario scenario = read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml");
-    scenario.deviation.cutting_force_scale = hardness;
-    return scenario;
-}
-
-}  // namespace
+using namespace millforce::test;
 
 TEST_GROUP(ClairvoyantFeed){};
 

@@ -4,17 +4,17 @@
 #include <CppUTest/TestHarness.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
-#include <string>
 
 #include "loop/simulation.hpp"
 #include "part_map/map_join.hpp"
 #include "preview/preview.hpp"
+#include "sim/preview/named_scenario.hpp"
+#include "sim/preview/wrong_maps.hpp"
 
 using namespace millforce::sim;
-using millforce::host::EngagedArc;
+using namespace millforce::test;
 using millforce::host::joined;
 using millforce::host::JoinedMap;
 using millforce::host::Known;
@@ -22,55 +22,6 @@ using millforce::host::MapPlace;
 using millforce::host::PartMap;
 
 namespace {
-
-Scenario scenario_named(const std::string& name, double hardness = 1.0) {
-    Scenario scenario = read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml");
-    scenario.deviation.cutting_force_scale = hardness;
-    return scenario;
-}
-
-const MapPlace& place_at(const PartMap& map, double path_mm) {
-    const auto after = std::ranges::upper_bound(map, path_mm, {}, &MapPlace::path_mm);
-    return *(after - 1);
-}
-
-PartMap shifted(const PartMap& map, double by_mm) {
-    PartMap result = map;
-    for (MapPlace& place : result) {
-        const MapPlace& source = place_at(map, std::max(place.path_mm - by_mm, 0.0));
-        place.cut = source.cut;
-        place.known = source.known;
-    }
-    return result;
-}
-
-PartMap mirrored(const PartMap& map) {
-    PartMap result = map;
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        result[i].cut = map[map.size() - 1 - i].cut;
-        result[i].known = map[map.size() - 1 - i].known;
-    }
-    return result;
-}
-
-PartMap with_air_behind(PartMap map, double share) {
-    for (MapPlace& place : map) {
-        if (place.path_mm > share * map.back().path_mm) {
-            place.cut.clear();
-            place.known = Known::cut;
-        }
-    }
-    return map;
-}
-
-PartMap deeper(PartMap map, double factor) {
-    for (MapPlace& place : map) {
-        for (EngagedArc& arc : place.cut) {
-            arc.axial_depth_mm *= factor;
-        }
-    }
-    return map;
-}
 
 /// The block of a slot begins 8 mm behind the point where the tool starts its cut.
 double contact_of(const PartMap& map) {
@@ -87,8 +38,8 @@ TEST(Memory, a_run_remembers_arc_and_depth_where_they_were) {
     const PartMap memory = memory_of(scenario);
     DOUBLES_EQUAL(contact_of(truth), contact_of(memory), 1.0);
     for (const double behind_contact_mm : {20.0, 60.0}) {  // the narrow and the wide part
-        const MapPlace& was = place_at(truth, contact_of(truth) + behind_contact_mm);
-        const MapPlace& seen = place_at(memory, contact_of(truth) + behind_contact_mm);
+        const MapPlace& was = place_holding_at(truth, contact_of(truth) + behind_contact_mm);
+        const MapPlace& seen = place_holding_at(memory, contact_of(truth) + behind_contact_mm);
         CHECK_TRUE(seen.known == Known::cut);
         CHECK_EQUAL(1U, seen.cut.size());
         DOUBLES_EQUAL(was.cut.front().entry_rad, seen.cut.front().entry_rad, 0.15);
@@ -151,8 +102,8 @@ TEST(Memory, joined_with_the_geometry_of_a_deeper_block_names_where_they_contrad
     const JoinedMap join = joined(geometry, memory_of(scenario), scenario.parameters.tool);
     CHECK_FALSE(join.contradictions.empty());
     CHECK_COMPARE(join.contradictions.front().begin_mm, >=, half_mm - 2.0);
-    CHECK_TRUE(place_at(join.map, join.contradictions.front().begin_mm + 1.0).is_contested);
-    CHECK_TRUE(place_at(join.map, join.contradictions.front().begin_mm + 1.0).known == Known::nothing);
+    CHECK_TRUE(place_holding_at(join.map, join.contradictions.front().begin_mm + 1.0).is_contested);
+    CHECK_TRUE(place_holding_at(join.map, join.contradictions.front().begin_mm + 1.0).known == Known::nothing);
 }
 
 /// A seeded share of a campaign over more parts and shifts.

@@ -7,27 +7,21 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include "cnc/cnc.hpp"
 #include "loop/simulation.hpp"
 #include "sim/converter_load.hpp"
+#include "sim/preview/named_scenario.hpp"
+#include "sim/preview/wrong_maps.hpp"
 #include "sim/without_axis_currents.hpp"
 
 using namespace millforce::sim;
-using millforce::host::EngagedArc;
+using namespace millforce::test;
 using millforce::host::MapPlace;
 using millforce::host::PartMap;
 using millforce::host::stretches_of;
 
 namespace {
-
-Scenario scenario_named(const std::string& name, double hardness = 1.0) {
-    Scenario scenario = read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name + ".toml");
-    scenario.deviation.cutting_force_scale = hardness;
-    return scenario;
-}
 
 const MapPlace& place_at(const PartMap& map, double path_mm) {
     return *std::ranges::find_if(map, [&](const MapPlace& place) { return place.path_mm >= path_mm; });
@@ -55,42 +49,6 @@ Run with_map(const Scenario& scenario, const PartMap& map) {
 RunFigures blind(const Scenario& scenario) {
     MillforceController controller(scenario.parameters);
     return simulate(scenario, controller, "millforce").result.figures;
-}
-
-/// The same path over stock that lies `by_mm` further along it.
-PartMap shifted(const PartMap& map, double by_mm) {
-    PartMap result = map;
-    for (MapPlace& place : result) {
-        const auto after = std::ranges::upper_bound(map, std::max(place.path_mm - by_mm, 0.0), {}, &MapPlace::path_mm);
-        place.cut = (after - 1)->cut;
-    }
-    return result;
-}
-
-PartMap mirrored(const PartMap& map) {
-    PartMap result = map;
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        result[i].cut = map[map.size() - 1 - i].cut;
-    }
-    return result;
-}
-
-PartMap deeper(PartMap map, double factor) {
-    for (MapPlace& place : map) {
-        for (EngagedArc& arc : place.cut) {
-            arc.axial_depth_mm *= factor;
-        }
-    }
-    return map;
-}
-
-PartMap with_air_behind(PartMap map, double share) {
-    for (MapPlace& place : map) {
-        if (place.path_mm > share * map.back().path_mm) {
-            place.cut.clear();
-        }
-    }
-    return map;
 }
 
 constexpr double pi = std::numbers::pi;
