@@ -184,13 +184,12 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--programmed-feed: {} is a candump log, expected F in its program status frames",
                                      options.log));
     }
-    LiveMaps maps(options.maps, options.tools,
-                  ToolSet(read_machine_parameters(options.machine), options.tools).parameters());
-    const auto playback = [&options](const ToolSet& tools) { return playback_of(options, tools); };
+    const ToolSet tools(read_machine_parameters(options.machine), options.tools);
+    LiveMaps maps(options.maps, options.tools, tools.parameters());
     const int exit_code = replay_candump(
         {options.log, options.machine, options.tools, options.output, options.interface, options.interval_s,
          options.run_log, options.mcap, options.pace, options.report, maps.begin(), !options.watch.view},
-        playback);
+        tools, [&] { return playback_of(options, tools); });
     if (maps.was_dropped()) {
         print_line(stderr, "millforce: the part map does not fit this cut: continuing without it");
     }

@@ -67,10 +67,10 @@ bool is_candump_log(const std::string& file) {
     return false;
 }
 
-int replay_candump(const ReplayCandumpOptions& options, const std::function<Playback(const ToolSet&)>& playback_with) {
-    const ToolSet tools(read_machine_parameters(options.machine), options.tools);
+int replay_candump(const ReplayCandumpOptions& options, const ToolSet& tools,
+                   const std::function<Playback()>& begin_playback) {
     CandumpReplay replay(settings_of(options, tools));
-    Playback playback = playback_with(tools);
+    Playback playback = begin_playback();
     EstimateTable table({options.log, options.output, options.interval_s, options.may_print}, tools,
                         WideBandSource::none);
     ReplayMcap mcap(options.mcap, tools);

@@ -30,7 +30,9 @@ struct ReplayCandumpOptions {
 /// Whether the file's first line that is no comment begins as those of candump do. Throws InputError: no such file.
 bool is_candump_log(const std::string& file);
 
-/// 1 where the run's log has other estimates. `playback`: to show it with these tools.
-int replay_candump(const ReplayCandumpOptions& options, const std::function<Playback(const ToolSet&)>& playback);
+/// 1 where the run's log has other estimates. `tools`: read from the files of the options. `begin_playback`: called
+/// once the log can be replayed.
+int replay_candump(const ReplayCandumpOptions& options, const ToolSet& tools,
+                   const std::function<Playback()>& begin_playback);
 
 }  // namespace millforce::host
