@@ -191,7 +191,8 @@ void add_bench_control(host::Command& bench, const std::shared_ptr<std::optional
     command.option("--threads", options->threads, "Runs at the same time").within(1, 1024).shows_default();
     command.option("--settings", options->settings, "Settings of the load controls; default: those brought along")
         .value_name("TUNED.toml");
-    command.flag("--traces", options->traces, "Write the trace of each run that is not in runs.csv yet into DIR/traces");
+    command.flag("--traces", options->traces,
+                 "Write the trace of each run that is not in runs.csv yet into DIR/traces");
     command.flag("--tune", options->tune, "Choose the settings of the load controls, in place of comparing");
     command.option("--evaluations", options->evaluations, "With --tune: how often each rule is tried")
         .within(1, 10000)

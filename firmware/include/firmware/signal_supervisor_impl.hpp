@@ -270,7 +270,7 @@ void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control
         const Scalar base_N = state == control::CutState::exit ? Scalar(0) : least_feed_force_N_;
         contradicts = force_N - base_N > level_N;
     } else {
-        contradicts = has_base;  // an axis whose friction was plausible in this very move no longer is
+        contradicts = has_base && e.axis_is_implausible;  // its friction was plausible in this very move
     }
     if (is_so_in_a_row(contradicting_turns_, contradicts, surely_turns)) {
         find(control::Fault::forces_contradict);
