@@ -175,7 +175,8 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     }
     const bool is_steady = Scalar(steady_periods_) > teeth_ + more_periods;
     if (suspected_ == control::Fault::none) {
-        suspected_ = cuts && is_steady ? sudden : control::Fault::none;
+        const bool has_entered = cuts && state != control::CutState::entry;  // a cut may begin with a whole tooth
+        suspected_ = has_entered && is_steady ? sudden : control::Fault::none;
         steady_since_ = steady_periods_;
     } else if (!is_steady) {
         suspected_ = control::Fault::none;

@@ -54,15 +54,12 @@ static const estimation::Measurement<Scalar>& newest_tangential(const estimation
 }
 
 /// The sign of a cut: the newest force, or that of the last revolutions where it lies more of its standard deviations
-/// above zero. These count as half of the newest's at least: after a change of speed the idle torque is off by more
-/// than averaging leaves of the noise.
+/// above zero.
 template <typename Scalar>
-static estimation::Measurement<Scalar> clearest_tangential(const estimation::CutEstimate<Scalar>& e) {
+static const estimation::Measurement<Scalar>& clearest_tangential(const estimation::CutEstimate<Scalar>& e) {
     using std::sqrt;
     const estimation::Measurement<Scalar>& newest = newest_tangential(e);
-    estimation::Measurement<Scalar> steady = e.steady_tangential_N;
-    const Scalar quarter = estimation::halved(estimation::halved(newest.variance));
-    steady.variance = steady.variance > quarter ? steady.variance : quarter;
+    const estimation::Measurement<Scalar>& steady = e.steady_tangential_N;
     const bool steady_is_clearer =
         steady.valid && steady.value * sqrt(newest.variance) > newest.value * sqrt(steady.variance);
     return steady_is_clearer ? steady : newest;
@@ -298,7 +295,7 @@ void ForceControlTick<Scalar, WideBand>::work_on_wide_band() {
 template <typename Scalar, typename WideBand>
 bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<Scalar>& e) const {
     using std::sqrt;
-    const Scalar level_N = control::contact_level_N(controller_.parameters(), sqrt(e.tangential_N.variance));
+    const Scalar level_N = control::contact_level_N(controller_.parameters(), sqrt(e.steady_tangential_N.variance));
     const Scalar half_N = estimation::halved(level_N);
     const Scalar force_N = e.steady_tangential_N.value;
     return e.tangential_N.valid && force_N < half_N && force_N > -half_N;
@@ -329,7 +326,8 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     using std::sqrt;
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     control::CutEstimateForControl<Scalar>& cut = input_.cut;
-    const estimation::Measurement<Scalar> F_at = estimator_.axes_rest() ? newest_tangential(e) : clearest_tangential(e);
+    const estimation::Measurement<Scalar>& F_at =
+        estimator_.axes_rest() ? newest_tangential(e) : clearest_tangential(e);
     cut.tangential_N = F_at.value;
     cut.tangential_sd_N = sqrt(F_at.variance);
     const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;
