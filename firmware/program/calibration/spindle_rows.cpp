@@ -156,9 +156,17 @@ bool is_complete(const Sample& s) {
            std::isfinite(s.torque_Nm);
 }
 
+/// Nobody chooses speeds like these in rad/s.
+bool are_whole_fifties(const std::vector<Sample>& samples) {
+    constexpr double step = 50.0;
+    return std::all_of(samples.begin(), samples.end(),
+                       [](const Sample& sample) { return std::fmod(sample.speed_rad_s, step) == 0.0; });
+}
+
 /// There are such spindles, but a speed in 1/min or an angle in degrees is more likely.
 void warn_of_fast_spindle(std::ostream& out, const std::vector<Sample>& samples) {
     constexpr double fast_rad_s = 3000.0;
+    constexpr double least_round_rad_s = 500.0;
     constexpr double rpm = 30.0 / std::numbers::pi;  // in 1 rad/s
     double fastest = 0.0;
     for (const Sample& sample : samples) {
@@ -168,6 +176,11 @@ void warn_of_fast_spindle(std::ostream& out, const std::vector<Sample>& samples)
         out << fmt::format(
             "warning: the spindle turns at up to {:.5g} rad/s, {:.6g} 1/min; is its speed in 1/min, or its angle in "
             "degrees?\n",
+            fastest, fastest * rpm);
+    } else if (fastest >= least_round_rad_s && are_whole_fifties(samples)) {
+        out << fmt::format(
+            "warning: each speed is a multiple of 50, up to {:.5g} rad/s, which is {:.6g} 1/min; is "
+            "spindle_speed_rad_s in 1/min?\n",
             fastest, fastest * rpm);
     }
 }

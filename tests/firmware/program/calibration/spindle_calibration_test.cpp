@@ -202,6 +202,14 @@ TEST(SpindleCalibration, warns_of_a_speed_that_only_few_spindles_have) {
     CHECK(!contains(calibrate(table({60, 90, 120}, torques)).text, "warning"));
 }
 
+TEST(SpindleCalibration, warns_of_round_speeds_that_are_chosen_in_1_per_min) {
+    const std::vector<double> torques{0, 1, 2, 4, 6, 8};
+    CHECK(contains(calibrate(table({600, 850, 1200}, torques)).text,
+                   "warning: each speed is a multiple of 50, up to 1200 rad/s, which is 11459.2 1/min; is "
+                   "spindle_speed_rad_s in 1/min?"));
+    CHECK(!contains(calibrate(table({600, 850, 1210}, torques)).text, "warning"));
+}
+
 TEST(SpindleCalibration, leaves_out_a_term_that_is_smaller_than_its_error) {
     std::mt19937 generator(11);
     std::normal_distribution<double> normal(0.0, 0.05);
