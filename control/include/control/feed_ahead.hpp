@@ -35,8 +35,9 @@
 /// agreement_mm of cut: F_at within what the stretches around the tool may give, with κ between lowest_hardness
 /// and highest_hardness, and within hardness_band of κ once that is measured; and F_ax within direction_band·F_at of
 /// χ F_at, where it is measured: the direction of the force gives the arc, whatever the depth and the material. Both
-/// with four standard deviations of the measurement beside. What disagrees over more than disagreement_mm refutes the
-/// map: `known` is false from then on, until restart(). So does contact, two estimates in a row, where the map has air.
+/// with four standard deviations of the measurement beside. What disagrees over more than disagreement_mm, and in three
+/// estimates in a row, refutes the map: `known` is false from then on, until restart(). So does contact, two estimates
+/// in a row, where the map has air.
 ///
 /// A stretch may be open: not known at all, or known to lie between air and its F_i (least_share 0). It neither
 /// confirms the map nor refutes it. Near a stretch that is not known at all `known` is false, and it is met at
@@ -144,7 +145,8 @@ class FeedAhead {
         Scalar tangential_N{0};  // mean, at κ = 1
     };
 
-    static constexpr Scalar significance{4};  // standard deviations
+    static constexpr Scalar significance{4};        // standard deviations
+    static constexpr int enough_disagreements = 3;  // in a rapid one window is longer than disagreement_mm
 
     [[nodiscard]] const Stretch<Scalar>& at(std::size_t i) const { return window_[(first_ + i) % Capacity]; }
     [[nodiscard]] Scalar end_mm(std::size_t i) const { return at(i + 1).begin_mm; }
@@ -171,6 +173,7 @@ class FeedAhead {
     Scalar hardening_;    // 1 − 1/κ
     Scalar agreed_mm_{0};
     Scalar disagreed_mm_{0};
+    int disagreements_ = 0;  // estimates in a row
     Scalar since_estimate_mm_{0};
     Mapped mapped_;
     bool touched_in_air_ = false;

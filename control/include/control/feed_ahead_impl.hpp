@@ -20,6 +20,7 @@ void FeedAhead<Scalar, Capacity>::restart() {
     count_ = 0;
     agreed_mm_ = Scalar(0);
     disagreed_mm_ = Scalar(0);
+    disagreements_ = 0;
     since_estimate_mm_ = Scalar(0);
     touched_in_air_ = false;
     is_refuted_ = false;
@@ -93,10 +94,13 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     touched_in_air_ = touches_in_air;
     if (!force_agrees(now, expected) || !direction_agrees(now, expected)) {
         disagreed_mm_ += travel_mm;
-        is_refuted_ = is_refuted_ || disagreed_mm_ > settings_.disagreement_mm;
+        disagreements_ = disagreements_ < enough_disagreements ? disagreements_ + 1 : disagreements_;
+        is_refuted_ =
+            is_refuted_ || (disagreed_mm_ > settings_.disagreement_mm && disagreements_ == enough_disagreements);
         return;
     }
     disagreed_mm_ = Scalar(0);
+    disagreements_ = 0;
     if (is_in_contact && !expected.has_unknown && expected.tangential_N.low > Scalar(0)) {
         agreed_mm_ += travel_mm;
         measure_hardness(now, expected.tangential_N);
