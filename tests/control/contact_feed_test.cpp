@@ -85,3 +85,17 @@ TEST(ContactFeed, learns_nothing_from_a_bound_a_guess_or_forces_that_contradict_
         DOUBLES_EQUAL(0.0, static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
     }
 }
+
+TEST(ContactFeed, is_kept_over_cuts_that_the_law_of_the_feed_does_not_cover) {
+    ContactFeed<float> feed;
+    learn(feed, cut_with(500.0F));
+    const float known_mm = feed.feed_per_tooth_mm();
+    Input without_force = cut_with(5000.0F);
+    without_force.cut.force_valid = false;
+    Input without_share = cut_with(5000.0F);
+    without_share.cut.turn_cutting_share = not_a_number;
+    for (const Input& input : {without_force, without_share, cut_with(5000.0F, beyond_all)}) {
+        learn(feed, input, 10 * block);
+        DOUBLES_EQUAL(static_cast<double>(known_mm), static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+    }
+}

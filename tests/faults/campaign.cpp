@@ -12,6 +12,7 @@
 #include "loop/bounds.hpp"
 #include "loop/ensemble.hpp"
 #include "loop/simulation.hpp"
+#include "sim/converter_load.hpp"
 #include "sim/without_axis_currents.hpp"
 
 namespace millforce::faults {
@@ -113,8 +114,11 @@ const char* name_of(const Fault& fault) {
     return std::visit([](auto kind) { return name_of(kind); }, fault);
 }
 
-bool leaves_blind(const Fault& fault) {
+bool leaves_blind(const Fault& fault, const Part& part) {
     using S = SignalFault;
+    if (part.is_load_seldom && fault == Fault{S::spindle_frozen}) {
+        return false;
+    }
     static constexpr std::array<Fault, 14> blind{S::spindle_frozen,
                                                  S::spindle_dead,
                                                  S::spindle_absent,
@@ -132,15 +136,30 @@ bool leaves_blind(const Fault& fault) {
     return std::find(blind.begin(), blind.end(), fault) != blind.end();
 }
 
-Part part_named(const std::string& name) {
-    constexpr std::string_view spindle = ":spindle";
-    Part part;
-    part.name = name;
-    part.is_spindle_alone = name.ends_with(spindle);
-    const std::string scenario = part.is_spindle_alone ? name.substr(0, name.size() - spindle.size()) : name;
-    part.scenario = sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + scenario + ".toml");
+namespace {
+
+/// What is known of the cut beside encoder and CNC.
+void set_machine(Part& part, std::string_view machine) {
+    constexpr double load_period_s = 0.1;
+    constexpr double load_age_s = 0.1;
+    part.is_spindle_alone = !machine.empty();
+    part.is_load_seldom = machine == "vfd";
+    if (part.is_load_seldom) {
+        part.scenario = test::with_converter_load(part.scenario, load_period_s, load_age_s);
+    }
     part.stated =
         part.is_spindle_alone ? test::without_axis_currents(part.scenario.parameters) : part.scenario.parameters;
+}
+
+}  // namespace
+
+Part part_named(const std::string& name) {
+    const std::size_t colon = std::min(name.find(':'), name.size());
+    Part part;
+    part.name = name;
+    part.scenario =
+        sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name.substr(0, colon) + ".toml");
+    set_machine(part, std::string_view(name).substr(std::min(colon + 1, name.size())));
     part.scenario.cutting_options.resolution = coarse;
     sim::MillforceController controller(part.stated);
     part.duration_s = sim::simulate(part.scenario, controller, "millforce").result.figures.time_s;
@@ -174,7 +193,7 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
                            .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
                            .begin = begin,
                            .corrupt = corruption(part, fault, seed),
-                           .leaves_blind = leaves_blind(fault)});
+                           .leaves_blind = leaves_blind(fault, part)});
     sim::SimulationSettings stopped_early;
     stopped_early.longest_run_s = 1.5 * part.duration_s;
     stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };

@@ -29,18 +29,24 @@ const char* name_of(Path path);
 
 using Fault = std::variant<SignalFault, BusFault, LinkFault>;
 const char* name_of(const Fault& fault);
-/// After it nothing says what the tool does: the spindle's current or its encoder is not there, or does not change.
-[[nodiscard]] bool leaves_blind(const Fault& fault);
 
 /// One part. `duration_s`: of the run without a fault, in which the fault's begin is drawn.
 struct Part {
-    std::string name;  ///< of its scenario; with ":spindle" where the axes' currents are not read
+    std::string name;  ///< of its scenario; with ":spindle" or ":vfd", below
     sim::Scenario scenario;
     firmware::Parameters<float> stated{};  ///< to the controller
     bool is_spindle_alone = false;
+    bool is_load_seldom = false;  ///< a converter's load
     double duration_s = 0.0;
 };
+/// "NAME:spindle": the axes' currents are not read. "NAME:vfd": nor the spindle's, but the load that a frequency
+/// converter gives ten times a second and late.
 Part part_named(const std::string& name);
+
+/// After it nothing says what the tool does: the spindle's current or its encoder is not there, or does not change. A
+/// load that a converter gives seldom may rightly stay the same in a steady cut
+/// (firmware/program/check/unseen_faults.hpp).
+[[nodiscard]] bool leaves_blind(const Fault& fault, const Part& part);
 
 /// What can go wrong on this path, with what is read on this machine: a frame brings neither NaN nor the drive's time.
 [[nodiscard]] std::vector<Fault> faults_on(Path path, const Part& part);

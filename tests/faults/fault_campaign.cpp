@@ -215,7 +215,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     app.add_option("--part", options.parts,
-                   "scenarios; NAME:spindle is a machine that reads its spindle's current alone");
+                   "scenarios; NAME:spindle is a machine that reads its spindle's current alone, NAME:vfd one with a "
+                   "frequency converter's load instead");
     app.add_option("--path", options.paths, "between machine and controller")
         ->check(CLI::IsMember({"tick", "can", "link"}));
     app.add_option("--fault", options.faults, "as the table names them");

@@ -84,3 +84,18 @@ TEST(SlowFall, says_nothing_of_a_force_or_a_feed_that_is_not_there) {
         DOUBLES_EQUAL(1.0, static_cast<double>(fall.largest_ratio(e)), 0.0);
     }
 }
+
+TEST(SlowFall, is_kept_over_estimates_without_a_force_or_a_feed) {
+    CutEstimate<float> invalid = cut_of(100.0F);
+    invalid.tangential_N.valid = false;
+    for (const CutEstimate<float>& without : {cut_of(0.0F), cut_of(250.0F, 0.0F), invalid}) {
+        SlowFall fall(drift_N_per_s);
+        go(fall, 400.0F, 250.0F, 3);
+        go(fall, 250.0F, 250.0F, 1);
+        const double before_N = largest_N(fall, cut_of(250.0F));
+        for (int k = 0; k < in_a_second; ++k) {
+            fall.follow(without, period_s);
+        }
+        DOUBLES_EQUAL(before_N, largest_N(fall, cut_of(250.0F)), 1e-3);
+    }
+}

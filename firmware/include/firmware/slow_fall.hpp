@@ -14,7 +14,8 @@ namespace millforce::firmware {
 /// Within a cut a current that drifts looks like a cut that becomes lighter. No other signal tells them apart, so what
 /// falls no faster than a current may drift is not believed:
 ///
-///   H = max(0, H + clamp(m₀ − m, ±d T))    m: mean of F_at/√f over 16 estimates, T: their time, m₀: the mean before
+///   H = max(0, H + clamp(m₀ − m, ±d T))    m: mean of F_at/√f over 16 estimates, T: their time, m₀: the mean before,
+///   or 0
 ///
 /// A force grows with the feed f by a power between 0 and 0.8, by 1/2 roughly. d: drift of 5 % of rated_current_A per
 /// second, as a force. A wall's end, whose force falls faster than that, hides no more than d T. H is 0 again once
@@ -42,7 +43,7 @@ class SlowFall {
         }
         const Scalar mean = sum_ / Scalar(block);
         const Scalar most = drift_N_per_s_ * time_s_ / root;
-        const Scalar fall = mean_ > Scalar(0) ? estimation::clamp(mean_ - mean, -most, most) : Scalar(0);
+        const Scalar fall = estimation::clamp(mean_ - mean, -most, most);
         hidden_ = hidden_ + fall > Scalar(0) ? hidden_ + fall : Scalar(0);
         mean_ = mean;
         sum_ = time_s_ = Scalar(0);

@@ -9,15 +9,19 @@ using namespace millforce::estimation;
 
 namespace {
 
-/// What NoiseRatio learns from changes with this standard deviation, where the drive's parameters say 1 N.
-double learnt(double true_sd_N, int changes) {
+/// Changes with this standard deviation, where the drive's parameters say 1 N.
+void learn(NoiseRatio<double>& noise, double true_sd_N, int changes) {
     std::mt19937 random(1);
     std::normal_distribution<double> change_N(0.0, true_sd_N);
-    NoiseRatio<double> noise;
     for (int k = 0; k < changes; ++k) {
         const double variance = noise.value();
         noise.learn({true, change_N(random), variance, variance});
     }
+}
+
+double learnt(double true_sd_N, int changes) {
+    NoiseRatio<double> noise;
+    learn(noise, true_sd_N, changes);
     return noise.value();
 }
 
@@ -44,4 +48,11 @@ TEST(NoiseRatio, learns_nothing_without_a_change_or_its_variance) {
     noise.learn({false, 100.0, 1.0, 1.0});
     noise.learn({true, 100.0, 0.0, 0.0});
     DOUBLES_EQUAL(1.0, noise.value(), 1e-12);
+}
+
+TEST(NoiseRatio, follows_a_current_that_becomes_noisier_after_hours) {
+    NoiseRatio<double> noise;
+    learn(noise, 1.0, 100'000);
+    learn(noise, 3.0, 200);
+    DOUBLES_EQUAL(9.0, noise.value(), 3.0);
 }

@@ -10,7 +10,7 @@ namespace millforce::estimation {
 /// In air, at an unchanged feed and speed, a tooth period's mean differs from that of the same tooth one revolution
 /// before by noise alone:
 ///
-///   q ← q + (min(Δ²/σ²(Δ), 9) q − q)/n,   n = 9 … 64          σ²(Δ): by q and current_sd_A
+///   q ← q + (min(Δ²/σ²(Δ), 9) max(q, 1) − q)/n,   n = 9 … 64          σ²(Δ): by max(q, 1) and current_sd_A
 ///
 /// It begins at 1, with the weight of eight. Noise that is not white, or held by a slow converter, counts by what it
 /// does to the mean of a tooth period. One outlier counts no more than three standard deviations do.
@@ -28,7 +28,7 @@ class NoiseRatio {
         const Scalar size2 = square(change_N.value);
         const Scalar seen = size2 < most * change_N.variance ? size2 / change_N.variance : most;
         weight_ = weight_ < longest ? weight_ + Scalar(1) : weight_;
-        ratio_ += (seen - Scalar(1)) * ratio_ / weight_;
+        ratio_ += (seen * value() - ratio_) / weight_;
     }
 
     [[nodiscard]] Scalar value() const { return ratio_ > Scalar(1) ? ratio_ : Scalar(1); }

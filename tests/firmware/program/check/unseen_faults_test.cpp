@@ -27,6 +27,7 @@ TEST(UnseenFaults, of_a_machine_with_all_currents_are_drifts) {
     CHECK(names("a current that drifts within one cut"));
     CHECK_FALSE(names("a spindle current that drifts"));
     CHECK_FALSE(names("contradicted by no second current"));
+    CHECK_FALSE(names("load_period_s"));
 }
 
 TEST(UnseenFaults, of_a_spindle_alone_are_also_its_scale_in_the_cut) {
@@ -34,5 +35,13 @@ TEST(UnseenFaults, of_a_spindle_alone_are_also_its_scale_in_the_cut) {
         axis.K_x4_N_per_A = 0.0F;
     }
     CHECK(names("a spindle current that drifts within one cut"));
+    CHECK(names("contradicted by no second current"));
+}
+
+TEST(UnseenFaults, of_a_converters_load_are_late_and_may_stand_still) {
+    parameters.machine = host::read_machine_parameters(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vfd.toml");
+    CHECK(names("comes every 0.1 s (load_period_s) and is 0.15 s old by then (load_age_s)"));
+    CHECK(names("shows up to 0.25 s late"));
+    CHECK(names("a load that no longer changes looks like a steady cut"));
     CHECK(names("contradicted by no second current"));
 }
