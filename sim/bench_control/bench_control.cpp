@@ -78,7 +78,8 @@ void run_jobs(const BenchSettings& settings, const std::vector<Job>& jobs, Journ
         jobs.size(), settings.threads,
         [&](std::size_t k) {
             const Job& job = jobs[k];
-            journal.add(run_contender(*job.contender, prepared[place[job.part]], job.seed, settings.rules));
+            const PreparedPart& part = prepared[place[job.part]];
+            journal.add(run_contender(*job.contender, part, job.seed, settings.rules, settings.traces));
         },
         [&](double share) { progress("milling", share); });
 }

@@ -12,7 +12,8 @@
 namespace millforce::sim {
 
 struct BenchSettings {
-    std::filesystem::path out;  ///< an existing folder
+    std::filesystem::path out;     ///< an existing folder
+    std::filesystem::path traces;  ///< an existing folder for the trace of each new run; empty: none
     std::vector<BenchPart> parts;
     std::vector<const Contender*> contenders;
     std::uint64_t first_seed = 1;

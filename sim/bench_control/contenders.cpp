@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_control/contenders.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,9 +10,11 @@
 #include "bench_control/disturbance.hpp"
 #include "bench_control/load_control.hpp"
 #include "bench_control/load_rules.hpp"
+#include "bench_control/text_file.hpp"
 #include "loop/simulation.hpp"
 #include "preview/clairvoyant.hpp"
 #include "preview/preview.hpp"
+#include "report/trace_csv.hpp"
 
 namespace millforce::sim {
 
@@ -125,7 +129,7 @@ void teach(PreparedPart& prepared, double feed_share) {
 }
 
 BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
-                       const RuleSettings& settings) {
+                       const RuleSettings& settings, const std::filesystem::path& traces) {
     const Scenario plant = disturbed(drawn(part, contender.machine), drawn_disturbance(seed), part.part.depth_mm, seed);
     if (contender.kind == bound) {
         RunResult result;
@@ -135,8 +139,11 @@ BenchRun run_contender(const Contender& contender, const PreparedPart& part, std
     SimulationSettings simulation;
     simulation.longest_run_s = part.longest_run_s;
     const auto controller = controller_of(contender, part, plant, settings);
-    return figures_of(contender, part, seed,
-                      simulate(plant, *controller, std::string(contender.name), simulation).result);
+    const RunResult result = simulate(plant, *controller, std::string(contender.name), simulation).result;
+    if (!traces.empty()) {
+        write_text_file(traces / fmt::format("{}_{}_{}.csv", part.part.name, contender.name, seed), trace_csv(result));
+    }
+    return figures_of(contender, part, seed, result);
 }
 
 }  // namespace millforce::sim

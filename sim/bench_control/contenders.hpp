@@ -69,8 +69,10 @@ struct BenchRun {
     bool operator==(const BenchRun&) const = default;
 };
 
-/// One part, one plant, one controller. Deterministic. A few tenths of a second.
+/// One part, one plant, one controller. Deterministic. A few tenths of a second. Where `traces` names an existing
+/// folder, the run's trace goes there as PART_CONTROLLER_SEED.csv; the bound has none. Throws InputError where it
+/// cannot be written.
 [[nodiscard]] BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
-                                     const RuleSettings& settings);
+                                     const RuleSettings& settings, const std::filesystem::path& traces = {});
 
 }  // namespace millforce::sim

@@ -169,8 +169,9 @@ void draw_equal_ribs(Drawing& d, const BenchPart& part) {
     wall(d, part);
     const double rib_mm = 1.2 * part.tool_diameter_mm;
     double x = rib_mm;
-    for (; x < part.length_mm; x += 2.0 * rib_mm) {
+    while (x < part.length_mm) {
         d.gap(x, std::min(x + rib_mm, part.length_mm));
+        x += 2.0 * rib_mm;
     }
     pass_along_wall(d, part);
 }
@@ -179,10 +180,10 @@ void draw_growing_ribs(Drawing& d, const BenchPart& part) {
     wall(d, part);
     double rib_mm = 4.0;
     double x = rib_mm;
-    for (; x < part.length_mm; x += rib_mm) {
+    while (x < part.length_mm) {
         d.gap(x, std::min(x + part.tool_diameter_mm, part.length_mm));
-        x += part.tool_diameter_mm;
         rib_mm += 6.0;
+        x += part.tool_diameter_mm + rib_mm;
     }
     pass_along_wall(d, part);
 }
@@ -191,8 +192,9 @@ void draw_growing_ribs(Drawing& d, const BenchPart& part) {
 void draw_rib_passes(Drawing& d, const BenchPart& part) {
     d.block(0.0, -d.radius_mm() - 6.0, part.length_mm, -d.radius_mm() + 3.0 * part.width_mm);
     double x = 20.0;
-    for (; x < part.length_mm; x += 50.0) {
+    while (x < part.length_mm) {
         d.gap(x, x + 25.0);
+        x += 50.0;
     }
     double y = 2.5 * part.width_mm;
     d.start_at(-clear_mm(d), y);
@@ -208,8 +210,9 @@ void draw_rib_passes(Drawing& d, const BenchPart& part) {
 std::vector<double> face_paths(const Drawing& d, const BenchPart& part) {
     std::vector<double> paths;
     double y = part.breadth_mm - part.width_mm + d.radius_mm();
-    for (; y > -d.radius_mm(); y -= part.width_mm) {
+    while (y > -d.radius_mm()) {
         paths.push_back(y);
+        y -= part.width_mm;
     }
     return paths;
 }
@@ -268,14 +271,23 @@ void draw_depths(Drawing& d, const BenchPart& part, std::initializer_list<double
     pass_along_wall(d, part);
 }
 
+/// From the first place to the last, both counted, in steps; a step below 0 goes down.
+[[nodiscard]] std::vector<double> places(double first_mm, double last_mm, double step_mm) {
+    const double steps = std::floor((last_mm - first_mm) / step_mm + 1e-6);
+    std::vector<double> result;
+    for (int k = 0; k <= static_cast<int>(steps); ++k) {
+        result.push_back(first_mm + k * step_mm);
+    }
+    return result;
+}
+
 /// Counter-clockwise circles that grow from a drilled hole: down milling.
 void draw_outwards(Drawing& d, const BenchPart& part) {
     const double edge = 0.5 * part.length_mm + 4.0;
     d.block(-edge, -edge, edge, edge);
     d.start_in_hole(0.0, 0.0);
     const double last = 0.5 * part.length_mm - d.radius_mm();
-    double r = part.width_mm;
-    for (; r < last + 1e-6; r += part.width_mm) {
+    for (const double r : places(part.width_mm, last, part.width_mm)) {
         d.line(r, 0.0);
         d.circle(r, 0.0, -r, 0.0, false);
     }
@@ -286,9 +298,9 @@ void draw_outwards(Drawing& d, const BenchPart& part) {
 void draw_trochoid(Drawing& d, const BenchPart& part) {
     const double r = 0.5 * part.breadth_mm - d.radius_mm();
     d.block(0.0, -0.5 * part.breadth_mm - 5.0, part.length_mm, 0.5 * part.breadth_mm + 5.0);
-    double x = -clear_mm(d) - r + 2.0;
-    d.start_at(x + r, 0.0);
-    for (; x < part.length_mm - part.width_mm; x += part.width_mm) {
+    const double first = -clear_mm(d) - r + 2.0;
+    d.start_at(first + r, 0.0);
+    for (const double x : places(first, part.length_mm - part.width_mm, part.width_mm)) {
         d.line(x + r, 0.0);
         d.circle(x + r, 0.0, -r, 0.0, false);
     }
@@ -301,8 +313,7 @@ void draw_boss(Drawing& d, const BenchPart& part) {
     const double first = std::numbers::sqrt2 * edge + d.radius_mm() - 2.0 * part.width_mm;
     const double last = 0.5 * edge + d.radius_mm() + part.width_mm;
     d.start_at(first + part.width_mm + 2.0, -0.1);
-    double r = first;
-    for (; r > last - 1e-6; r -= part.width_mm) {
+    for (const double r : places(first, last, -part.width_mm)) {
         d.line(r, 0.0);
         d.circle(r, 0.0, -r, 0.0, true);
     }
@@ -314,9 +325,9 @@ void draw_island(Drawing& d, const BenchPart& part) {
     const double edge = 0.5 * part.length_mm + 4.0;
     d.block(-edge, -edge, edge, edge);
     const double last = 0.5 * part.length_mm - d.radius_mm();
-    double half = last - 3.0 * part.width_mm;
-    d.start_in_hole(half, 0.0);
-    for (; half < last + 1e-6; half += part.width_mm) {
+    const double first = last - 3.0 * part.width_mm;
+    d.start_in_hole(first, 0.0);
+    for (const double half : places(first, last, part.width_mm)) {
         d.line(half, 0.0);
         d.line(half, half);
         d.line(-half, half);

@@ -31,6 +31,7 @@ struct BenchControlOptions {
     int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     int evaluations = 40;
     bool tune = false;
+    bool traces = false;
     std::string settings;
     std::string out = "out/bench";
 };
@@ -88,6 +89,9 @@ std::vector<std::string> controller_choices() {
 BenchSettings settings_of(const BenchControlOptions& options) {
     BenchSettings settings;
     settings.out = host::results_folder(options.out, "bench.html");
+    if (options.traces) {
+        settings.traces = host::results_folder((settings.out / "traces").string(), "trace.csv");
+    }
     settings.parts = parts_of(options);
     settings.contenders = contenders_of(options);
     settings.first_seed = options.first_seed;
@@ -187,6 +191,8 @@ void add_bench_control(host::Command& bench, const std::shared_ptr<std::optional
     command.option("--threads", options->threads, "Runs at the same time").within(1, 1024).shows_default();
     command.option("--settings", options->settings, "Settings of the load controls; default: those brought along")
         .value_name("TUNED.toml");
+    command.flag("--traces", options->traces,
+                 "Write the trace of each run that is not in runs.csv yet into DIR/traces");
     command.flag("--tune", options->tune, "Choose the settings of the load controls, in place of comparing");
     command.option("--evaluations", options->evaluations, "With --tune: how often each rule is tried")
         .within(1, 10000)

@@ -16,12 +16,6 @@ void check_ratio(float expected, const Output& output, double tolerance = 1e-5) 
     DOUBLES_EQUAL(static_cast<double>(expected), static_cast<double>(output.ratio), tolerance);
 }
 
-/// What a tooth would carry at that override, in newtons: F = F₀ (f/f₀)^(1+p_s).
-float force_at(float override_ratio, const Input& input) {
-    const float feed_ratio = override_ratio * input.programmed_feed_mm_s / input.cut.feed_mm_s;
-    return input.cut.tooth_force_N * std::pow(feed_ratio, input.cut.feed_exponent);
-}
-
 }  // namespace
 
 TEST(Ceilings, in_air_the_feed_is_the_one_at_which_the_tool_may_meet_the_workpiece) {
@@ -165,6 +159,45 @@ TEST(Ceilings, what_may_come_without_warning_holds_a_proven_program_no_lower_tha
     CHECK(in_cut.state == CutState::in_cut);
     check_ratio(0.8F, in_cut);
     check_ratio(0.8F, repeat(controller, in_air(), 100));
+}
+
+TEST(Ceilings, the_next_contact_may_come_at_the_feed_that_the_cuts_before_have_shown_to_be_safe) {
+    Parameters p = immediate();
+    p.depth_step_ratio = 2.0F;
+    p.depth_step_share = 1.5F;
+    Controller controller(p);
+    check_ratio(ratio_of(p.air_feed_per_tooth_mm, in_air()), repeat(controller, in_air(), 2000));
+    const Output cut = repeat(controller, in_contact(), 2000);
+    CHECK(cut.limit == Limit::depth_step);
+    const Output air = repeat(controller, in_air(), 2000);
+    CHECK(air.state == CutState::air);
+    check_ratio(cut.ratio, air);  // a slot of the same depth: the tooth force is in its front
+    CHECK(air.limit == Limit::air_feed);
+}
+
+TEST(Ceilings, behind_a_light_cut_the_tool_waits_for_the_next_wall_at_that_feed) {
+    Parameters p = immediate();
+    p.exit_travel_mm = 1000.0F;
+    Controller controller(p);
+    repeat(controller, in_contact(), 2000);
+    Input light = in_contact();
+    light.cut.tooth_force_N = 200.0F;
+    light.cut.turn_ratio = 5.0F;
+    const float in_light_cut = repeat(controller, light, 2000).ratio;
+    const Output behind = repeat(controller, in_air(), 2000);
+    CHECK(behind.state == CutState::exit);
+    CHECK_COMPARE(behind.ratio, <, in_light_cut);
+}
+
+TEST(Ceilings, what_may_come_without_warning_holds_the_feed_no_lower_than_that_of_an_entry) {
+    Parameters p = immediate();
+    p.surge_radial_immersion = 2.0F;
+    p.depth_step_ratio = 10.0F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.surge_ratio = 50.0F;
+    input.cut.turn_ratio = 50.0F;
+    check_ratio(ratio_of(p.entry_feed_per_tooth_mm, input), repeat(controller, input, 2000));
 }
 
 TEST(Ceilings, a_force_that_is_there_holds_a_proven_program_at_its_limit) {
@@ -410,6 +443,7 @@ TEST(Ceilings, behind_a_gap_the_feed_may_rise_to_that_of_an_entry) {
     Input input = in_contact();
     input.cut.tooth_force_N = 1300.0F;
     input.cut.cutting_share = 0.5F;
+    input.cut.turn_cutting_share = 0.5F;
     CHECK(repeat(controller, input, 500).ratio < 0.5F);
     CHECK(repeat(controller, in_air(), 5).state == CutState::exit);
     input.cut.tooth_force_N = 300.0F;
@@ -475,11 +509,13 @@ TEST(Ceilings, a_cut_after_air_begins_with_the_feed_of_an_entry_though_the_tool_
     p.air_feed_per_tooth_mm = 0.08F;
     p.entry_travel_mm = 5.0F;
     Controller controller(p);
-    repeat(controller, in_contact(), 500);
+    Input input = in_contact();
+    input.cut.turn_ratio = 50.0F;  // a slot of that depth is too heavy
+    repeat(controller, input, 500);
     const Output air = repeat(controller, in_air(), 500);
     CHECK(air.state == CutState::air);
     check_ratio(ratio_of(0.08F, in_air()), air);
-    const Output entry = repeat(controller, in_contact(), 5);
+    const Output entry = repeat(controller, input, 5);
     CHECK(entry.state == CutState::entry);
     check_ratio(ratio_of(p.entry_feed_per_tooth_mm, in_contact()), entry);
 }

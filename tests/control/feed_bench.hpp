@@ -23,6 +23,7 @@ inline constexpr float beyond_all = std::numeric_limits<float>::infinity();
 struct Parameters : FeedControllerParameters<float> {
     Parameters() {
         tooth_force_limit_N = 1000.0F;
+        setpoint_share = 0.97F;
         teeth = 4.0F;
         override_min = 0.1F;
         override_max = 1.5F;
@@ -63,6 +64,12 @@ inline Input without_force(Input input) {
     input.cut.force_valid = false;
     input.cut.tooth_force_valid = false;
     return input;
+}
+
+/// What a tooth would carry at that override, in newtons: F = F₀ (f/f₀)^(1+p_s).
+inline float force_at(float override_ratio, const Input& input) {
+    const float feed_ratio = override_ratio * input.programmed_feed_mm_s / input.cut.feed_mm_s;
+    return input.cut.tooth_force_N * std::pow(feed_ratio, input.cut.feed_exponent);
 }
 
 inline float ratio_of(float feed_per_tooth_mm, const Input& input, float teeth = 4.0F) {

@@ -29,7 +29,7 @@ float demand_at_entry(float least_tooth_force_N) {
     input.cut.tooth_force_N = 5000.0F;
     input.cut.least_tooth_force_N = least_tooth_force_N;
     Law law(1.0F);
-    law.follow(Parameters{}, input, CutState::entry);
+    law.follow(Parameters{}, input, CutState::entry, 0.0F);
     return law.demand();
 }
 
@@ -58,18 +58,18 @@ TEST(FeedLawAlone, applies_to_no_estimate_with_a_value_that_cannot_be) {
 TEST(FeedLawAlone, takes_no_demand_from_an_old_estimate_nor_from_one_that_it_does_not_apply_to) {
     Law law(1.0F);
     Input input = in_contact();
-    law.follow(Parameters{}, input, CutState::in_cut);
+    law.follow(Parameters{}, input, CutState::in_cut, 0.0F);
     const float before = law.demand();
     input.cut.tooth_force_N = 900.0F;
     input.cut.fresh = false;
-    law.follow(Parameters{}, input, CutState::in_cut);
+    law.follow(Parameters{}, input, CutState::in_cut, 0.0F);
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(law.demand()), 0.0);
     input.cut.fresh = true;
     input.cut.surge_ratio = not_a_number;
-    law.follow(Parameters{}, input, CutState::in_cut);
+    law.follow(Parameters{}, input, CutState::in_cut, 0.0F);
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(law.demand()), 0.0);
     input.cut.surge_ratio = 1.0F;
-    law.follow(Parameters{}, input, CutState::in_cut);
+    law.follow(Parameters{}, input, CutState::in_cut, 0.0F);
     CHECK(law.demand() < before);
 }
 
@@ -111,8 +111,8 @@ TEST(FeedLawAlone, rises_in_air_without_estimates_and_not_in_a_cut_whose_spindle
 
 TEST(FeedLawAlone, demands_nothing_out_of_the_cut) {
     Law law(1.0F);
-    law.follow(Parameters{}, in_contact(), CutState::in_cut);
+    law.follow(Parameters{}, in_contact(), CutState::in_cut, 0.0F);
     CHECK(law.demand() > Parameters{}.override_max);
-    law.follow(Parameters{}, in_contact(), CutState::air);
+    law.follow(Parameters{}, in_contact(), CutState::air, 0.0F);
     DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_max), static_cast<double>(law.demand()), 0.0);
 }

@@ -102,6 +102,7 @@ TEST(FeedLaw, backs_off_at_least_ten_times_faster_than_it_recovers) {
 TEST(FeedLaw, lowers_the_feed_so_that_a_surge_stays_below_its_share_of_the_limit) {
     Parameters p = immediate();
     p.surge_radial_immersion = 1.0F;
+    p.entry_feed_per_tooth_mm = 0.01F;
     Input input = in_contact();
     input.cut.tooth_force_N = 600.0F;
     input.cut.surge_ratio = 2.5F;

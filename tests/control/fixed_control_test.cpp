@@ -19,6 +19,7 @@ namespace {
 FeedControllerParameters<Fixed> in_fixed(const Parameters& p) {
     FeedControllerParameters<Fixed> q;
     q.tooth_force_limit_N = Fixed(p.tooth_force_limit_N);
+    q.setpoint_share = Fixed(p.setpoint_share);
     q.teeth = Fixed(p.teeth);
     q.stale_s = Fixed(p.stale_s);
     q.override_min = Fixed(p.override_min);

@@ -82,7 +82,9 @@ TEST(Surface, ceiling_of_one_cut_does_not_bind_the_way_to_the_next) {
     p.exit_travel_mm = 0.0F;
     p.air_feed_per_tooth_mm = 0.1F;
     Controller controller(p);
-    DOUBLES_EQUAL(0.5, settled(controller, light_cut(10.0F)), 1e-5);
+    Input cut = light_cut(10.0F);
+    cut.cut.turn_ratio = 50.0F;  // a slot of that depth is too heavy
+    DOUBLES_EQUAL(0.5, settled(controller, cut), 1e-5);
     DOUBLES_EQUAL(static_cast<double>(ratio_of(0.1F, in_air())), settled(controller, in_air()), 1e-4);
 }
 

@@ -458,7 +458,8 @@ TEST(SignalSupervisorAlone, lets_the_axes_carry_twice_the_torque_and_never_less_
 }
 
 TEST(SignalSupervisorAlone, finds_a_feed_force_that_is_lost_in_the_move_in_which_it_was_known) {
-    const Estimate lost = revolution();
+    Estimate lost = revolution();
+    lost.axis_is_implausible = true;
     Supervisor never_known(machine_and_tool());
     CHECK(judged(never_known, lost, 20) == Fault::none);
     Supervisor known(machine_and_tool());
@@ -467,6 +468,15 @@ TEST(SignalSupervisorAlone, finds_a_feed_force_that_is_lost_in_the_move_in_which
     CHECK(judged(known, e, 1 + 256) == Fault::none);
     CHECK(judged(known, lost, 2) == Fault::none);
     CHECK(judged(known, lost, 1) == Fault::forces_contradict);
+}
+
+TEST(SignalSupervisorAlone, lets_the_feed_force_be_unknown_where_an_arc_slows_one_axis_down) {
+    const Estimate unknown = revolution();
+    Supervisor supervisor(machine_and_tool());
+    Estimate e = revolution();
+    e.feed_N = known_N(10.0F);
+    CHECK(judged(supervisor, e, 1 + 256) == Fault::none);
+    CHECK(judged(supervisor, unknown, 256) == Fault::none);
 }
 
 TEST(SignalSupervisorAlone, gives_the_cnc_the_time_to_slow_down_that_its_acceleration_takes) {

@@ -11,10 +11,11 @@
 /// the reason that is shown. f_z: feed per tooth, z: teeth, n: revolutions per second, F: the programmed feed.
 ///
 ///   air        f_z,air z n/F · F/F_highest: the tool may meet the workpiece at any moment, and a new block's F acts at
-///              once, but the override reacts only after the latency. Also while the tool plunges (limit entry_feed,
-///              and at most 1): the law does not describe that.
+///              once, but the override reacts only after the latency. f_z,air is not below what the program's cuts have
+///              shown to be safe (contact_feed.hpp), nor is f_z,entry
+///   plunge     the same by f_z,air alone, and at most 1 (limit entry_feed): the law does not describe that
 ///   entry      the larger of f_z,entry z n/F and, behind a gap in a cut, the override that the tool came with
-///   exit       the override that contact was lost with
+///   exit       the override that contact was lost with, and at most that of an entry
 ///   feed per tooth   f_z,max z n/F: what edge and chip space allow
 ///   force      the demand of the law (feed_law.hpp)
 ///   surge      the override at which a surge to surge_radial_immersion would reach surge_share of the limit, by the
@@ -71,9 +72,10 @@ class Ceilings {
     /// Where the rest of the controller stands in this step.
     struct Situation {
         CutState state = CutState::air;
-        bool has_cut = false;      ///< CutStates::has_cut
-        Scalar override_ratio{0};  ///< override of the last step
-        Scalar force_demand{0};    ///< FeedLaw::demand
+        bool has_cut = false;       ///< CutStates::has_cut
+        Scalar override_ratio{0};   ///< override of the last step
+        Scalar force_demand{0};     ///< FeedLaw::demand
+        Scalar contact_feed_mm{0};  ///< ContactFeed::feed_per_tooth_mm
     };
 
     /// The state has changed, at this override.
@@ -100,7 +102,8 @@ class Ceilings {
                         const Situation& situation) const;
     void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
                       const Situation& situation) const;
-    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters, const Situation& situation) const;
+    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
+                        const Situation& situation) const;
     [[nodiscard]] static Scalar ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 

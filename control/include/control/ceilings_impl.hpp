@@ -85,7 +85,7 @@ Scalar Ceilings<Scalar>::ceiling_of_surge(const Parameters& parameters, const Co
         return parameters.override_max;
     }
     if (cut.tooth_force_is_bound) {
-        return override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input);
+        return safe_entry(parameters, input);
     }
     return cut.surge_ratio > Scalar(1)
                ? FeedLaw<Scalar>::override_for(
@@ -183,25 +183,31 @@ void Ceilings<Scalar>::lower_by_state(Ceiling<Scalar>& lowest, const Parameters&
                                       const ControlInput<Scalar>& input, const Situation& situation) const {
     const bool is_slower = input.programmed_feed_mm_s < highest_programmed_feed_mm_s_;
     const Scalar of_highest_feed = is_slower ? input.programmed_feed_mm_s / highest_programmed_feed_mm_s_ : Scalar(1);
-    const Scalar air = not_below_proven(
-        parameters,
-        of_highest_feed * override_of_feed_per_tooth(parameters.air_feed_per_tooth_mm, parameters.teeth, input));
+    const auto at_contact = [&](Scalar feed_per_tooth_mm) {
+        return not_below_proven(
+            parameters, of_highest_feed * override_of_feed_per_tooth(feed_per_tooth_mm, parameters.teeth, input));
+    };
+    const Scalar told_mm = parameters.air_feed_per_tooth_mm;
     if (input.plunging) {
-        lowest.lower_to(air < Scalar(1) ? air : Scalar(1), Limit::entry_feed);
+        const Scalar plunge = at_contact(told_mm);
+        lowest.lower_to(plunge < Scalar(1) ? plunge : Scalar(1), Limit::entry_feed);
     }
     if (input.way.known) {
         return;
     }
     if (situation.state == CutState::air) {
-        lowest.lower_to(air, Limit::air_feed);
+        lowest.lower_to(at_contact(situation.contact_feed_mm > told_mm ? situation.contact_feed_mm : told_mm),
+                        Limit::air_feed);
     }
     if (situation.state == CutState::entry) {
-        const Scalar entry = safe_entry(parameters, input);
+        const Scalar entry = safe_contact(parameters, input, situation.contact_feed_mm);
         const bool is_behind_gap = situation.has_cut && override_at_state_entry_ > entry;
         lowest.lower_to(is_behind_gap ? override_at_state_entry_ : entry, Limit::entry_feed);
     }
     if (situation.state == CutState::exit) {
-        lowest.lower_to(not_below_proven(parameters, override_at_state_entry_), Limit::no_estimate);
+        const Scalar of_cut = not_below_proven(parameters, override_at_state_entry_);
+        const Scalar safe = safe_contact(parameters, input, situation.contact_feed_mm);
+        lowest.lower_to(of_cut < safe ? of_cut : safe, Limit::no_estimate);
     }
 }
 
@@ -211,7 +217,7 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     lowest.lower_to(situation.force_demand,
                     FeedLaw<Scalar>::guards_against_a_step(parameters, input) ? Limit::depth_step : Limit::force);
     if (!input.way.known) {
-        lower_by_surge(lowest, parameters, situation);
+        lower_by_surge(lowest, parameters, input, situation);
     }
     const bool asks_for_roughness = parameters.Ra_limit_um > Scalar(0);
     if (asks_for_roughness) {
@@ -230,8 +236,9 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
 /// What may come without warning.
 template <typename Scalar>
 void Ceilings<Scalar>::lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters,
-                                      const Situation& situation) const {
-    const auto lower_to = [&](Scalar ceiling) { lowest.lower_to(not_below_proven(parameters, ceiling), Limit::surge); };
+                                      const ControlInput<Scalar>& input, const Situation& situation) const {
+    const Scalar safe = safe_entry(parameters, input);
+    const auto lower_to = [&](Scalar ceiling) { lowest.lower_to(ceiling > safe ? ceiling : safe, Limit::surge); };
     if (surge_is_under_way(parameters)) {
         lower_to(override_before_growth_);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "control/ceilings.hpp"
+#include "control/contact_feed.hpp"
 #include "control/cut_state.hpp"
 #include "control/cut_states.hpp"
 #include "control/feed_controller_data.hpp"
@@ -47,12 +48,14 @@ class FeedController {
   private:
     [[nodiscard]] StepMotion<Scalar> motion_of(const ControlInput<Scalar>& input);
     [[nodiscard]] Ceiling<Scalar> wanted(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion);
+    void follow_law(const ControlInput<Scalar>& input);
     [[nodiscard]] ControlOutput<Scalar> output_of(const ControlInput<Scalar>& input) const;
 
     Parameters parameters_;
     PathTurn<Scalar> turn_{};
     CutStates<Scalar> states_{};
     FeedLaw<Scalar> law_;
+    ContactFeed<Scalar> contact_feed_{};
     Ceilings<Scalar> ceilings_{};
     Limit limit_ = Limit::none;  // that was shown last
 };

@@ -22,8 +22,8 @@ template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{0};  ///< F_tooth,max
     Scalar setpoint_share{
-        literal<Scalar>(0.97L)};       ///< share of the limit at which steady cutting is held; the rest is for noise
-    Scalar caution_sd{Scalar(0.75F)};  ///< standard deviations of the tooth's force that are counted on top of it
+        literal<Scalar>(0.95L)};  ///< share of the limit at which steady cutting is held; the rest is for noise
+    Scalar caution_sd{1};         ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{0};
     Scalar override_max{0};
     Scalar recovery_per_rev{Scalar(0.25F)};                  ///< fraction of the remaining rise taken per revolution
@@ -39,8 +39,8 @@ struct FeedControllerParameters {
     Scalar exit_travel_mm{2};        ///< travel without contact before `exit` becomes `air`
     Scalar contact_force_N{10};      ///< smallest F_at that counts as contact
     Scalar contact_significance{4};  ///< contact: F_at must also be this many of its standard deviations
-    Scalar surge_radial_immersion{0};            ///< largest immersion that may come without warning; 0: none does
-    Scalar surge_share{literal<Scalar>(1.03L)};  ///< share of the limit that the force may reach in a surge
+    Scalar surge_radial_immersion{0};  ///< largest immersion that may come without warning; 0: none does
+    Scalar surge_share{1};             ///< share of the limit that the force may reach in a surge
     Scalar depth_step_ratio{2};  ///< largest ratio of depths that may follow each other without warning; 1: no step
     Scalar depth_step_share{
         Scalar(1.5F)};  ///< share of the limit that the force may reach in such a step: the tooth survives it
@@ -65,7 +65,7 @@ struct CutEstimateForControl {
     bool fresh = false;
     Scalar tooth_periods{1};   ///< tooth periods since the previous estimate
     bool force_valid = false;  ///< there is an F_at from the spindle
-    Scalar tangential_N{0};    ///< F_at over the last tooth period or window, the larger of the two
+    Scalar tangential_N{0};    ///< F_at: contact is judged by it
     Scalar tangential_sd_N{0};
     bool tooth_force_valid = false;     ///< the immersion behind tooth_force_N is an estimate, not a guess
     bool tooth_force_is_bound = false;  ///< tooth_force_N is an upper bound: no sign of an overload
@@ -179,11 +179,21 @@ template <typename Scalar>
     return feed_mm_s / input.programmed_feed_mm_s;
 }
 
-/// The override at which the tool may meet the workpiece. Needs feed_and_speed_are_known.
+/// The override at which the tool may meet any workpiece. Needs feed_and_speed_are_known.
 template <typename Scalar>
 [[nodiscard]] Scalar safe_entry(const FeedControllerParameters<Scalar>& parameters, const ControlInput<Scalar>& input) {
     return not_below_proven(parameters,
                             override_of_feed_per_tooth(parameters.entry_feed_per_tooth_mm, parameters.teeth, input));
+}
+
+/// The override at which a cut may begin, after cuts that have shown `contact_feed_mm` to be safe (contact_feed.hpp).
+/// Needs feed_and_speed_are_known.
+template <typename Scalar>
+[[nodiscard]] Scalar safe_contact(const FeedControllerParameters<Scalar>& parameters, const ControlInput<Scalar>& input,
+                                  Scalar contact_feed_mm) {
+    const Scalar told = safe_entry(parameters, input);
+    const Scalar shown = override_of_feed_per_tooth(contact_feed_mm, parameters.teeth, input);
+    return shown > told ? shown : told;
 }
 
 /// F_at from which on the tool counts as in contact: what the noise makes unlikely, and not less than contact_force_N.

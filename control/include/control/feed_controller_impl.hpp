@@ -91,12 +91,20 @@ Ceiling<Scalar> FeedController<Scalar>::wanted(const ControlInput<Scalar>& input
         return {parameters_.override_min, limit_};
     }
     if (feed_and_speed_are_known(input)) {
-        law_.follow(parameters_, input, states_.state());
+        follow_law(input);
     }
     const typename Ceilings<Scalar>::Situation situation{states_.state(), states_.has_cut(), law_.override_ratio(),
-                                                         law_.demand()};
+                                                         law_.demand(), contact_feed_.feed_per_tooth_mm()};
     ceilings_.follow(parameters_, input, motion, situation);
     return ceilings_.lowest(parameters_, input, situation);
+}
+
+template <typename Scalar>
+void FeedController<Scalar>::follow_law(const ControlInput<Scalar>& input) {
+    if (input.cut.fresh && states_.state() == CutState::in_cut && !ceilings_.is_fading()) {
+        contact_feed_.learn(parameters_, input);
+    }
+    law_.follow(parameters_, input, states_.state(), contact_feed_.feed_per_tooth_mm());
 }
 
 template <typename Scalar>

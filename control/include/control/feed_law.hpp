@@ -66,8 +66,11 @@ class FeedLaw {
 
     /// A step of the depth, which no part map announces, keeps the demand below the set point.
     [[nodiscard]] static bool guards_against_a_step(const Parameters& parameters, const ControlInput<Scalar>& input);
-    /// Takes in a fresh estimate. Out of the cut there is no demand: override_max.
-    void follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state);
+    /// Of the limit: such that the largest step of the depth is survived.
+    [[nodiscard]] static Scalar share_before_a_step(const Parameters& parameters);
+    /// Takes in a fresh estimate. Out of the cut there is no demand: override_max. `contact_feed_mm`: ContactFeed.
+    void follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state,
+                Scalar contact_feed_mm);
     [[nodiscard]] Scalar demand() const { return demand_; }
 
     /// Moves the override by one step towards `wanted`, which is within the override's range.
@@ -80,7 +83,6 @@ class FeedLaw {
         Scalar override_ratio{0};   ///< safe at contact
         Scalar present_force_N{0};  ///< that a tooth carries for certain; 0: not known
     };
-    [[nodiscard]] static Scalar target_share(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] static Scalar not_below_safe_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
                                                     Scalar demand, SafeFeed safe);
     [[nodiscard]] static Scalar recovery_in(const Parameters& parameters, const ControlInput<Scalar>& input,

@@ -34,7 +34,8 @@ Scalar FeedLaw<Scalar>::override_for(const Parameters& parameters, const Control
 }
 
 template <typename Scalar>
-void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state) {
+void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state,
+                             Scalar contact_feed_mm) {
     const Estimate& cut = input.cut;
     if (is_out_of_cut(state)) {
         demand_ = parameters.override_max;
@@ -43,25 +44,29 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
     if (!cut.fresh || !applies_to(cut)) {
         return;
     }
-    demand_ = override_for(parameters, input, {target_share(parameters, input), cut.tooth_force_N, cut.cutting_share});
+    const Scalar share = input.way.known ? parameters.setpoint_share : share_before_a_step(parameters);
+    demand_ = override_for(parameters, input, {share, cut.tooth_force_N, cut.cutting_share});
     if (state == CutState::entry) {
-        const SafeFeed entry{safe_entry(parameters, input), cut.least_tooth_force_N};
-        demand_ = not_below_safe_feed(parameters, input, demand_, entry);
-    } else if (cut.tooth_force_is_bound || guards_against_a_step(parameters, input)) {
-        const Scalar present_N = cut.tooth_force_is_bound ? cut.least_tooth_force_N : cut.tooth_force_N;
-        demand_ = not_below_safe_feed(parameters, input, demand_, {parameters.proven_override, present_N});
+        const SafeFeed contact{safe_contact(parameters, input, contact_feed_mm), cut.least_tooth_force_N};
+        demand_ = not_below_safe_feed(parameters, input, demand_, contact);
+    } else if (cut.tooth_force_is_bound) {
+        demand_ =
+            not_below_safe_feed(parameters, input, demand_, {parameters.proven_override, cut.least_tooth_force_N});
+    } else if (guards_against_a_step(parameters, input)) {
+        demand_ = not_below_safe_feed(parameters, input, demand_, {safe_entry(parameters, input), cut.tooth_force_N});
     }
 }
 
 template <typename Scalar>
 bool FeedLaw<Scalar>::guards_against_a_step(const Parameters& parameters, const ControlInput<Scalar>& input) {
-    return !input.way.known && parameters.depth_step_share < parameters.setpoint_share * parameters.depth_step_ratio;
+    return !input.way.known && share_before_a_step(parameters) < parameters.setpoint_share;
 }
 
 template <typename Scalar>
-Scalar FeedLaw<Scalar>::target_share(const Parameters& parameters, const ControlInput<Scalar>& input) {
-    return guards_against_a_step(parameters, input) ? parameters.depth_step_share / parameters.depth_step_ratio
-                                                    : parameters.setpoint_share;
+Scalar FeedLaw<Scalar>::share_before_a_step(const Parameters& parameters) {
+    return parameters.depth_step_share < parameters.setpoint_share * parameters.depth_step_ratio
+               ? parameters.depth_step_share / parameters.depth_step_ratio
+               : parameters.setpoint_share;
 }
 
 /// The arc of a cutter that enters follows no law, an unknown immersion allows any tooth force, and a step of the depth

@@ -38,6 +38,7 @@ struct CutEstimatorSettings {
     Scalar law_relative_sd{0};
     Scalar min_samples{12};
     std::uint32_t encoder_counts_per_rev = 0;
+    bool load_is_held = false;  ///< the spindle's current stands for a load that is told seldom: each value is news
 };
 
 /// One drive sample, as plain numbers.
@@ -69,10 +70,14 @@ struct CutEstimate {
     int tooth_periods = 0;                     ///< tooth periods since the previous estimate
     Measurement<Scalar> tangential_N{};        ///< F_at over the window (whole revolutions)
     Measurement<Scalar> tooth_tangential_N{};  ///< F_at over the last tooth period alone
+    /// F_at averaged over as many revolutions as the cut stays the same (force_memory.hpp); tangential_N where the
+    /// load is held.
+    Measurement<Scalar> steady_tangential_N{};
     Measurement<Scalar> x_N{};  ///< mean force on the workpiece along the machine's axes, over the window
     Measurement<Scalar> y_N{};
     Measurement<Scalar> z_N{};
-    Measurement<Scalar> feed_N{};  ///< F_ax, along the feed; not valid if a needed axis is at rest
+    Measurement<Scalar> feed_N{};      ///< F_ax, along the feed; not valid if a needed axis is at rest
+    bool axis_is_implausible = false;  ///< one of x and y shows a current in air that its friction does not explain
     EngagementEstimate<Scalar> engagement{};
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound

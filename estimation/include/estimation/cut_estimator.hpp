@@ -108,6 +108,7 @@ class CutEstimator {
     void begin_engagement(Scalar passed_s);
     void publish();
     void rezero_drives();
+    void learn_noise();
 
     EncoderAngle<Scalar> encoder_;
     Averager average_;

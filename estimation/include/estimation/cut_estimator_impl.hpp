@@ -141,8 +141,8 @@ typename SpindleDrive<Scalar>::Average CutEstimator<Scalar>::spindle_average(con
     spindle.current_A = window.mean[DriveSignals<Scalar>::spindle_current];
     spindle.speed_rad_s = window.spindle_speed_rad_s;
     spindle.acceleration_rad_s2 = window.spindle_acceleration_rad_s2;
-    const Scalar by_counts = base_s2 > Scalar(0) ? square(count_rad / base_s2) * variance_counts2 : Scalar(0);
-    spindle.acceleration_variance = by_counts + square(window.spindle_acceleration_change_rad_s2);
+    spindle.acceleration_change_rad_s2 = window.spindle_acceleration_change_rad_s2;
+    spindle.acceleration_variance = base_s2 > Scalar(0) ? square(count_rad / base_s2) * variance_counts2 : Scalar(0);
     spindle.samples = window.samples;
     spindle.present = (window.present & DriveSignals<Scalar>::spindle_present) != 0U;
     return spindle;
@@ -187,6 +187,7 @@ void CutEstimator<Scalar>::estimate_forces() {
     e.x_N = drives_.axes[0].force_N(axis_average(window_, 0));
     e.y_N = drives_.axes[1].force_N(axis_average(window_, 1));
     e.z_N = drives_.axes[2].force_N(axis_average(window_, 2));
+    e.axis_is_implausible = drives_.axes[0].is_implausible() || drives_.axes[1].is_implausible();
 }
 
 template <typename Scalar>
@@ -259,6 +260,7 @@ void CutEstimator<Scalar>::begin_engagement(Scalar passed_s) {
     const bool is_new_revolution = periods_since_memory_ >= window_.tooth_periods;
     periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
     memory_.blend(forces, in_work_.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution);
+    in_work_.steady_tangential_N = settings_.load_is_held ? in_work_.tangential_N : forces.tangential_N;
     forces.radial_immersion = other_;
     depth_.follow(in_work_.feed_mm_s * passed_s, in_work_.axial_speed_mm_s * passed_s);
     solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side, depth_.depth());
@@ -287,6 +289,7 @@ bool CutEstimator<Scalar>::rezero() {
     if (has_window) {
         rezero_drives();
     }
+    learn_noise();
     air_window_ = window_;
     return has_window && !drives_.spindle.is_implausible();
 }
@@ -297,6 +300,22 @@ void CutEstimator<Scalar>::rezero_drives() {
     drives_.spindle.rezero(spindle_average(air_window_));
     for (std::size_t k = 0; k < drives_.axes.size() && !drives_.spindle.is_implausible(); ++k) {
         drives_.axes[k].rezero(axis_average(air_window_, k));
+    }
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::learn_noise() {
+    constexpr Scalar steady_share = literal<Scalar>(0.01L);
+    const typename CutEstimate<Scalar>::ToothChange& change = estimate_.tooth_change;
+    const Scalar speed_change = change.speed_ratio - Scalar(1);
+    if (!change.feed_is_steady || speed_change > steady_share || -speed_change > steady_share) {
+        return;
+    }
+    if (!settings_.load_is_held) {
+        drives_.spindle.learn_noise(change.tangential_N);
+    }
+    for (std::size_t k = 0; k < change.axis_N.size(); ++k) {
+        drives_.axes[k].learn_noise(change.axis_N[k]);
     }
 }
 

@@ -229,6 +229,7 @@ estimation::CutEstimatorSettings<Scalar> estimator_settings(const Parameters<Sca
     s.declared_depth_mm = p.tool.declared_axial_depth_mm;
     s.law_relative_sd = p.tool.law_relative_sd;
     s.encoder_counts_per_rev = p.machine.encoder_counts_per_rev;
+    s.load_is_held = p.machine.spindle_load_period_s > Scalar(0);
     const Scalar samples = least_samples(p);
     s.min_samples = samples > s.min_samples ? samples : s.min_samples;
     return s;

@@ -175,7 +175,8 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     }
     const bool is_steady = Scalar(steady_periods_) > teeth_ + more_periods;
     if (suspected_ == control::Fault::none) {
-        suspected_ = cuts && is_steady ? sudden : control::Fault::none;
+        const bool has_entered = cuts && state != control::CutState::entry;  // a cut may begin with a whole tooth
+        suspected_ = has_entered && is_steady ? sudden : control::Fault::none;
         steady_since_ = steady_periods_;
     } else if (!is_steady) {
         suspected_ = control::Fault::none;
@@ -270,7 +271,7 @@ void SignalSupervisor<Scalar>::judge_axes(const Estimate& e, bool rapid, control
         const Scalar base_N = state == control::CutState::exit ? Scalar(0) : least_feed_force_N_;
         contradicts = force_N - base_N > level_N;
     } else {
-        contradicts = has_base;  // an axis whose friction was plausible in this very move no longer is
+        contradicts = has_base && e.axis_is_implausible;  // its friction was plausible in this very move
     }
     if (is_so_in_a_row(contradicting_turns_, contradicts, surely_turns)) {
         find(control::Fault::forces_contradict);

@@ -124,7 +124,7 @@ class ForceControlTick {
     void take_estimate();
     void forget_estimate();
     void rezero_in_air();
-    [[nodiscard]] bool is_idle(const estimation::Measurement<Scalar>& tangential_N) const;
+    [[nodiscard]] bool is_idle(const estimation::CutEstimate<Scalar>& e) const;
     void set_cut();
     void allow_for_drift();
     void allow_for_drift_of_the_spindle_alone();

@@ -46,6 +46,25 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
       contact_current_A_(contact_current_A(parameters)),
       settled_feed_(load_delay_s(parameters.machine)) {}
 
+/// Over the window, or over the last tooth period alone where that is larger.
+template <typename Scalar>
+static const estimation::Measurement<Scalar>& newest_tangential(const estimation::CutEstimate<Scalar>& e) {
+    const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
+    return tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
+}
+
+/// The sign of a cut: the newest force, or that of the last revolutions where it lies more of its standard deviations
+/// above zero.
+template <typename Scalar>
+static const estimation::Measurement<Scalar>& clearest_tangential(const estimation::CutEstimate<Scalar>& e) {
+    using std::sqrt;
+    const estimation::Measurement<Scalar>& newest = newest_tangential(e);
+    const estimation::Measurement<Scalar>& steady = e.steady_tangential_N;
+    const bool steady_is_clearer =
+        steady.valid && steady.value * sqrt(newest.variance) > newest.value * sqrt(steady.variance);
+    return steady_is_clearer ? steady : newest;
+}
+
 // Each sample
 
 template <typename Scalar, typename WideBand>
@@ -201,14 +220,14 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const estimation::Measurement<Scalar>& tooth = estimator_.estimate().tooth_force_N;
     const bool is_determined_by_forces = tooth.valid && !cut.tooth_force_is_bound;
     const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
-    const Scalar sd_N = cut.tangential_sd_N;
+    const estimation::Measurement<Scalar>& now = newest_tangential(estimator_.estimate());
+    const Scalar sd_N = sqrt(now.variance);
     const Scalar caution_N = controller_.parameters().caution_sd * sd_N;
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
-    const Scalar tangential_N =
-        input_.way.tangential_N > Scalar(0)
-            ? estimation::clamp(input_.way.tangential_N, cut.tangential_N - sd_N, cut.tangential_N + sd_N) +
-                  estimation::halved(caution_N)
-            : cut.tangential_N + caution_N;
+    const Scalar tangential_N = input_.way.tangential_N > Scalar(0)
+                                    ? estimation::clamp(input_.way.tangential_N, now.value - sd_N, now.value + sd_N) +
+                                          estimation::halved(caution_N)
+                                    : now.value + caution_N;
     const Scalar by_map_N = input_.way.tooth_per_tangential * tangential_N * estimator_.estimate().runout_factor;
     cut.tooth_force_valid = true;
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < least_N);
@@ -274,19 +293,19 @@ void ForceControlTick<Scalar, WideBand>::work_on_wide_band() {
 
 /// Within half the contact level of nothing, above it or below: a choice of one side would be learnt as drift.
 template <typename Scalar, typename WideBand>
-bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::Measurement<Scalar>& tangential_N) const {
+bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<Scalar>& e) const {
     using std::sqrt;
-    const Scalar level_N = control::contact_level_N(controller_.parameters(), sqrt(tangential_N.variance));
+    const Scalar level_N = control::contact_level_N(controller_.parameters(), sqrt(e.steady_tangential_N.variance));
     const Scalar half_N = estimation::halved(level_N);
-    const Scalar force_N = tangential_N.value;
-    return tangential_N.valid && force_N < half_N && force_N > -half_N;
+    const Scalar force_N = e.steady_tangential_N.value;
+    return e.tangential_N.valid && force_N < half_N && force_N > -half_N;
 }
 
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
     const bool in_air = controller_.state() == control::CutState::air;
-    const bool looks_idle = was_rezeroed_ ? is_idle(estimate.tangential_N) : estimator_.axes_rest();
+    const bool looks_idle = estimator_.axes_rest() || (was_rezeroed_ && is_idle(estimate));
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
     // The first windows after a change hold a mixture of air and cut.
@@ -307,8 +326,8 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     using std::sqrt;
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     control::CutEstimateForControl<Scalar>& cut = input_.cut;
-    const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
-    const estimation::Measurement<Scalar>& F_at = tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
+    const estimation::Measurement<Scalar>& F_at =
+        estimator_.axes_rest() ? newest_tangential(e) : clearest_tangential(e);
     cut.tangential_N = F_at.value;
     cut.tangential_sd_N = sqrt(F_at.variance);
     const estimation::Measurement<Scalar>& tooth = e.tooth_force_N;

@@ -92,3 +92,23 @@ TEST(SpindleDrive, has_no_estimate_without_current_or_rotation) {
     CHECK_FALSE(drive.tangential_force_N(absent, 4.0).valid);
     CHECK_FALSE(drive.tangential_force_N(at_current(12.0, 0.0), 4.0).valid);
 }
+
+TEST(SpindleDrive, doubts_its_zero_at_another_speed_until_it_is_zeroed_there) {
+    auto p = paper_spindle();
+    p.idle_torque_sd_Nm = 0.4;
+    p.gain_relative_sd = 0.0;
+    SpindleDrive<double> drive(p);
+    const auto idle = [](double speed_rad_s) { return at_current(9.72, speed_rad_s); };
+    const auto doubt_Nm = [&](double speed_rad_s) {
+        return std::sqrt(drive.tangential_force_N(idle(speed_rad_s), 1000.0).variance);
+    };
+    for (int k = 0; k < 50; ++k) {
+        drive.rezero(idle(400.0));
+    }
+    CHECK(doubt_Nm(400.0) < 0.02);
+    DOUBLES_EQUAL(0.1, doubt_Nm(300.0), 0.01);
+    for (int k = 0; k < 50; ++k) {
+        drive.rezero(idle(300.0));
+    }
+    CHECK(doubt_Nm(300.0) < 0.02);
+}

@@ -3,6 +3,7 @@
 
 #include "estimation/drives/force_change.hpp"
 #include "estimation/drives/learnt_in_air.hpp"
+#include "estimation/drives/noise_ratio.hpp"
 #include "estimation/number/literal.hpp"
 
 #include <array>
@@ -142,8 +143,7 @@ class FeedDrive {
         const Scalar force = parameters_.K_x4_N_per_A * cut_A + force_by_speed_N(average) - inertial_N;
         const Scalar friction_variance =
             square(friction_A) * friction_scale_.variance(direction(average)) + other_friction_variance_A2(average);
-        const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples +
-                             square(inertia_share_in_doubt * inertial_N);
+        const Scalar noise = noise_variance_N2(average) + square(inertia_share_in_doubt * inertial_N);
         return {
             true, force,
             noise + square(parameters_.K_x4_N_per_A) * friction_variance + square(parameters_.gain_relative_sd * force),
@@ -164,7 +164,7 @@ class FeedDrive {
             return {};
         }
         const Scalar force = parameters_.K_x4_N_per_A * beyond_A;
-        const Scalar noise = square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) / average.samples;
+        const Scalar noise = noise_variance_N2(average);
         const Scalar by_gain = square(parameters_.gain_relative_sd * parameters_.K_x4_N_per_A * shown_A);
         return {true, force, noise + by_gain, noise};
     }
@@ -173,9 +173,13 @@ class FeedDrive {
     /// (force_change.hpp).
     [[nodiscard]] Measurement<Scalar> change_N(Scalar change_A, Scalar samples) const {
         return samples > Scalar(0) && parameters_.K_x4_N_per_A > Scalar(0)
-                   ? force_change_N(change_A, parameters_.K_x4_N_per_A, parameters_.current_sd_A, samples)
+                   ? force_change_N(change_A, parameters_.K_x4_N_per_A, parameters_.current_sd_A, noise_.value(),
+                                    samples)
                    : Measurement<Scalar>{};
     }
+
+    /// The tool is in air, at an unchanged velocity: what change_N found is noise.
+    void learn_noise(const Measurement<Scalar>& change_N) { noise_.learn(change_N); }
 
     /// Time passes: the friction may have moved.
     void predict(Scalar dt_s) { friction_scale_.predict(dt_s); }
@@ -260,8 +264,12 @@ class FeedDrive {
         constexpr Scalar m_per_mm = literal<Scalar>(0.001L);
         return parameters_.mass_kg * average.acceleration_mm_s2 * m_per_mm;
     }
+    [[nodiscard]] Scalar noise_variance_N2(const Average& average) const {
+        return square(parameters_.K_x4_N_per_A * parameters_.current_sd_A) * noise_.value() / average.samples;
+    }
     [[nodiscard]] Scalar current_variance_A2(const Average& average) const {
-        return square(parameters_.current_sd_A) / average.samples + other_friction_variance_A2(average);
+        return square(parameters_.current_sd_A) * noise_.value() / average.samples +
+               other_friction_variance_A2(average);
     }
     /// What the scale of the friction does not describe.
     [[nodiscard]] Scalar other_friction_variance_A2(const Average& average) const {
@@ -280,6 +288,7 @@ class FeedDrive {
 
     FeedDriveParameters<Scalar> parameters_;
     FrictionScale<Scalar> friction_scale_;  // [0]: − direction, [1]: + direction
+    NoiseRatio<Scalar> noise_;
     bool is_implausible_ = false;
 };
 

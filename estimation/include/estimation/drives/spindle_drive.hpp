@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimation/drives/force_change.hpp"
+#include "estimation/drives/noise_ratio.hpp"
 #include "estimation/drives/warm_up_tracker.hpp"
 #include "estimation/number/literal.hpp"
 
@@ -30,8 +31,9 @@ struct SpindleDriveParameters {
 ///   K_t1(ω) = K_t1 for ω ≤ ω_base, K_t1 ω_base/ω above           field weakening: constant power
 ///
 /// δ is the idle torque's drift, re-zeroed in air by rezero(); between two such moments it falls as the bearing warms
-/// up. Averages over whole tooth periods are meant: between teeth the rotor stores what the current does not show. R >
-/// 0 in mm, ω in rad/s, I in A. Not thread-safe.
+/// up. At another speed it is doubtful by σ(δ) Δω/ω, with the deviation σ(δ) that the calibration states. Averages over
+/// whole tooth periods are meant: between teeth the rotor stores what the current does not show. R > 0 in mm, ω in
+/// rad/s, I in A. Not thread-safe.
 template <typename Scalar>
 class SpindleDrive {
   public:
@@ -44,7 +46,8 @@ class SpindleDrive {
         Scalar current_A{0};
         Scalar speed_rad_s{0};
         Scalar acceleration_rad_s2{0};
-        Scalar acceleration_variance{0};
+        Scalar acceleration_variance{0};       ///< noise of the counts
+        Scalar acceleration_change_rad_s2{0};  ///< within the average
         Scalar samples{1};
         bool present = false;
     };
@@ -59,8 +62,8 @@ class SpindleDrive {
         }
         const Scalar torque_Nm = torque_without_drift_Nm(average) - drift_Nm_.value();
         const Scalar noise = noise_variance(average, per_Nm);
-        const Scalar others =
-            drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque_Nm) + inertia_doubt_Nm2(average);
+        const Scalar others = drift_Nm_.variance() + square(parameters_.gain_relative_sd * torque_Nm) +
+                              inertia_doubt_Nm2(average) + square(speed_doubt_Nm(average));
         return {true, torque_Nm * per_Nm, noise + others * square(per_Nm), noise};
     }
 
@@ -69,9 +72,12 @@ class SpindleDrive {
                                                Scalar per_Nm) const {
         return samples > Scalar(0) && speed_rad_s > Scalar(0)
                    ? force_change_N(change_A, torque_constant_Nm_per_A(speed_rad_s) * per_Nm, parameters_.current_sd_A,
-                                    samples)
+                                    noise_.value(), samples)
                    : Measurement<Scalar>{};
     }
+
+    /// The tool is in air, at an unchanged speed: what change_N found is noise.
+    void learn_noise(const Measurement<Scalar>& change_N) { noise_.learn(change_N); }
 
     /// Time passes: the drift may have moved.
     void predict(Scalar dt_s) { drift_Nm_.predict(dt_s); }
@@ -86,6 +92,8 @@ class SpindleDrive {
         const Scalar noise = noise_variance(average, Scalar(1));
         const Measurement<Scalar> seen{true, torque_without_drift_Nm(average), noise + inertia_doubt_Nm2(average),
                                        noise};
+        drift_Nm_.widen(square(speed_doubt_Nm(average)));
+        zeroed_speed_rad_s_ = average.speed_rad_s;
         is_implausible_ = !drift_Nm_.is_within_doubt(seen);
         if (!is_implausible_) {
             drift_Nm_.correct(seen);
@@ -106,7 +114,15 @@ class SpindleDrive {
     static constexpr Scalar inertia_share_in_doubt = literal<Scalar>(0.15L);
 
     [[nodiscard]] Scalar inertia_doubt_Nm2(const Average& average) const {
-        return square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2);
+        return square(inertia_share_in_doubt * parameters_.inertia_kg_m2 * average.acceleration_rad_s2) +
+               square(parameters_.inertia_kg_m2 * average.acceleration_change_rad_s2);
+    }
+
+    /// Of the idle torque, since it was zeroed at another speed.
+    [[nodiscard]] Scalar speed_doubt_Nm(const Average& average) const {
+        const Scalar change_rad_s = average.speed_rad_s - zeroed_speed_rad_s_;
+        return zeroed_speed_rad_s_ > Scalar(0) ? parameters_.idle_torque_sd_Nm * change_rad_s / zeroed_speed_rad_s_
+                                               : Scalar(0);
     }
 
     [[nodiscard]] static bool is_usable(const Average& average) {
@@ -123,11 +139,14 @@ class SpindleDrive {
     /// is at the limit of fixed-point resolution.
     [[nodiscard]] Scalar noise_variance(const Average& average, Scalar unit) const {
         const Scalar sd = torque_constant_Nm_per_A(average.speed_rad_s) * parameters_.current_sd_A * unit;
-        return square(sd) / average.samples + square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;
+        return square(sd) * noise_.value() / average.samples +
+               square(parameters_.inertia_kg_m2 * unit) * average.acceleration_variance;
     }
 
     SpindleDriveParameters<Scalar> parameters_;
     WarmUpTracker<Scalar> drift_Nm_;
+    NoiseRatio<Scalar> noise_;
+    Scalar zeroed_speed_rad_s_{0};
     bool is_implausible_ = false;
 };
 

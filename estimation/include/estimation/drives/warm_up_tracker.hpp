@@ -39,9 +39,7 @@ class WarmUpTracker {
     }
 
     void predict(Scalar dt_s) {
-        const Scalar most = square(settings_.offset_sd);
-        P_bb_ += settings_.walk_variance_per_s * dt_s;
-        P_bb_ = P_bb_ < most ? P_bb_ : most;
+        widen(settings_.walk_variance_per_s * dt_s);
         if (!(settings_.time_constant_s > Scalar(0))) {
             return;
         }
@@ -51,6 +49,13 @@ class WarmUpTracker {
         w_ *= kept;
         P_bw_ *= kept;
         P_ww_ *= square(kept);
+    }
+
+    /// b is less well known by so much, at most as little as at the start.
+    void widen(Scalar variance) {
+        const Scalar most = square(settings_.offset_sd);
+        P_bb_ += variance;
+        P_bb_ = P_bb_ < most ? P_bb_ : most;
     }
 
     /// Whether a measurement in air lies within what the calibration leaves open.

@@ -103,6 +103,8 @@ class ForceMemory {
         if (now.valid) {
             now.value = held.value + (now.value - held.value) * share;
             now.variance -= now.noise * (Scalar(1) - share);
+            const Scalar of_held = held.variance * (Scalar(1) - share);  // doubt fades no faster than its revolutions
+            now.variance = now.variance > of_held ? now.variance : of_held;
         }
     }
 

@@ -35,8 +35,9 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
         return;
     }
     const Scalar width_per_F_mm_N = peaks.now().radial_immersion * cutter_radius_mm_ * per_model_N;
-    e.section_mm2 = e.tangential_N.value * width_per_F_mm_N;
-    e.section_noise_mm2 = sqrt(e.tangential_N.noise) * width_per_F_mm_N;
+    const Scalar averaged_out_N2 = e.tangential_N.variance - e.steady_tangential_N.variance;
+    e.section_mm2 = e.steady_tangential_N.value * width_per_F_mm_N;
+    e.section_noise_mm2 = sqrt(e.tangential_N.noise - averaged_out_N2) * width_per_F_mm_N;
     const Scalar now_N = model.tangential_N * peaks.factors().now;
     if (peaks.surge_is_wider()) {
         e.surge = change_to(table.forces(peaks.surge_node(), feed), peaks.factors().surge, now_N);
@@ -46,22 +47,26 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
     }
 }
 
-/// F_at of the window, or of the last tooth where that is clearly higher; and how fast it grows then, as far as noise
-/// does not explain it: a forecast over a CNC's latency would multiply the noise.
+/// F_at, and how fast it grows. Taken are the revolutions in which the cut stayed the same; the window or the last
+/// tooth where these are higher, less what their noise may have added: else each of its peaks would lower the feed at
+/// once.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
     using std::sqrt;
     constexpr Scalar clear_deviations{2};
     const Measurement<Scalar>& window = e.tangential_N;
     const Measurement<Scalar>& tooth = e.tooth_tangential_N;
+    const Scalar by_window_N = window.value - sqrt(window.noise);
+    const Scalar steady_N = e.steady_tangential_N.value > by_window_N ? e.steady_tangential_N.value : by_window_N;
     const Scalar rise_N = tooth.value - window.value;
-    const bool has_risen =
-        tooth.valid && rise_N > Scalar(0) && square(rise_N) > square(clear_deviations) * tooth.variance;
-    e.newest_tangential_N = has_risen ? tooth.value : window.value;
+    const Scalar by_chance_N2 = square(clear_deviations) * tooth.variance;
+    const bool has_risen = tooth.valid && rise_N > Scalar(0) && square(rise_N) > by_chance_N2;
+    const Scalar by_tooth_N = has_risen ? tooth.value - by_chance_N2 / rise_N : steady_N;
+    e.newest_tangential_N = by_tooth_N > steady_N ? by_tooth_N : steady_N;
     const Scalar half_window_s = halved(e.window_s);
     if (has_risen && half_window_s > Scalar(0)) {
-        // The window's middle is half a window old, the last tooth's nearly now.
-        e.tangential_growth_N_per_s = (rise_N - clear_deviations * sqrt(tooth.variance)) / half_window_s;
+        // The window's middle is half a window old, the last tooth's nearly now. A forecast multiplies the noise.
+        e.tangential_growth_N_per_s = (rise_N - sqrt(by_chance_N2)) / half_window_s;
     }
     return e.newest_tangential_N;
 }
@@ -69,14 +74,14 @@ Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
 template <typename Scalar>
 void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const {
     const EngagementEstimate<Scalar>& cut = e.engagement;
-    const Measurement<Scalar>& window = e.tangential_N;
+    const Scalar force_variance = e.steady_tangential_N.variance;
     const Scalar runout = runout_factor(e.feed_per_tooth_mm);
     e.runout_factor = runout;
     e.worst_tooth_force_N = newest_N * factors.now * runout;
     e.least_tooth_force_N = newest_N * factors.slot;
     const auto bound_by = [&](Scalar bound) {
         const Scalar ratio = runout * (bound > factors.now ? bound : factors.now);
-        e.tooth_force_N = {true, newest_N * ratio, square(ratio) * window.variance, Scalar(0)};
+        e.tooth_force_N = {true, newest_N * ratio, square(ratio) * force_variance, Scalar(0)};
         e.tooth_force_is_bound = true;
     };
     if (cut.immersion_valid) {
@@ -88,7 +93,7 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
         const Scalar factor_sd = (factors.at_low - factors.at_high) / width_of_95_percent<Scalar>;
         const Scalar by_factor = square(newest_N) * (square(factor_sd) + square(factors.by_K_s));
         e.tooth_force_N = {true, e.worst_tooth_force_N,
-                           square(runout) * (square(factors.now) * window.variance + by_factor), Scalar(0)};
+                           square(runout) * (square(factors.now) * force_variance + by_factor), Scalar(0)};
     } else if (cut.solved || (!e.x_N.valid && !e.y_N.valid)) {
         // No estimate of the immersion, but a bound. Where even that is far from the limit, the force is known well
         // enough.

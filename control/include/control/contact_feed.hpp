@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "control/feed_controller_data.hpp"
+#include "control/feed_law.hpp"
+#include "estimation/number/fixed_point.hpp"
+
+namespace millforce::control {
+
+/// The feed per tooth at which the tool may meet the workpiece again, from the cuts of this program.
+///
+/// A tooth that meets a wall takes the whole feed per tooth as its first chip, as in a slot. How much that costs
+/// depends on the depth and the material ahead, which are not known; but they are seldom more than depth_step_ratio
+/// times what the program has cut so far. So each settled cut says
+///
+///   f_z: its tooth force in a slot of the same depth is depth_step_share/depth_step_ratio of the limit (feed_law.hpp)
+///
+/// averaged over 16 estimates, and the heaviest cut counts. With it a new contact is at most a step of the depth, which
+/// the tooth survives. 0 before the first settled cut: nothing is known.
+///
+/// Cost: that of FeedLaw::override_for at a fresh estimate. Not thread-safe.
+template <typename Scalar>
+class ContactFeed {
+  public:
+    /// A fresh estimate in a cut that neither begins nor ends. Needs feed_and_speed_are_known.
+    void learn(const FeedControllerParameters<Scalar>& parameters, const ControlInput<Scalar>& input) {
+        const CutEstimateForControl<Scalar>& cut = input.cut;
+        const bool is_determined = FeedLaw<Scalar>::applies_to(cut) && cut.tooth_force_valid &&
+                                   !cut.tooth_force_is_bound && !cut.law_is_refuted && cut.turn_ratio > Scalar(0) &&
+                                   estimation::is_finite(cut.turn_ratio) &&
+                                   estimation::is_finite(cut.turn_cutting_share);
+        if (!is_determined) {
+            return;
+        }
+        const Scalar override_ratio =
+            FeedLaw<Scalar>::override_for(parameters, input,
+                                          {FeedLaw<Scalar>::share_before_a_step(parameters),
+                                           cut.tooth_force_N * cut.turn_ratio, cut.turn_cutting_share});
+        const Scalar per_override_mm = Scalar(1) / override_of_feed_per_tooth(Scalar(1), parameters.teeth, input);
+        sum_mm_ += override_ratio * per_override_mm;
+        if (++estimates_ < block) {
+            return;
+        }
+        const Scalar mean_mm = sum_mm_ / Scalar(block);
+        feed_per_tooth_mm_ =
+            feed_per_tooth_mm_ > Scalar(0) && feed_per_tooth_mm_ < mean_mm ? feed_per_tooth_mm_ : mean_mm;
+        sum_mm_ = Scalar(0);
+        estimates_ = 0;
+    }
+
+    [[nodiscard]] Scalar feed_per_tooth_mm() const { return feed_per_tooth_mm_; }
+
+  private:
+    static constexpr int block = 16;
+
+    Scalar feed_per_tooth_mm_{0};
+    Scalar sum_mm_{0};
+    int estimates_ = 0;
+};
+
+}  // namespace millforce::control
