@@ -59,7 +59,8 @@ void write_bench_page(const std::filesystem::path& folder, const std::vector<Ben
 .comparison td { white-space: nowrap; }
 .comparison th:first-child { position: sticky; left: 0; min-width: 8em; padding-left: 0; text-align: left;
   font-weight: 500; background: var(--page); }
-svg { max-width: 100%; height: auto; }
+figure { margin: 0 0 16px; overflow-x: auto; }
+svg { max-width: 100%; min-width: 600px; height: auto; }
 svg text { fill: var(--muted); }
 )";
     const std::string head =
