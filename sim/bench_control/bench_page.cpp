@@ -14,7 +14,7 @@ namespace millforce::sim {
 namespace {
 
 std::string table_html(const BenchTable& table) {
-    std::string html = "<table class=\"figures\">\n<thead><tr>";
+    std::string html = "<table class=\"comparison\">\n<thead><tr>";
     for (const std::string& cell : table.head) {
         html += fmt::format("<th scope=\"col\">{}</th>", host::html_escaped(cell));
     }
@@ -51,8 +51,18 @@ void write_bench_page(const std::filesystem::path& folder, const std::vector<Ben
     const std::string table = table_html(table_of(figures));
     const std::string part_table = table_html(table_of_parts(parts, figures));
     const std::string facts = facts_html(origin);
-    constexpr std::string_view own_style =
-        ".figures td:nth-child(2) { font-weight: inherit; } svg { max-width: 100%; height: auto; }";
+    // Many columns: they scroll on a narrow screen, with the row's name in view.
+    constexpr std::string_view own_style = R"(
+.comparison { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }
+.comparison th, .comparison td { padding: 4px 0 4px 16px; text-align: right; vertical-align: bottom;
+  border-bottom: 1px solid var(--line); }
+.comparison td { white-space: nowrap; }
+.comparison th:first-child { position: sticky; left: 0; min-width: 8em; padding-left: 0; text-align: left;
+  font-weight: 500; background: var(--page); }
+figure { margin: 0 0 16px; overflow-x: auto; }
+svg { max-width: 100%; min-width: 600px; height: auto; }
+svg text { fill: var(--muted); }
+)";
     const std::string head =
         host::page_head("Feed controllers compared", {host::page_assets::report_style(), own_style});
     write_text_file(folder / "bench.html", host::filled(bench_assets::page_template(), {

@@ -137,7 +137,9 @@ BenchTable table_of(const std::vector<ContenderFigures>& figures) {
             {std::string(f.contender->title), fmt::to_string(f.runs), ratio_text(f.time(0.5)), ratio_text(f.time(0.95)),
              percent_text(f.peak(0.5)), percent_text(f.peak(0.95)), percent_text(f.peak(1.0)),
              fmt::format("{:.1f}", f.revolutions_over_mean),
-             f.teeth_broken == 0 ? "0" : fmt::format("{} in {} runs", f.teeth_broken, f.runs_with_a_broken_tooth),
+             f.teeth_broken == 0 ? "0"
+                                 : fmt::format("{} in {} run{}", f.teeth_broken, f.runs_with_a_broken_tooth,
+                                               f.runs_with_a_broken_tooth == 1 ? "" : "s"),
              is_bound ? "–" : fmt::format("{:.1f} %", 100.0 * f.rubbing_share), fmt::to_string(f.unfinished)});
     }
     return table;

@@ -221,13 +221,28 @@ std::string Answers::word(const WordQuestion& question) {
 }
 
 void Answers::require_all(bool is_last) const {
-    if (!missing_.empty()) {
-        throw InputError(fmt::format("missing answer{}: {}; give each as KEY=VALUE or in --answers FILE",
-                                     missing_.size() == 1 ? "" : "s", joined(missing_)));
+    std::string unknown;
+    try {
+        if (is_last) {
+            reject_unknown_keys();
+        }
+    } catch (const InputError& error) {
+        unknown = error.what();
     }
+    if (!missing_.empty()) {  // with the misspelt key, which is often the one that is missing
+        throw InputError(fmt::format("missing answer{}: {}; give each as KEY=VALUE or in --answers FILE{}{}",
+                                     missing_.size() == 1 ? "" : "s", joined(missing_), unknown.empty() ? "" : "; ",
+                                     unknown));
+    }
+    if (!unknown.empty()) {
+        throw InputError(unknown);
+    }
+}
+
+void Answers::reject_unknown_keys() const {
     for (const auto& source : sources_) {
         for (const auto& [name, table] : source->tables) {
-            if (is_last && source->is_strict) {
+            if (source->is_strict) {
                 table.reject_unknown_keys();
             }
         }

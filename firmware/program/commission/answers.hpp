@@ -62,6 +62,7 @@ class Answers {
 
   private:
     void miss(const std::string& answer);
+    void reject_unknown_keys() const;
     struct Source {
         TomlFile file;
         bool is_strict = true;  ///< a key that nobody asks for is an error

@@ -27,9 +27,9 @@ constexpr std::string_view page_style = R"(
 .repeat strong { color: var(--over); }
 details { color: var(--muted); }
 pre { overflow-x: auto; }
-.keys th[scope="row"]::first-letter { text-transform: none; }
+.figures.keys th[scope="row"]::first-letter, .figures.validation th[scope="row"]::first-letter { text-transform: none; }
 .figures.keys th code { margin-left: 0; color: inherit; overflow-wrap: normal; }
-.figures.keys .explanation { width: 45%; }
+@media (min-width: 701px) { .figures.keys .explanation { width: 45%; } }
 .plots { display: flex; flex-wrap: wrap; gap: 12px 24px; }
 svg { max-width: 100%; height: auto; }
 )";
@@ -178,7 +178,7 @@ std::string validation_html(const std::vector<ValidatedCut>& cuts) {
     std::string text =
         "<p class=\"how\">Cuts that the fit has not seen: forces from the drives' currents beside those of the "
         "published law. The bound is twice the stated deviation.</p>\n"
-        "<table class=\"figures side-by-side\" style=\"--values: 6\">\n<thead><tr><th scope=\"col\">Cut</th>"
+        "<table class=\"figures validation side-by-side\" style=\"--values: 3\">\n<thead><tr><th scope=\"col\">Cut</th>"
         "<th scope=\"col\">torque, N·m</th><th scope=\"col\">by the law</th><th scope=\"col\">off by</th>"
         "<th scope=\"col\">feed force, N</th><th scope=\"col\">by the law</th><th scope=\"col\">off by</th>"
         "</tr></thead>\n<tbody>\n";

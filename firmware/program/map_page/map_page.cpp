@@ -201,7 +201,7 @@ std::string facts_html(const PartMapFile& map, const firmware::ToolParameters<fl
         return fmt::format("{} (CRC-32 {:08x})", name, crc32);
     };
     const MapPlace& first = map.map.front();
-    std::string out = fact_html("Program", with_crc(map.origin.program, map.origin.program_crc32));
+    std::string out = fact_html("Part program", with_crc(map.origin.program, map.origin.program_crc32));
     out += fact_html("Tool", with_crc(map.origin.tool, map.origin.tool_crc32));
     out += fact_html("Limit of a tooth", fmt::format("{:.0f} N", tool.tooth_force_limit_N));
     out += fact_html("Hardness", first.hardness_sd > 0.0 ? fmt::format("{:.2f} ± {:.2f} of the tool's file",

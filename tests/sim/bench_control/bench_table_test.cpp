@@ -72,7 +72,7 @@ TEST(BenchTable, a_run_that_did_not_finish_counts_as_infinitely_long) {
 TEST(BenchTable, is_written_as_markdown) {
     const std::string text = markdown(table_of(figures_of_runs(known_runs())));
     CHECK_TRUE(test::contains(text,
-                              "| millforce, without a map | 3 | 2.00 | 2.90 | 90 % | 108 % | 110 % | 2.0 | 2 in 1 runs "
+                              "| millforce, without a map | 3 | 2.00 | 2.90 | 90 % | 108 % | 110 % | 2.0 | 2 in 1 run "
                               "| 10.0 % | 0 |\n"));
 }
 

@@ -54,6 +54,14 @@ TEST(Answers, an_answer_that_nobody_asked_for_is_refused_with_the_nearest_key) {
     CHECK(contains(message_of<InputError>([&] { answers.require_all(); }), "did you mean diameter_mm?"));
 }
 
+TEST(Answers, a_misspelt_key_is_named_beside_the_answer_that_is_missing_for_it) {
+    Answers answers("", {"tool.dimeter_mm=10"});
+    answers.number(diameter);
+    const std::string message = message_of<InputError>([&] { answers.require_all(); });
+    CHECK_TEXT(contains(message, "missing answer: tool.diameter_mm in mm"), message.c_str());
+    CHECK_TEXT(contains(message, "did you mean diameter_mm?"), message.c_str());
+}
+
 TEST(Answers, refuses_a_value_out_of_range_and_a_pair_that_is_none) {
     Answers answers("", {"tool.diameter_mm=-1"});
     CHECK(contains(message_of<InputError>([&] { answers.number(diameter); }), "0.1"));
