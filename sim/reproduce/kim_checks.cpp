@@ -187,7 +187,10 @@ void check_drive_equations(Reproduction& out) {
     const estimation::SpindleDrive<double> spindle_drive(spindle);
     constexpr double current = 12.0;
     const double F_at =
-        spindle_drive.tangential_force_N({current, 131.9, 0.0, 0.0, 1.0, true}, KimStandardCut::radius_mm).value;
+        spindle_drive
+            .tangential_force_N({.current_A = current, .speed_rad_s = 131.9, .present = true},
+                                KimStandardCut::radius_mm)
+            .value;
     estimation::FeedDriveParameters<double> feed;
     feed.positive = {Published::K_x1, Published::K_x2};
     feed.K_x3_A = Published::K_x3;
