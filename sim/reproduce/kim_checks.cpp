@@ -186,11 +186,10 @@ void check_drive_equations(Reproduction& out) {
     spindle.K_t2_Nm = Published::K_t2_N * KimStandardCut::radius_mm / 1000.0;
     const estimation::SpindleDrive<double> spindle_drive(spindle);
     constexpr double current = 12.0;
-    const double F_at =
-        spindle_drive
-            .tangential_force_N({.current_A = current, .speed_rad_s = 131.9, .present = true},
-                                KimStandardCut::radius_mm)
-            .value;
+    const double F_at = spindle_drive
+                            .tangential_force_N({.current_A = current, .speed_rad_s = 131.9, .present = true},
+                                                KimStandardCut::radius_mm)
+                            .value;
     estimation::FeedDriveParameters<double> feed;
     feed.positive = {Published::K_x1, Published::K_x2};
     feed.K_x3_A = Published::K_x3;
