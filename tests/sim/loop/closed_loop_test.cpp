@@ -164,6 +164,18 @@ TEST(ClosedLoop, holds_the_limit_in_a_round_pocket_that_is_stepped_over_head_on)
     CHECK(bounds_hold(controlled(scenario_named("circular", {1.3, 0.8, 2}))));
 }
 
+TEST(ClosedLoop, mills_on_a_machine_whose_currents_are_three_times_as_noisy_as_told) {
+    for (const char* name : {"circular", "zigzag", "interrupted"}) {
+        for (const Conditions& conditions : {Conditions{0.8, 1.1, 3}, Conditions{1.2, 0.9, 4}}) {
+            Scenario noisy = scenario_named(name, conditions);
+            noisy.deviation.current_noise_share = 0.03;
+            const RunFigures figures = controlled(noisy);
+            STRCMP_EQUAL("none", figures.fault.c_str());
+            CHECK(bounds_hold(figures));
+        }
+    }
+}
+
 TEST(ClosedLoop, holds_the_limit_there_though_nobody_declared_the_steps) {
     Scenario undeclared = scenario_named("circular");
     undeclared.parameters.tool.control.surge_radial_immersion = 0.0F;
