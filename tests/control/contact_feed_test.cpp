@@ -99,3 +99,51 @@ TEST(ContactFeed, is_kept_over_cuts_that_the_law_of_the_feed_does_not_cover) {
         DOUBLES_EQUAL(static_cast<double>(known_mm), static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
     }
 }
+
+namespace {
+
+void move_by(ContactFeed<float>& feed, float z_mm, bool height_is_known = true, bool rapid = true) {
+    Input input = in_air();
+    input.velocity_z_mm_s = z_mm > 0.0F ? 50.0F : -50.0F;
+    input.height_is_known = height_is_known;
+    input.rapid = rapid;
+    feed.follow(input, z_mm / input.velocity_z_mm_s);
+}
+
+}  // namespace
+
+TEST(ContactFeed, is_unknown_lower_than_the_tool_has_cut_and_known_again_after_a_cut_there) {
+    ContactFeed<float> feed;
+    learn(feed, in_contact());
+    const float at_first_mm = feed.feed_per_tooth_mm();
+    move_by(feed, 20.0F);
+    DOUBLES_EQUAL(static_cast<double>(at_first_mm), static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+    move_by(feed, -20.0F);
+    DOUBLES_EQUAL(static_cast<double>(at_first_mm), static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+    move_by(feed, -0.5F);
+    DOUBLES_EQUAL(0.0, static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+    learn(feed, cut_with(900.0F));
+    CHECK(feed.feed_per_tooth_mm() > 0.0F);
+    CHECK_COMPARE(feed.feed_per_tooth_mm(), <, at_first_mm);
+}
+
+TEST(ContactFeed, is_forgotten_where_the_spindle_stands_or_the_motion_is_unseen) {
+    for (const bool stands : {false, true}) {
+        ContactFeed<float> feed;
+        learn(feed, in_contact());
+        Input input = in_air();
+        input.cut.spindle_turning = !stands;
+        input.motion_is_unseen = !stands;
+        feed.follow(input, 0.001F);
+        DOUBLES_EQUAL(0.0, static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+    }
+}
+
+TEST(ContactFeed, does_not_outlast_a_rapid_whose_height_nobody_tells) {
+    ContactFeed<float> feed;
+    learn(feed, in_contact());
+    move_by(feed, 1.0F, false, false);
+    CHECK(feed.feed_per_tooth_mm() > 0.0F);
+    move_by(feed, 1.0F, false);
+    DOUBLES_EQUAL(0.0, static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+}

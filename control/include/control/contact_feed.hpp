@@ -16,12 +16,28 @@ namespace millforce::control {
 ///   f_z: its tooth force in a slot of the same depth is depth_step_share/depth_step_ratio of the limit (feed_law.hpp)
 ///
 /// averaged over 16 estimates, and the heaviest cut counts. With it a new contact is at most a step of the depth, which
-/// the tooth survives. 0 before the first settled cut: nothing is known.
+/// the tooth survives.
 ///
-/// Cost: that of FeedLaw::override_for at a fresh estimate. Not thread-safe.
+/// 0: nothing is known. So it is before the first settled cut, where the tool is lower than it has cut by more than
+/// 0.1 mm, and after the spindle stood (another part, another tool). Where nobody tells the height, a rapid may have
+/// changed it.
+///
+/// Cost: that of FeedLaw::override_for at a fresh estimate, else some five operations. Not thread-safe.
 template <typename Scalar>
 class ContactFeed {
   public:
+    /// Each step, of `dt_s`.
+    void follow(const ControlInput<Scalar>& input, Scalar dt_s) {
+        constexpr Scalar rest_mm_s = literal<Scalar>(0.05L);  // no drift of a velocity at rest
+        const Scalar z_mm_s = input.velocity_z_mm_s;
+        const bool may_be_lower = input.motion_is_unseen || (input.rapid && !input.height_is_known);
+        if (!input.cut.spindle_turning || may_be_lower) {
+            *this = {};
+        } else if (z_mm_s > rest_mm_s || z_mm_s < -rest_mm_s) {
+            height_mm_ += z_mm_s * dt_s;
+        }
+    }
+
     /// A fresh estimate in a cut that neither begins nor ends. Needs feed_and_speed_are_known.
     void learn(const FeedControllerParameters<Scalar>& parameters, const ControlInput<Scalar>& input) {
         const CutEstimateForControl<Scalar>& cut = input.cut;
@@ -42,17 +58,23 @@ class ContactFeed {
             return;
         }
         const Scalar mean_mm = sum_mm_ / Scalar(block);
+        lowest_mm_ = feed_per_tooth_mm_ > Scalar(0) && lowest_mm_ < height_mm_ ? lowest_mm_ : height_mm_;
         feed_per_tooth_mm_ =
             feed_per_tooth_mm_ > Scalar(0) && feed_per_tooth_mm_ < mean_mm ? feed_per_tooth_mm_ : mean_mm;
         sum_mm_ = Scalar(0);
         estimates_ = 0;
     }
 
-    [[nodiscard]] Scalar feed_per_tooth_mm() const { return feed_per_tooth_mm_; }
+    [[nodiscard]] Scalar feed_per_tooth_mm() const {
+        constexpr Scalar as_low_mm = literal<Scalar>(0.1L);
+        return height_mm_ < lowest_mm_ - as_low_mm ? Scalar(0) : feed_per_tooth_mm_;
+    }
 
   private:
     static constexpr int block = 16;
 
+    Scalar height_mm_{0};  // since the spindle turns
+    Scalar lowest_mm_{0};  // at which it has cut
     Scalar feed_per_tooth_mm_{0};
     Scalar sum_mm_{0};
     int estimates_ = 0;

@@ -103,6 +103,8 @@ struct ControlInput {
     Scalar path_speed_mm_s{0};
     Scalar velocity_x_mm_s{0};
     Scalar velocity_y_mm_s{0};
+    Scalar velocity_z_mm_s{0};     ///< along the tool's axis, away from the workpiece
+    bool height_is_known = false;  ///< velocity_z_mm_s is told
     Scalar time_since_sample_s{0};
     bool rapid = false;
     bool motion_is_unseen = false;  ///< no velocity is known in this step

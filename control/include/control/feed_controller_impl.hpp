@@ -90,6 +90,7 @@ Ceiling<Scalar> FeedController<Scalar>::wanted(const ControlInput<Scalar>& input
     if (states_.state() == CutState::fault) {
         return {parameters_.override_min, limit_};
     }
+    contact_feed_.follow(input, motion.dt_s);
     if (feed_and_speed_are_known(input)) {
         follow_law(input);
     }

@@ -80,6 +80,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     }
     set_motion(signals.velocity());
     input_.motion_is_unseen = false;
+    input_.height_is_known = hal::knows_velocity(sample, 2);
     input_.dt_s = dt_s;
     settled_feed_.follow(estimator_.estimate().feed_mm_s, dt_s);
     watch_sample(sample, signals, dt_s);
@@ -182,6 +183,7 @@ void ForceControlTick<Scalar, WideBand>::set_motion(Velocity velocity) {
     const Scalar axial2 = square(velocity.z_mm_s);
     input_.velocity_x_mm_s = velocity.x_mm_s;
     input_.velocity_y_mm_s = velocity.y_mm_s;
+    input_.velocity_z_mm_s = velocity.z_mm_s;
     input_.path_speed_mm_s = sqrt(plane2 + axial2);
     input_.plunging = axial2 > plane2 && axial2 > square(plunging_mm_s);
 }
