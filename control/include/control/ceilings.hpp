@@ -32,8 +32,9 @@
 ///              (state entry), nor, on a CNC that tells a rapid's F, at an F of the blocks: then all ceilings hold.
 ///   operator   the operator's override below 1; NaN or infinite counts as 0
 ///
-/// A program that has run at proven_override without a broken tooth has met at that feed whatever comes without
-/// warning: air, entry, exit, surge, turn and a step of the depth hold it no lower. The force, which is measured, may.
+/// At the feed of an entry the tool may meet anything: surge, turn and a step of the depth hold it no lower. A program
+/// that has run at proven_override without a broken tooth has met at that feed whatever comes without warning: none of
+/// these, nor air, entry and exit, hold it lower. The force, which is measured, may.
 ///
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the

@@ -26,7 +26,8 @@
 ///              F_tooth,max · depth_step_share/depth_step_ratio
 ///
 /// The second one is for a step of the depth that nobody has announced: at its first tooth the force is
-/// depth_step_ratio times as large, and no reaction is faster than a tooth. The demand is worked out at each fresh
+/// depth_step_ratio times as large, and no reaction is faster than a tooth. It need not come, so it holds the demand no
+/// lower than the feed of an entry, at which the tool may meet anything. The demand is worked out at each fresh
 /// estimate and stands until the next.
 ///
 /// The override approaches what is wanted

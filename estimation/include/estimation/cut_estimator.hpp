@@ -62,9 +62,9 @@ class CutEstimator {
     /// it. Call once per new estimate.
     void remember_depth();
 
-    /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction. Uses the
-    /// window from one revolution earlier, so that first contact is not taken for drift. Call once per new estimate
-    /// while in air; leave_air() when that ends. Returns whether it was done.
+    /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction, and learn
+    /// how noisy their currents are. Uses the window from one revolution earlier, so that first contact is not taken
+    /// for drift. Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
     bool rezero();
     void leave_air();
     /// What was learnt in air, up to now: for the estimator of the next tool, before its first sample.

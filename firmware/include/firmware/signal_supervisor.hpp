@@ -24,9 +24,9 @@
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
 ///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions
-///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is that
-///   move's feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for
-///   longer
+///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is of that
+///                      move
+///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer
 ///                      than the CNC takes to react and 0.15 s. Whether it follows the override is not judged: a
 ///                      recording may have been made without one.
 ///
@@ -39,6 +39,7 @@
 /// deviations of noise. A load that is told once in load_period_s shows at once what the cut changed by since the last
 /// one: s then includes the travel in that time. Where the feed changes in the revolution before or after, or before a
 /// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged.
+/// Nor is it in state entry: a cut may begin with a whole tooth.
 /// A jump of an axis must also exceed the inertia 0.2 m f n: an acceleration that a feed f which seems steady within a
 /// tenth may hide in a revolution.
 ///
