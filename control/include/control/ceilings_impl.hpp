@@ -101,9 +101,7 @@ void Ceilings<Scalar>::follow_turn(const Parameters& parameters, const ControlIn
         turn_ceiling_ = parameters.override_max;
         return;
     }
-    const bool is_usable = FeedLaw<Scalar>::applies_to(cut) && estimation::is_finite(cut.turn_ratio) &&
-                           estimation::is_finite(cut.turn_cutting_share);
-    if (is_usable && (turned || cut.fresh)) {
+    if (FeedLaw<Scalar>::knows_turn(cut) && (turned || cut.fresh)) {
         turn_ceiling_ = cut.turn_ratio > Scalar(1)
                             ? FeedLaw<Scalar>::override_for(
                                   parameters, input,

@@ -41,10 +41,8 @@ class ContactFeed {
     /// A fresh estimate in a cut that neither begins nor ends. Needs feed_and_speed_are_known.
     void learn(const FeedControllerParameters<Scalar>& parameters, const ControlInput<Scalar>& input) {
         const CutEstimateForControl<Scalar>& cut = input.cut;
-        const bool is_determined = FeedLaw<Scalar>::applies_to(cut) && cut.tooth_force_valid &&
-                                   !cut.tooth_force_is_bound && !cut.law_is_refuted && cut.turn_ratio > Scalar(0) &&
-                                   estimation::is_finite(cut.turn_ratio) &&
-                                   estimation::is_finite(cut.turn_cutting_share);
+        const bool is_determined = FeedLaw<Scalar>::knows_turn(cut) && cut.turn_ratio > Scalar(0) &&
+                                   cut.tooth_force_valid && !cut.tooth_force_is_bound && !cut.law_is_refuted;
         if (!is_determined) {
             return;
         }
@@ -52,8 +50,7 @@ class ContactFeed {
             FeedLaw<Scalar>::override_for(parameters, input,
                                           {FeedLaw<Scalar>::share_before_a_step(parameters),
                                            cut.tooth_force_N * cut.turn_ratio, cut.turn_cutting_share});
-        const Scalar per_override_mm = Scalar(1) / override_of_feed_per_tooth(Scalar(1), parameters.teeth, input);
-        sum_mm_ += override_ratio * per_override_mm;
+        sum_mm_ += override_ratio / override_of_feed_per_tooth(Scalar(1), parameters.teeth, input);
         if (++estimates_ < block) {
             return;
         }

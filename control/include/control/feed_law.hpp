@@ -61,6 +61,8 @@ class FeedLaw {
 
     /// The process can be inverted at this estimate.
     [[nodiscard]] static bool applies_to(const Estimate& cut);
+    /// And the force of a tooth after a turn of the path is known: turn_ratio, turn_cutting_share.
+    [[nodiscard]] static bool knows_turn(const Estimate& cut);
     /// f*/F_programmed, ≥ 0. Needs applies_to(input.cut) and a programmed feed > 0.
     [[nodiscard]] static Scalar override_for(const Parameters& parameters, const ControlInput<Scalar>& input,
                                              Target target);

@@ -19,6 +19,11 @@ bool FeedLaw<Scalar>::applies_to(const Estimate& cut) {
 }
 
 template <typename Scalar>
+bool FeedLaw<Scalar>::knows_turn(const Estimate& cut) {
+    return applies_to(cut) && estimation::is_finite(cut.turn_ratio) && estimation::is_finite(cut.turn_cutting_share);
+}
+
+template <typename Scalar>
 Scalar FeedLaw<Scalar>::override_for(const Parameters& parameters, const ControlInput<Scalar>& input, Target target) {
     using estimation::elementary::exp;
     using estimation::elementary::log;
