@@ -16,7 +16,17 @@ void add_gateway(Command& program) {
         "Beside 'millforce run' or 'serve' with --gateway and --jobs. State and events go out; a job's report stays "
         "on\n"
         "the disk until the broker has it; tool files and part maps come in, and are kept where they are sound.\n"
-        "Runs until SIGINT, SIGTERM or SIGHUP, with or without a broker.");
+        "Runs until SIGINT, SIGTERM or SIGHUP, with or without a broker.\n"
+        "GATEWAY.toml, where `run` has --gateway GATEWAY.sock and --jobs JOBS:\n"
+        "    machine = \"vmc1\"                # in the topics\n"
+        "    telemetry_socket = \"GATEWAY.sock\"\n"
+        "    jobs = \"JOBS\"\n"
+        "    tools = \"TOOLS\"                 # may be left out, and so may maps\n"
+        "    [broker]\n"
+        "    host = \"broker.example\"\n"
+        "    ca_file = \"/etc/ssl/certs/ca-certificates.crt\"\n"
+        "    username = \"vmc1\"\n"
+        "    password_file = \"/etc/millforce/mqtt_password\"");
     command.option("file", *file, "Broker, folders and the machine's name").required().value_name("GATEWAY.toml");
     command.on_run([file] {
         const std::atomic<bool>& stop = stop_on_signal();

@@ -86,7 +86,7 @@ void add_import(Command& program) {
         .option("--hold", settings.resampling.hold_s,
                 "With --rate: hold a value for at most this time in s; then its cell is empty")
         .value_name("S")
-        .within(1e-6, 3600.0)
+        .within(0.0001, 3600.0)
         .shows_default()
         .needs(rate);
     command.on_run([options] { return import_files(*options); });

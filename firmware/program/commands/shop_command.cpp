@@ -28,7 +28,13 @@ void add_shop(Command& program) {
     command.footer(
         "Shows what each machine's 'millforce gateway' reports: connection, state, load, engagement, events, jobs.\n"
         "The page is on this computer alone (127.0.0.1 and ::1). Runs until SIGINT, SIGTERM or SIGHUP, with or without "
-        "a broker.");
+        "a broker.\n"
+        "SHOP.toml has the table [broker] alone:\n"
+        "    [broker]\n"
+        "    host = \"broker.example\"\n"
+        "    ca_file = \"/etc/ssl/certs/ca-certificates.crt\"\n"
+        "    username = \"shop\"\n"
+        "    password_file = \"/etc/millforce/mqtt_password\"");
     command.option("file", options->file, "Address of the broker").required().value_name("SHOP.toml");
     command.option("--web", options->port, "Port of the page; 0: any free port")
         .value_name("PORT")
