@@ -35,7 +35,7 @@ std::string tool_text(const BenchPart& part) {
         "K_s_relative_sd = 0.15\nK_s_exponent_sd = 0.0386\nr_1_relative_sd = 0.05\nr_1_exponent_sd = 0.0443\n"
         "reference_chip_thickness_mm = 0.4335\nminimum_chip_thickness_mm = 0.0070\n"
         "maximum_chip_thickness_mm = 0.1445\n\n"
-        "[control]\nsetpoint_share = 0.95\nentry_feed_per_tooth_mm = {:.4f}\nair_feed_per_tooth_mm = {:.4f}\n"
+        "[control]\nsetpoint_share = 0.97\nentry_feed_per_tooth_mm = {:.4f}\nair_feed_per_tooth_mm = {:.4f}\n"
         "max_feed_per_tooth_mm = {:.3f}\nhighest_programmed_feed_mm_s = {:.3f}\n",
         part.name, d, part.teeth, part.teeth, d, 2.2 * d, part.shape == "one_way" ? "up" : "down",
         tooth_force_limit_N(d), 0.0018 * d, 0.0018 * d, 0.02 * d, programmed_feed_mm_min(part) / 60.0);

@@ -55,10 +55,12 @@ void MillingPlant::cut(double dt_s, double feed_per_tooth_mm) {
         return;
     }
     const double turned_rad = speed * dt_s;
+    // φ counts from the feed's left, whatever the feed's direction; the teeth turn with the machine.
+    const double angle_rad = machine_.spindle_angle_rad() + std::atan2(direction_.y(), direction_.x());
     const int points =
         std::max(1, static_cast<int>(std::ceil(turned_rad / scenario_.cutting_options.resolution.largest_turn_rad)));
     for (int k = 0; k < points; ++k) {
-        const double angle = machine_.spindle_angle_rad() - turned_rad * (1.0 - (k + 0.5) / points);
+        const double angle = angle_rad - turned_rad * (1.0 - (k + 0.5) / points);
         const CuttingLoad part =
             cutting_.load(angle, feed_per_tooth_mm, workpiece_->engagement(), workpiece_->bounds());
         cutting_load_.fx_N += part.fx_N / points;

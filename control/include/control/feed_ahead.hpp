@@ -17,11 +17,15 @@
 /// harder:
 ///
 ///   F(f) = κ F_i [1 − h_i (1 − f/f_i)]
-///   v_i  = f_i [1 − e_i (1 − 1/κ)]
+///   v_i  = max(f_i [1 − e_i (1 − 1/κ)] − (e − e_0) N n, f_i/N)
+///
+/// The set point is that of the tooth that stands out furthest. e_0 is the runout that the stretches were worked out
+/// with, e the measured one (runout_meter.hpp): its tooth takes so much more of a chip. N teeth, n revolutions per
+/// second; one tooth takes no more than the chips of all.
 ///
 /// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
 /// stands for it. In each cut that stays the same over the window of an estimate it is measured, κ = F_at/F(f)|κ=1, and
-/// averaged over some revolutions. At every place the feed may then be v_i. Now it may be the largest v from which the
+/// averaged over some revolutions; not where e exceeds the feed per tooth, since teeth then miss the cut. At every place the feed may then be v_i. Now it may be the largest v from which the
 /// machine brakes to each of them, d_i ahead. On its way there the machine goes at √(v_i² + 2 a d), a: acceleration;
 /// what is asked for at d_i is done a reaction time T later, when the feed has fallen by a T more:
 ///
@@ -73,6 +77,7 @@ template <typename Scalar>
 struct FeedAheadSettings {
     Scalar acceleration_mm_s2{0};     ///< acceleration of the machine along the path; to be set, > 0
     Scalar reaction_s{0};             ///< time from an override to the first change of feed
+    Scalar teeth{1};
     Scalar position_tolerance_mm{1};  ///< tolerance of stock and path, each way: a map that is off by less agrees
     Scalar farthest_off_mm{2};        ///< no map that is off by more goes on unrefuted
     Scalar assumed_hardness = literal<Scalar>(1.3L);
@@ -94,6 +99,8 @@ class FeedAhead {
         Scalar position_mm{0};      ///< along the path
         Scalar travel_mm{0};        ///< since the last step
         Scalar blind_feed_mm_s{0};  ///< feed that is safe where nothing is known
+        Scalar runout_mm_s{0};         ///< e N n
+        Scalar mapped_runout_mm_s{0};  ///< e_0 N n
         bool fresh = false;         ///< the rest is a new estimate
         Scalar tangential_N{0};     ///< F_at
         Scalar tangential_sd_N{0};
@@ -161,9 +168,9 @@ class FeedAhead {
     template <typename Visit>
     void for_each_within(Scalar from_mm, Scalar to_mm, const Visit& visit) const;
     [[nodiscard]] bool is_near_unknown(Scalar position_mm) const;
-    [[nodiscard]] Scalar feed_at(std::size_t i, Scalar blind_feed_mm_s) const;
+    [[nodiscard]] Scalar feed_at(std::size_t i, const Step& now) const;
     [[nodiscard]] Scalar force_at(std::size_t i, Scalar feed_mm_s) const;
-    [[nodiscard]] Scalar fastest_from(Scalar position_mm, Scalar blind_feed_mm_s) const;
+    [[nodiscard]] Scalar fastest_for(const Step& now) const;
 
     FeedAheadSettings<Scalar> settings_;
     std::array<Stretch<Scalar>, Capacity> window_{};

@@ -59,7 +59,7 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
         drop_passed(now.position_mm - now.window_mm - settings_.farthest_off_mm);
     }
     way.known = !is_refuted_ && !(agreed_mm_ < settings_.agreement_mm) && !is_near_unknown(now.position_mm);
-    way.feed_mm_s = fastest_from(now.position_mm, now.blind_feed_mm_s);
+    way.feed_mm_s = fastest_for(now);
     way.tooth_per_tangential = mapped_.tooth_per_tangential;
     way.tangential_N = hardness_ * mapped_.tangential_N;
     return way;
@@ -68,7 +68,8 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
 template <typename Scalar, std::size_t Capacity>
 bool FeedAhead<Scalar, Capacity>::is_sound(const Step& now) {
     return estimation::is_finite(now.position_mm) && estimation::is_finite(now.travel_mm) &&
-           estimation::is_finite(now.blind_feed_mm_s);
+           estimation::is_finite(now.blind_feed_mm_s) && estimation::is_finite(now.runout_mm_s) &&
+           estimation::is_finite(now.mapped_runout_mm_s);
 }
 
 template <typename Scalar, std::size_t Capacity>
@@ -141,12 +142,15 @@ template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range& expected_N) {
     constexpr Scalar steady = literal<Scalar>(0.9L);
     constexpr Scalar weight = literal<Scalar>(0.1L);  // of one estimate
-    if (expected_N.low < steady * expected_N.high) {
+    const bool is_measured = hardness_ > Scalar(0);
+    const bool teeth_miss = now.mean_feed_mm_s < now.runout_mm_s;
+    if (expected_N.low < steady * expected_N.high || (is_measured && teeth_miss)) {
         return;
     }
     const Scalar measured = now.tangential_N / estimation::halved(expected_N.low + expected_N.high);
-    const Scalar kept = estimation::clamp(measured, settings_.lowest_hardness, settings_.highest_hardness);
-    hardness_ = hardness_ > Scalar(0) ? hardness_ + weight * (kept - hardness_) : kept;
+    const Scalar lowest = teeth_miss ? Scalar(1) : settings_.lowest_hardness;
+    const Scalar kept = estimation::clamp(measured, lowest, settings_.highest_hardness);
+    hardness_ = is_measured ? hardness_ + weight * (kept - hardness_) : kept;
     hardening_ = Scalar(1) - Scalar(1) / hardness_;
 }
 
@@ -224,39 +228,42 @@ bool FeedAhead<Scalar, Capacity>::is_near_unknown(Scalar position_mm) const {
 
 /// v_i
 template <typename Scalar, std::size_t Capacity>
-Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, Scalar blind_feed_mm_s) const {
+Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, const Step& now) const {
     const Stretch<Scalar>& stretch = at(i);
     if (!stretch.is_known) {
-        return blind_feed_mm_s;
+        return now.blind_feed_mm_s;
     }
     if (!(stretch.tangential_N > Scalar(0))) {
         return stretch.feed_mm_s;
     }
     const Scalar ratio = Scalar(1) - stretch.feed_per_softness * hardening_;
-    return ratio > Scalar(0) ? stretch.feed_mm_s * ratio : Scalar(0);
+    const Scalar feed_mm_s = ratio > Scalar(0) ? stretch.feed_mm_s * ratio : Scalar(0);
+    const Scalar least_mm_s = feed_mm_s / settings_.teeth;
+    const Scalar of_worst_tooth_mm_s = feed_mm_s + now.mapped_runout_mm_s - now.runout_mm_s;
+    return of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
 }
 
 /// In squares of v + a T: one root for all.
 template <typename Scalar, std::size_t Capacity>
-Scalar FeedAhead<Scalar, Capacity>::fastest_from(Scalar position_mm, Scalar blind_feed_mm_s) const {
+Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     using estimation::square;
     using std::sqrt;
     const Scalar margin_mm = settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
     const Scalar lost_mm_s = settings_.acceleration_mm_s2 * settings_.reaction_s;
     const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
-        const Scalar distance_mm = begin_mm - margin_mm - position_mm;
+        const Scalar distance_mm = begin_mm - margin_mm - now.position_mm;
         const Scalar there = square(feed_mm_s + lost_mm_s);
         const Scalar braking = square(feed_mm_s) + twice_a * distance_mm;
         return braking > there ? braking : there;
     };
     const std::size_t last = count_ - 1;  // its begin is where the map ends
-    Scalar fastest = square_before(blind_feed_mm_s, at(last).begin_mm);
+    Scalar fastest = square_before(now.blind_feed_mm_s, at(last).begin_mm);
     for (std::size_t i = 0; i < last; ++i) {
-        if (end_mm(i) + margin_mm < position_mm) {
+        if (end_mm(i) + margin_mm < now.position_mm) {
             continue;
         }
-        const Scalar here = square_before(feed_at(i, blind_feed_mm_s), at(i).begin_mm);
+        const Scalar here = square_before(feed_at(i, now), at(i).begin_mm);
         fastest = here < fastest ? here : fastest;
     }
     return sqrt(fastest) - lost_mm_s;

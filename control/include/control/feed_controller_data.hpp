@@ -22,7 +22,7 @@ template <typename Scalar>
 struct FeedControllerParameters {
     Scalar tooth_force_limit_N{0};  ///< F_tooth,max
     Scalar setpoint_share{
-        literal<Scalar>(0.95L)};  ///< share of the limit at which steady cutting is held; the rest is for noise
+        literal<Scalar>(0.97L)};  ///< share of the limit at which steady cutting is held; the rest is for noise
     Scalar caution_sd{1};         ///< standard deviations of the tooth's force that are counted on top of it
     Scalar override_min{0};
     Scalar override_max{0};

@@ -7,8 +7,10 @@
 #include "estimation/engagement/engagement_solver.hpp"
 #include "estimation/engagement/force_memory.hpp"
 #include "estimation/signal/encoder_angle.hpp"
+#include "estimation/signal/revolution_harmonic.hpp"
 #include "estimation/signal/synchronous_average.hpp"
 #include "estimation/tooth_force/engagement_peaks.hpp"
+#include "estimation/tooth_force/runout_meter.hpp"
 #include "estimation/tooth_force/tooth_force.hpp"
 #include "estimation/tooth_force/total_force.hpp"
 
@@ -109,15 +111,22 @@ class CutEstimator {
     void publish();
     void rezero_drives();
     void learn_noise();
+    void follow_turning_force(Scalar dt_s, const EncoderReading<Scalar>& reading, const DriveSignals<Scalar>& signals);
+    [[nodiscard]] TurningForce<Scalar> turning_force(const typename RevolutionHarmonic<Scalar>::Mean& seen,
+                                                     const Window& window) const;
+    void learn_air_of_runout();
+    void learn_runout();
 
     EncoderAngle<Scalar> encoder_;
     Averager average_;
+    RevolutionHarmonic<Scalar> harmonic_;
     Scalar since_period_s_{0};
     Scalar since_prediction_s_{0};  // of the drifts, to the end of the last tooth period
     int periods_ended_ = 0;         // that no estimate has taken up
 
     Stage stage_ = Stage::idle;
     Window window_{};  // the snapshot
+    typename RevolutionHarmonic<Scalar>::Mean turning_{};
     CutEstimate<Scalar> in_work_{};
     typename EngagementSolver<Scalar>::Search search_{};
     CutEstimate<Scalar> estimate_{};
@@ -133,7 +142,9 @@ class CutEstimator {
     Measurement<Scalar> other_{};
     EngagementPeaks<Scalar> peaks_{};
     ToothForce<Scalar> tooth_force_{};
+    RunoutMeter<Scalar> runout_;
     Window air_window_{};
+    TurningForce<Scalar> air_turning_{};
     int air_periods_ = 0;
     CuttingLaw<Scalar> law_{};
     EngagementSolver<Scalar> solver_{};

@@ -18,12 +18,14 @@ CutEstimator<Scalar>::CutEstimator(const CutEstimatorSettings<Scalar>& settings,
                                    const CuttingLaw<Scalar>& law)
     : encoder_(settings.encoder_counts_per_rev),
       average_({static_cast<int>(settings.teeth), settings.min_samples}),
+      harmonic_(settings.encoder_counts_per_rev),
       settings_(settings),
       per_Nm_(settings.cutter_radius_mm > Scalar(0) ? Scalar(1000) / settings.cutter_radius_mm : Scalar(0)),
       drives_(spindle, axes),
       peaks_(law, {peak_factor_settings(settings, settings.side), settings.largest_depth_mm, settings.assumed_immersion,
                    settings.surge_immersion, settings.turn_immersion}),
       tooth_force_(settings, law),
+      runout_(settings.runout_mm, static_cast<int>(settings.teeth)),
       law_(law),
       solver_(law,
               {.teeth = settings.teeth,
@@ -42,14 +44,29 @@ void CutEstimator<Scalar>::add(Scalar dt_s, std::uint32_t count, std::uint32_t i
     since_period_s_ += dt_s;
     if (reading.is_break()) {
         average_.restart();
+        harmonic_.restart();
+        runout_.lose_angle();
         periods_ended_ = 0;
         return;
     }
     const int completed = average_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values, signals.present);
+    follow_turning_force(dt_s, reading, signals);
     if (completed > 0) {
         since_prediction_s_ += since_period_s_;
         since_period_s_ = Scalar(0);
         periods_ended_ += completed;
+    }
+}
+
+/// A load that is told seldom shows nothing of it.
+template <typename Scalar>
+void CutEstimator<Scalar>::follow_turning_force(Scalar dt_s, const EncoderReading<Scalar>& reading,
+                                                const DriveSignals<Scalar>& signals) {
+    const bool is_present = (signals.present & DriveSignals<Scalar>::spindle_present) != 0U;
+    if (is_present && !settings_.load_is_held) {
+        harmonic_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values[DriveSignals<Scalar>::spindle_current]);
+    } else {
+        harmonic_.restart();
     }
 }
 
@@ -66,6 +83,8 @@ template <typename Scalar>
 void CutEstimator<Scalar>::restart() {
     encoder_.reset();
     average_.restart();
+    harmonic_.restart();
+    runout_.lose_angle();
     periods_ended_ = 0;
     stage_ = Stage::idle;
     search_.cancel();
@@ -97,9 +116,34 @@ bool CutEstimator<Scalar>::work(int solver_steps) {
         stage_ = Stage::bound;
         return false;
     }
-    tooth_force_.fill(in_work_, peaks_, solver_.table(peaks_.side()));
+    tooth_force_.fill(in_work_, peaks_, solver_.table(peaks_.side()), runout_.largest_excess_mm());
+    learn_runout();
     publish();
     return true;
+}
+
+/// Not while the speed changes: that looks like a tooth that takes more.
+template <typename Scalar>
+TurningForce<Scalar> CutEstimator<Scalar>::turning_force(const typename RevolutionHarmonic<Scalar>::Mean& seen,
+                                                         const Window& window) const {
+    constexpr Scalar steady_share = literal<Scalar>(0.005L);
+    const Scalar change_rad_s = window.spindle_acceleration_rad_s2 * window.duration_s;
+    const Scalar most_rad_s = steady_share * window.spindle_speed_rad_s;
+    return change_rad_s < most_rad_s && -change_rad_s < most_rad_s
+               ? drives_.spindle.turning_force_N(seen, window.spindle_speed_rad_s, per_Nm_)
+               : TurningForce<Scalar>{};
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::learn_runout() {
+    constexpr Scalar same_cut_revolutions{2};
+    if (turning_.revolutions > 0 && memory_.revolutions() > same_cut_revolutions) {
+        runout_.learn({.turning = turning_force(turning_, window_),
+                       .feed_direction = {direction_x_, direction_y_},
+                       .feed_per_tooth_mm = in_work_.feed_per_tooth_mm,
+                       .cutting_N = in_work_.cutting_share * in_work_.tangential_N.value,
+                       .engagement = in_work_.engagement});
+    }
 }
 
 template <typename Scalar>
@@ -115,6 +159,7 @@ bool CutEstimator<Scalar>::begin_estimate() {
     since_prediction_s_ = Scalar(0);
     drives_.predict(passed_s);
     window_ = average_.window();
+    turning_ = harmonic_.take();
     in_work_ = {};
     in_work_.tooth_periods = periods_ended_;
     periods_ended_ = 0;
@@ -280,6 +325,7 @@ bool CutEstimator<Scalar>::rezero() {
     if (window_.revolutions == 0) {
         return false;
     }
+    learn_air_of_runout();
     air_periods_ = air_periods_ + estimate_.tooth_periods;
     if (air_periods_ < window_.tooth_periods) {
         return false;
@@ -292,6 +338,14 @@ bool CutEstimator<Scalar>::rezero() {
     learn_noise();
     air_window_ = window_;
     return has_window && !drives_.spindle.is_implausible();
+}
+
+template <typename Scalar>
+void CutEstimator<Scalar>::learn_air_of_runout() {
+    if (turning_.revolutions > 0) {
+        runout_.learn_air(air_turning_);
+        air_turning_ = turning_force(turning_, window_);
+    }
 }
 
 /// A spindle that shows no idle torque does not say that this is air: the axes may carry a cut.
@@ -329,6 +383,7 @@ MachineDrives<Scalar> CutEstimator<Scalar>::drives() const {
 template <typename Scalar>
 void CutEstimator<Scalar>::leave_air() {
     air_window_ = {};
+    air_turning_ = {};
     air_periods_ = 0;
 }
 

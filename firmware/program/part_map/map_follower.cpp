@@ -18,6 +18,7 @@ control::FeedAheadSettings<float> settings_of(const firmware::Parameters<float>&
     control::FeedAheadSettings<float> settings;
     settings.acceleration_mm_s2 = parameters.machine.cnc.acceleration_mm_s2;
     settings.reaction_s = parameters.machine.cnc.override_latency_s + tick_share_s;
+    settings.teeth = static_cast<float>(parameters.tool.teeth);
     return settings;
 }
 
@@ -44,8 +45,11 @@ void MapFollower::look_ahead(firmware::ForceControlTick<float>& tick, const hal:
     now.position_known = found.has_value();
     now.position_mm = path_mm;
     now.travel_mm = std::max(path_mm - path_mm_, 0.0F);
-    now.blind_feed_mm_s = control.entry_feed_per_tooth_mm * static_cast<float>(parameters_.tool.teeth) *
-                          estimate.spindle_speed_rad_s * estimation::turns_per_rad<float>;
+    const float teeth_per_s = static_cast<float>(parameters_.tool.teeth) * estimate.spindle_speed_rad_s *
+                              estimation::turns_per_rad<float>;
+    now.blind_feed_mm_s = control.entry_feed_per_tooth_mm * teeth_per_s;
+    now.runout_mm_s = estimate.runout_mm * teeth_per_s;
+    now.mapped_runout_mm_s = 0.001F * parameters_.tool.runout_um * teeth_per_s;
     now.fresh = tick.has_new_estimate() && tick.feed_is_settled() && estimate.tangential_N.valid;
     now.tangential_N = estimate.tangential_N.value;
     now.tangential_sd_N = std::sqrt(estimate.tangential_N.variance);

@@ -5,6 +5,8 @@
 #include "estimation/drives/noise_ratio.hpp"
 #include "estimation/drives/warm_up_tracker.hpp"
 #include "estimation/number/literal.hpp"
+#include "estimation/number/phasor.hpp"
+#include "estimation/signal/revolution_harmonic.hpp"
 
 namespace millforce::estimation {
 
@@ -23,6 +25,16 @@ struct SpindleDriveParameters {
     Scalar warm_up_torque_sd_Nm{0};
     Scalar warm_up_time_s{0};                    ///< time constant of the warming; 0: not known
     Scalar current_sd_A{literal<Scalar>(0.1L)};  ///< noise of one current sample
+};
+
+/// The part of the tangential force that turns with the spindle, as a mean of whole revolutions.
+template <typename Scalar>
+struct TurningForce {
+    int revolutions = 0;  ///< 0: not known
+    Phasor<Scalar> force_N{};
+    Scalar variance_N2{0};  ///< of each component
+    Scalar speed_rad_s{0};
+    Scalar samples{0};  ///< per revolution
 };
 
 /// Mean tangential force from the spindle's motor current.
@@ -74,6 +86,24 @@ class SpindleDrive {
                    ? force_change_N(change_A, torque_constant_Nm_per_A(speed_rad_s) * per_Nm, parameters_.current_sd_A,
                                     noise_.value(), samples)
                    : Measurement<Scalar>{};
+    }
+
+    /// What turns with the spindle: motor and rotor share it, the more of it the rotor the faster it turns. With the
+    /// phasors I_1 and T_1 of current and time (revolution_harmonic.hpp),
+    ///
+    ///   F_1 = (K_t1(ω) I_1 + i J ω² T_1)/R
+    [[nodiscard]] TurningForce<Scalar> turning_force_N(const typename RevolutionHarmonic<Scalar>::Mean& seen,
+                                                       Scalar speed_rad_s, Scalar per_Nm) const {
+        if (seen.revolutions == 0 || !(seen.samples > Scalar(0))) {
+            return {};
+        }
+        const Scalar N_per_A = torque_constant_Nm_per_A(speed_rad_s) * per_Nm;
+        const Scalar rotor_Nm = parameters_.inertia_kg_m2 * square(speed_rad_s);
+        const Phasor<Scalar> force_N = seen.current_A * N_per_A - over_i(seen.time) * rotor_Nm * per_Nm;
+        const Scalar of_current_N2 =
+            Scalar(2) * square(N_per_A * parameters_.current_sd_A) * noise_.value() / seen.samples;
+        const Scalar variance_N2 = of_current_N2 + square(rotor_Nm * seen.time_sd * per_Nm);
+        return {seen.revolutions, force_N, variance_N2 / Scalar(seen.revolutions), speed_rad_s, seen.samples};
     }
 
     /// The tool is in air, at an unchanged speed: what change_N found is noise.

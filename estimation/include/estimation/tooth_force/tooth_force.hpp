@@ -22,7 +22,8 @@ class ToothForce {
 
     /// Fills in what F_at, feed and engagement of `e` say about one tooth. The peaks are those at the immersion that is
     /// known, else at the last one, else at the assumed one.
-    void fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table);
+    /// `runout_mm`: runout_meter.hpp.
+    void fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table, Scalar runout_mm);
 
     /// m of F ∝ f^m at the last engagement.
     [[nodiscard]] Scalar force_exponent() const { return force_exponent_; }
@@ -32,13 +33,12 @@ class ToothForce {
 
     static Scalar follow_growth(CutEstimate<Scalar>& e);
     void estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const;
-    [[nodiscard]] Scalar runout_factor(Scalar feed_per_tooth_mm) const;
+    [[nodiscard]] Scalar runout_factor(Scalar runout_mm, Scalar feed_per_tooth_mm) const;
     [[nodiscard]] static typename CutEstimate<Scalar>::Change change_to(const typename Table::Forces& forces_then,
                                                                         Scalar factor, Scalar tooth_N_per_mm_now);
 
     Scalar teeth_{4};
     Scalar cutter_radius_mm_{5};
-    Scalar runout_mm_{0};
     Scalar feed_exponent_{usual_feed_exponent<Scalar>};
     Scalar force_exponent_{usual_feed_exponent<Scalar>};
 };

@@ -13,11 +13,11 @@ template <typename Scalar>
 ToothForce<Scalar>::ToothForce(const CutEstimatorSettings<Scalar>& settings, const CuttingLaw<Scalar>& law)
     : teeth_(settings.teeth),
       cutter_radius_mm_(settings.cutter_radius_mm),
-      runout_mm_(settings.runout_mm),
       feed_exponent_(Scalar(1) + law.p_s) {}
 
 template <typename Scalar>
-void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table) {
+void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table,
+                              Scalar runout_mm) {
     using std::sqrt;
     const auto feed = table.feed(e.feed_per_tooth_mm);
     const auto model = table.forces(peaks.here_node(), feed);
@@ -26,10 +26,12 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
     e.cutting_share = has_model ? model.cutting_tangential_N * per_model_N : Scalar(1);
     e.feed_exponent = feed_exponent_;
     force_exponent_ = e.feed_exponent * e.cutting_share;
+    e.runout_mm = runout_mm;
     if (!e.tangential_N.valid) {
         return;
     }
     const Scalar newest_N = follow_growth(e);
+    e.runout_factor = runout_factor(runout_mm, e.feed_per_tooth_mm);
     estimate_tooth_force(e, peaks.factors(), newest_N);
     if (!has_model) {
         return;
@@ -75,8 +77,7 @@ template <typename Scalar>
 void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const {
     const EngagementEstimate<Scalar>& cut = e.engagement;
     const Scalar force_variance = e.steady_tangential_N.variance;
-    const Scalar runout = runout_factor(e.feed_per_tooth_mm);
-    e.runout_factor = runout;
+    const Scalar runout = e.runout_factor;
     e.worst_tooth_force_N = newest_N * factors.now * runout;
     e.least_tooth_force_N = newest_N * factors.slot;
     const auto bound_by = [&](Scalar bound) {
@@ -103,15 +104,16 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
 
 /// The tooth with the largest radius takes (f_z + e) of chip where the mean takes f_z.
 template <typename Scalar>
-Scalar ToothForce<Scalar>::runout_factor(Scalar feed_per_tooth_mm) const {
+Scalar ToothForce<Scalar>::runout_factor(Scalar runout_mm, Scalar feed_per_tooth_mm) const {
     using elementary::exp;
     using elementary::log;
-    if (!(runout_mm_ > Scalar(0)) || !(feed_per_tooth_mm > Scalar(0))) {
+    if (!(runout_mm > Scalar(0)) || !(feed_per_tooth_mm > Scalar(0))) {
         return Scalar(1);
     }
     // One tooth cannot take more than the chips of all teeth together.
-    const Scalar chip = clamp(Scalar(1) + runout_mm_ / feed_per_tooth_mm, Scalar(1), teeth_);
-    return exp(force_exponent_ * log(chip));
+    const Scalar chip = clamp(Scalar(1) + runout_mm / feed_per_tooth_mm, Scalar(1), teeth_);
+    const Scalar cutting_share = force_exponent_ / feed_exponent_;
+    return Scalar(1) + cutting_share * (exp(feed_exponent_ * log(chip)) - Scalar(1));
 }
 
 template <typename Scalar>
