@@ -43,18 +43,12 @@ hal::DriveSample usable_sample(const hal::DriveSample& sample) {
     return usable;
 }
 
-/// An angle in degrees makes all that is worked out from it wrong, and is looked for first.
-std::optional<Finding> angle_in_degrees(const std::filesystem::path& recording) {
-    CsvReader csv(recording);
-    const CsvColumn angle = csv.require("spindle_angle_rad");
-    AngleUnit unit;
-    while (csv.next_row()) {
-        const double value = csv.number(angle);
-        try {
-            unit.look_at(csv, angle, value);
-        } catch (const InputError& refusal) {
-            return Finding{Severity::error, refusal.what(), "spindle_angle_rad"};
-        }
+/// An angle in another unit makes all that is worked out from it wrong, and is looked for first.
+std::optional<Finding> angle_in_another_unit(const std::filesystem::path& recording) {
+    try {
+        refuse_angle_in_another_unit(recording);
+    } catch (const InputError& refusal) {
+        return Finding{Severity::error, refusal.what(), "spindle_angle_rad"};
     }
     return std::nullopt;
 }
@@ -145,8 +139,8 @@ Findings RecordingCheck::findings(const std::string& name) const {
 }
 
 Findings check_recording(const std::filesystem::path& recording, const firmware::Parameters<float>& parameters) {
-    if (const auto degrees = angle_in_degrees(recording)) {
-        return {*degrees};
+    if (const auto wrong_angle = angle_in_another_unit(recording)) {
+        return {*wrong_angle};
     }
     RecordingReader reader(recording, parameters.machine.encoder_counts_per_rev);
     RecordingCheck check(parameters, reader.has_index());
