@@ -128,7 +128,7 @@ RecordedFeeds read_steady_feeds(const std::filesystem::path& file, char axis, do
         }
         progress.update(csv.fraction_read());
     }
-    RecordedFeeds recorded{finder.finish(), {}};
+    RecordedFeeds recorded{true, finder.finish(), {}};
     units.refuse_implausible(csv.file_name(), axis, longest_travel_m(recorded.feeds));
     if (!recorded.feeds.empty()) {
         recorded.questions = units.questions(axis);

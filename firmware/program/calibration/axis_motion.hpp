@@ -31,6 +31,7 @@ struct SteadyFeed {
 
 /// What a recording shows of one axis.
 struct RecordedFeeds {
+    bool is_recorded = false;  ///< velocity and current are there
     std::vector<SteadyFeed> feeds;
     UnitQuestions questions;  ///< about its units; see AxisMotionUnits
 };

@@ -253,7 +253,8 @@ RecordedFeeds steady_feeds_of_all(const FrictionCalibrationOptions& options, cha
     std::vector<SteadyFeed>& feeds = all.feeds;
     double offset_s = 0.0;
     for (const auto& file : options.data) {
-        auto [found, questions] = read_steady_feeds(file, axis, options.minimum_speed_mm_s);
+        auto [is_recorded, found, questions] = read_steady_feeds(file, axis, options.minimum_speed_mm_s);
+        all.is_recorded = all.is_recorded || is_recorded;
         append(all.questions, questions);
         const auto before = feeds;
         const auto copies = std::erase_if(found, [&](const SteadyFeed& feed) {
@@ -277,6 +278,14 @@ RecordedFeeds steady_feeds_of_all(const FrictionCalibrationOptions& options, cha
     return all;
 }
 
+void print_standing_axis(std::ostream& out, char axis, bool is_recorded, double minimum_speed_mm_s) {
+    if (is_recorded) {
+        out << fmt::format(
+            "{}: left out: no steady feed faster than {:g} mm/s; if it moved, is {}_velocity_mm_s in m/s?\n", axis,
+            minimum_speed_mm_s, axis);
+    }
+}
+
 int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream& out) {
     std::ostringstream fitted_text;
     TomlWriter fitted_toml(fitted_text);
@@ -285,8 +294,9 @@ int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream&
     bool any = false;
     bool holds = true;
     for (const char axis : {'x', 'y', 'z'}) {
-        const auto [feeds, of_motion] = steady_feeds_of_all(options, axis, out);
+        const auto [is_recorded, feeds, of_motion] = steady_feeds_of_all(options, axis, out);
         if (feeds.empty()) {
+            print_standing_axis(out, axis, is_recorded, options.minimum_speed_mm_s);
             continue;
         }
         const std::string lack = what_the_axis_lacks(axis, feeds);

@@ -384,14 +384,25 @@ void AngleUnit::look_at_end(const CsvReader& csv) const {
     }
 }
 
-void refuse_angle_in_another_unit(const std::filesystem::path& recording) {
+std::optional<std::string> angle_in_another_unit(const std::filesystem::path& recording) {
     CsvReader csv(recording);
     const CsvColumn angle = csv.require("spindle_angle_rad");
     AngleUnit unit;
+    const auto refusal_of = [](const auto& look) -> std::optional<std::string> {
+        try {
+            look();
+        } catch (const InputError& refusal) {
+            return refusal.what();
+        }
+        return std::nullopt;
+    };
     while (csv.next_row()) {
-        unit.look_at(csv, angle, csv.number(angle));
+        const double value = csv.number(angle);
+        if (const auto refusal = refusal_of([&] { unit.look_at(csv, angle, value); })) {
+            return refusal;
+        }
     }
-    unit.look_at_end(csv);
+    return refusal_of([&] { unit.look_at_end(csv); });
 }
 
 }  // namespace millforce::host

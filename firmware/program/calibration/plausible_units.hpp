@@ -5,6 +5,7 @@
 #include "files/csv.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -106,7 +107,7 @@ class AngleUnit {
     int falls_ = 0;
 };
 
-/// The same of a whole recording.
-void refuse_angle_in_another_unit(const std::filesystem::path& recording);
+/// Why the angles of a whole recording are in another unit. Throws where it cannot be read.
+std::optional<std::string> angle_in_another_unit(const std::filesystem::path& recording);
 
 }  // namespace millforce::host

@@ -143,7 +143,9 @@ std::vector<RecordedCutAverages> read_recorded_forces(const std::vector<std::fil
     std::vector<RecordedCutAverages> averages(cuts.size());
     const auto counts_per_rev = parameters.machine.encoder_counts_per_rev;
     for (const auto& path : recordings) {
-        refuse_angle_in_another_unit(path);
+        if (const auto why = angle_in_another_unit(path)) {
+            throw InputError(*why);
+        }
         std::vector<RunningCut> running = cuts_in(path, cuts, parameters);
         RecordingReader reader(path, counts_per_rev);
         if (firmware::has_force_sensor(parameters.tool) && !reader.has_force_sensor()) {

@@ -43,16 +43,6 @@ hal::DriveSample usable_sample(const hal::DriveSample& sample) {
     return usable;
 }
 
-/// An angle in another unit makes all that is worked out from it wrong, and is looked for first.
-std::optional<Finding> angle_in_another_unit(const std::filesystem::path& recording) {
-    try {
-        refuse_angle_in_another_unit(recording);
-    } catch (const InputError& refusal) {
-        return Finding{Severity::error, refusal.what(), "spindle_angle_rad"};
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 RecordingCheck::RecordingCheck(const firmware::Parameters<float>& parameters, bool has_index)
@@ -139,8 +129,9 @@ Findings RecordingCheck::findings(const std::string& name) const {
 }
 
 Findings check_recording(const std::filesystem::path& recording, const firmware::Parameters<float>& parameters) {
-    if (const auto wrong_angle = angle_in_another_unit(recording)) {
-        return {*wrong_angle};
+    // It makes all that is worked out from the angle wrong, and is looked for first.
+    if (const auto why = angle_in_another_unit(recording)) {
+        return {{Severity::error, *why, "spindle_angle_rad"}};
     }
     RecordingReader reader(recording, parameters.machine.encoder_counts_per_rev);
     RecordingCheck check(parameters, reader.has_index());

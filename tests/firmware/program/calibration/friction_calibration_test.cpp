@@ -173,6 +173,8 @@ TEST(FrictionCalibration, of_a_recording_in_air_gives_the_quadratic_current_by_d
     within("K_x3_A", 1.9);
     within("gravity_A", -0.4);
     CHECK(!run.toml.contains("y"));  // it stood still
+    CHECK(
+        contains(run.text, "y: left out: no steady feed faster than 2 mm/s; if it moved, is y_velocity_mm_s in m/s?"));
 }
 
 TEST(FrictionCalibration, refuses_a_recording_that_lacks_feeds_or_a_direction_and_says_which) {
