@@ -7,7 +7,6 @@
 #include "check/recorded_units.hpp"
 #include "check/spindle_idle.hpp"
 #include "check/tooth_lines.hpp"
-#include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
 #include "firmware/usable_signals.hpp"
