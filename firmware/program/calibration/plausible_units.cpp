@@ -398,7 +398,7 @@ std::optional<std::string> angle_in_another_unit(const std::filesystem::path& re
     };
     while (csv.next_row()) {
         const double value = csv.number(angle);
-        if (const auto refusal = refusal_of([&] { unit.look_at(csv, angle, value); })) {
+        if (auto refusal = refusal_of([&] { unit.look_at(csv, angle, value); })) {
             return refusal;
         }
     }
