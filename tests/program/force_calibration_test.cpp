@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csv_rows.hpp"
+#include "firmware/program/calibration/scaled_column.hpp"
 #include "force_recordings.hpp"
 #include "inputs.hpp"
 
@@ -52,6 +53,17 @@ TEST_GROUP(ForceCalibration) {
         }
         inputs.write("cuts.csv", table);
         return files;
+    }
+    /// The same column of all files times the factor.
+    void scale(const std::vector<std::string>& files, const std::string& column, double factor) {
+        for (const std::string& file : files) {
+            const auto name = std::filesystem::path(file).filename().string();
+            inputs.write(name.c_str(), scaled(inputs.read(name.c_str()), column, factor));
+        }
+    }
+    void scale_forces(const std::vector<std::string>& files, double factor) {
+        scale(files, "fx_N", factor);
+        scale(files, "fy_N", factor);
     }
     Ended calibrate(const std::string& what, std::vector<std::string> files) {
         std::vector<std::string> words{"calibrate", what};
@@ -152,6 +164,66 @@ TEST(ForceCalibration, a_stretch_in_air_shows_no_drop) {
     inputs.write("cuts.csv", std::string(cut_columns) + "air.csv,0,10,100,3,1.5,25\n");
     STRCMP_EQUAL(
         "", not_refused(calibrate("force-drop", {inputs.name("air.csv")}), {"cuts.csv:2", "no force drop"}).c_str());
+}
+
+TEST(ForceCalibration, forces_in_another_unit_contradict_the_tools_law) {
+    inputs.write("tool.toml", without(face_mill_tool_text, "force_drop"));
+    const auto files = face_mill_cuts({0.1, 0.2});
+    LONGS_EQUAL(0, calibrate("force-drop", files).exit_code);
+    scale_forces(files, 0.1);  // daN
+    const Ended in_daN = calibrate("force-drop", files);
+    LONGS_EQUAL(1, in_daN.exit_code);
+    STRCMP_CONTAINS("warning: the forces of the cuts are 0.1", in_daN.out.c_str());
+    STRCMP_CONTAINS("are the forces in kN, daN or mN, or axial_depth_mm", in_daN.out.c_str());
+    scale_forces(files, 0.01);  // kN
+    STRCMP_EQUAL("", not_refused(calibrate("force-drop", files),
+                                 {"cuts.csv: the forces of the cuts are 0.001", "N/mm²", "expected 10 to 15000", "kN"})
+                         .c_str());
+}
+
+TEST(ForceCalibration, a_depth_of_a_cut_in_cm_contradicts_the_tools_law) {
+    inputs.write("tool.toml", without(face_mill_tool_text, "force_drop"));
+    const auto files = face_mill_cuts({0.1, 0.2});
+    inputs.write("cuts.csv", scaled(inputs.read("cuts.csv"), "axial_depth_mm", 0.1));
+    STRCMP_EQUAL("", not_refused(calibrate("force-drop", files), {"cuts.csv: the forces of the cuts are 16 times",
+                                                                  "axial_depth_mm or radial_width_mm in another unit?"})
+                         .c_str());
+}
+
+TEST(ForceCalibration, a_feed_an_angle_or_a_time_in_another_unit_is_refused_by_chip_and_cutting_speed) {
+    inputs.write("tool.toml", without(face_mill_tool_text, "force_drop"));
+    const auto not_refused_with = [&](const std::string& column, double factor, const std::vector<std::string>& parts) {
+        inputs.write("log.csv", face_mill_recording(0.4, 0.0));
+        inputs.write("cuts.csv", std::string(cut_columns) + "log.csv,0,10000,100,3,1.5,20\n");
+        scale({inputs.name("log.csv")}, column, factor);
+        return not_refused(calibrate("force-drop", {inputs.name("log.csv")}), parts);
+    };
+    const std::string in_mm_min = not_refused_with(
+        "x_velocity_mm_s", 60.0, {"cuts.csv:2: column 'x_velocity_mm_s'", "a chip of 9 mm", "mm/min?"});
+    STRCMP_EQUAL("", in_mm_min.c_str());
+    const std::string in_degrees = not_refused_with("spindle_angle_rad", 180.0 / std::numbers::pi,
+                                                    {"cuts.csv:2", "a chip of 2.62 µm", "in degrees"});
+    STRCMP_EQUAL("", in_degrees.c_str());
+    const std::string in_ms =
+        not_refused_with("time_s", 1000.0, {"cuts.csv:2", "0.00157 m/s on a tool of Ø100 mm", "in ms?"});
+    STRCMP_EQUAL("", in_ms.c_str());
+}
+
+TEST(ForceCalibration, one_force_of_two_in_another_unit_is_asked_about_and_another_feed_than_the_tools_refused) {
+    inputs.write("tool.toml", end_mill_tool_text);
+    inputs.write("known.csv", end_mill_recording(0.0, 0.0, 0.0));
+    inputs.write("cuts.csv", std::string(cut_columns) + "known.csv,0,100,19.05,4,7.62,7.62\n");
+    const std::string sound = inputs.read("known.csv");
+    scale({inputs.name("known.csv")}, "fx_N", 1e-3);
+    const Ended in_kN = calibrate("tip-angle", {inputs.name("known.csv")});
+    LONGS_EQUAL(1, in_kN.exit_code);
+    STRCMP_CONTAINS("warning: along the feed the force is 0.000", in_kN.out.c_str());
+    STRCMP_CONTAINS("is fx_N or fy_N in kN, daN or mN?", in_kN.out.c_str());
+    inputs.write("known.csv", scaled(sound, "x_velocity_mm_s", 0.06));
+    STRCMP_EQUAL("", not_refused(calibrate("tip-angle", {inputs.name("known.csv")}),
+                                 {"cuts.csv:2: 0.00229 mm per tooth, and [depth_shape] of the tool's file has 0.0381",
+                                  "is a velocity in m/min"})
+                         .c_str());
 }
 
 TEST(ForceCalibration, another_tools_cut_is_refused) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/axis_motion.hpp"
 
+#include "calibration/plausible_drives.hpp"
 #include "calibration/signal.hpp"
 #include "calibration/steady_feed_finder.hpp"
 #include "files/csv.hpp"
@@ -38,9 +39,18 @@ void refuse_implausible_speed(const CsvReader& csv, const std::vector<double>& v
     if (largest > fastest_m_s) {
         throw InputError(
             fmt::format("{}: column 'position_m': the axis moves at up to {:.4g} m/s; expected at most {:g} "
-                        "m/s; is it in mm, or time_s in ms?",
+                        "m/s; is it in mm, or time_s in min?",
                         csv.file_name(), largest, fastest_m_s));
     }
+}
+
+double longest_travel_m(const std::vector<SteadyFeed>& feeds) {
+    constexpr double s_per_min = 60.0;
+    double longest = 0.0;
+    for (const SteadyFeed& feed : feeds) {
+        longest = std::max(longest, std::abs(feed.feed_m_per_min) / s_per_min * feed.duration_s);
+    }
+    return longest;
 }
 
 }  // namespace
@@ -75,6 +85,7 @@ AxisMotion read_axis_motion(const std::filesystem::path& file, double low_pass_h
     check_even_spacing(csv, time_s, lines);
     AxisMotion motion;
     motion.dt_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+    refuse_implausible_interval(csv.file_name(), motion.dt_s);
     const double rate_hz = 1.0 / motion.dt_s;
     motion.velocity_m_s = derivative(zero_phase_low_pass(position_m, low_pass_hz, rate_hz), motion.dt_s);
     refuse_implausible_speed(csv, motion.velocity_m_s);
@@ -83,7 +94,7 @@ AxisMotion read_axis_motion(const std::filesystem::path& file, double low_pass_h
     return motion;
 }
 
-std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, char axis, double minimum_speed_mm_s) {
+RecordedFeeds read_steady_feeds(const std::filesystem::path& file, char axis, double minimum_speed_mm_s) {
     CsvReader csv(file);
     const CsvColumn time = csv.require("time_s");
     const auto velocity = csv.find(fmt::format("{}_velocity_mm_s", axis));
@@ -92,6 +103,7 @@ std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, cha
         return {};
     }
     SteadyFeedFinder finder(minimum_speed_mm_s);
+    AxisMotionUnits units;
     Progress progress("reading " + csv.file_name());
     double last_s = -std::numeric_limits<double>::infinity();
     while (csv.next_row()) {
@@ -109,12 +121,19 @@ std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, cha
         const double i = csv.number(current);
         if (std::isnan(v) || std::isnan(i)) {
             finder.close();
+            units.interrupt();
         } else {
             finder.add(time_s, v, i);
+            units.look_at(time_s, v);
         }
         progress.update(csv.fraction_read());
     }
-    return finder.finish();
+    RecordedFeeds recorded{true, finder.finish(), {}};
+    units.refuse_implausible(csv.file_name(), axis, longest_travel_m(recorded.feeds));
+    if (!recorded.feeds.empty()) {
+        recorded.questions = units.questions(axis);
+    }
+    return recorded;
 }
 
 }  // namespace millforce::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "calibration/plausible_units.hpp"
+
 #include <filesystem>
 #include <vector>
 
@@ -27,9 +29,17 @@ struct SteadyFeed {
     double middle_s = 0.0;  ///< time of its middle
 };
 
+/// What a recording shows of one axis.
+struct RecordedFeeds {
+    bool is_recorded = false;  ///< velocity and current are there
+    std::vector<SteadyFeed> feeds;
+    UnitQuestions questions;  ///< about its units; see AxisMotionUnits
+};
+
 /// Steady stretches of one axis of a recording. The velocity stays within 3 % (or 0.3 mm/s) of its mean for at least
-/// 0.2 s, not counting the first 0.1 s and the last 0.05 s. Throws InputError for bad data, and above 3000 mm/s.
-std::vector<SteadyFeed> read_steady_feeds(const std::filesystem::path& file, char axis, double minimum_speed_mm_s);
+/// 0.2 s, not counting the first 0.1 s and the last 0.05 s. Throws InputError for bad data, above 3000 mm/s, and for an
+/// acceleration or a travel that no axis has.
+RecordedFeeds read_steady_feeds(const std::filesystem::path& file, char axis, double minimum_speed_mm_s);
 
 /// Whether the file has the columns of a single axis (position_m), and not those of a recording.
 bool is_axis_motion(const std::filesystem::path& file);

@@ -292,17 +292,17 @@ int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& ou
     }
     const auto [cuts, doubt] =
         options.from_currents() ? read_recordings(options) : CutsAndDoubt{read_cuts(options.data, out), {}};
-    refuse_implausible_pressure(options.data.front().string(), cuts, CutSide::down,
-                                options.from_currents()
-                                    ? "are the currents in mA, or is spindle_angle_rad in degrees?"
-                                    : "is spindle_rad_s in 1/min, or spindle_torque_Nm in another unit?");
-    refuse_too_few_values(options.data.front().string(), cuts, options.form());
+    const std::string file = options.data.front().string();
+    const CutSource source = options.from_currents() ? CutSource::recording : CutSource::table;
+    refuse_implausible_pressure(file, cuts, CutSide::down, source);
+    refuse_implausible_forces(file, cuts, source);
+    refuse_too_few_values(file, cuts, options.form());
     const CutSide side = side_or_refuse(options, cuts, out);
     const CuttingResult result = fit_what_is_determined(options, cuts, side, doubt);
     print_fit(out, result, options.form());
     const bool holds = check_held_out(out, cuts, options.form(), side, result.held_at_zero);
     write_fit(options, result, side);
-    return holds ? exit_done : exit_bound_broken;
+    return ask(out, ask_about_speed_of(cuts, side, source), holds ? exit_done : exit_bound_broken);
 }
 
 }  // namespace millforce::host

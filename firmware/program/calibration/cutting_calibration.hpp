@@ -45,10 +45,10 @@ struct CuttingCalibrationOptions {
 /// each feed in turn, with the two classical laws for comparison. The stated bound is that nine of ten held-out values
 /// lie within twice their stated standard deviation.
 ///
-/// Writes a [cutting] table to `output`. Returns 0, or 1 where the bound is broken. Throws InputError for bad data, for
-/// values that only a wrong unit or sign explains, where the forces scatter by more than 30 %, where there are fewer
-/// measured values than parameters and one, and where the cuts cannot determine a parameter: it names the parameter and
-/// the missing cut.
+/// Writes a [cutting] table to `output`. Returns 0, or 1 where the bound is broken or a unit is asked for. Throws
+/// InputError for bad data, for values that only a wrong unit or sign explains, where the forces scatter by more than
+/// 30 %, where there are fewer measured values than parameters and one, and where the cuts cannot determine a
+/// parameter: it names the parameter and the missing cut.
 int calibrate_cutting(const CuttingCalibrationOptions& options, std::ostream& out);
 
 /// How well held-out cuts are foretold: mean absolute errors, and the share within twice the stated deviation.

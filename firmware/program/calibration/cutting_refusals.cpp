@@ -39,13 +39,16 @@ void refuse_vanished_scatter(const std::string& file, const CuttingFit& fit) {
 }
 
 void refuse_large_scatter(const std::string& file, const CuttingFit& fit) {
+    constexpr double beyond_any_tool = 1.0;
     const double scatter = std::max(fit.tangential.robust_sd, plane_scatter(fit));
     if (scatter > largest_scatter) {
-        throw InputError(
-            fmt::format("{}: the {} scatter by {:.1f} % about the law; expected less than {:.0f} %, from cuts "
-                        "of one tool and material",
-                        file, fit.tangential.robust_sd == scatter ? "torques" : "forces", 100.0 * scatter,
-                        100.0 * largest_scatter));
+        throw InputError(fmt::format(
+            "{}: the {} scatter by {:.1f} % about the law; expected less than {:.0f} %, from cuts "
+            "of one tool and material{}",
+            file, fit.tangential.robust_sd == scatter ? "torques" : "forces", 100.0 * scatter, 100.0 * largest_scatter,
+            scatter > beyond_any_tool
+                ? "; do torque and force contradict each other because one is in another unit (daN, kgf)?"
+                : ""));
     }
 }
 

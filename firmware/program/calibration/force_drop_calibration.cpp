@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/plausible_units.hpp"
 #include "calibration/recorded_forces.hpp"
 #include "estimation/force_drop/force_drop.hpp"
 #include "estimation_calibration/force_drop_calibration.hpp"
@@ -83,31 +84,39 @@ void take_force(KnownCut& cut, float dt_s, const FeedForces& forces, float teeth
     cut.path_mm = cut.turned_rev = 0.0;
 }
 
-std::vector<MeasuredCut> read_known_cuts(const ForceShapeCalibrationOptions& options,
-                                         const firmware::Parameters<float>& parameters) {
+struct KnownCuts {
+    std::vector<MeasuredCut> measured;
+    UnitQuestions questions;
+};
+
+KnownCuts read_known_cuts(const ForceShapeCalibrationOptions& options, const firmware::Parameters<float>& parameters) {
     const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
     std::vector<KnownCut> known;
     known.reserve(cuts.size());
     for (const StretchConditions& cut : cuts) {
         known.push_back(known_cut(cut, parameters));
     }
-    read_recorded_forces(options.data, cuts, parameters, [&](std::size_t k, float dt_s, const FeedForces& forces) {
-        take_force(known[k], dt_s, forces, parameters.tool.teeth);
-    });
-    std::vector<MeasuredCut> measured;
+    const auto averages =
+        read_recorded_forces(options.data, cuts, parameters, [&](std::size_t k, float dt_s, const FeedForces& forces) {
+            take_force(known[k], dt_s, forces, parameters.tool.teeth);
+        });
+    refuse_implausible_cuts(cuts, averages);
+    KnownCuts result;
     for (std::size_t k = 0; k < cuts.size(); ++k) {
         if (known[k].measured.empty()) {
             throw InputError(
                 fmt::format("{}: no force drop from {} to {} s in {} revolutions that were whole; expected at least {} "
-                            "revolutions of a steady cut whose tooth passing the low-pass lets through",
+                            "revolutions of a steady cut whose tooth passing the low-pass lets through, with "
+                            "spindle_angle_rad in rad",
                             cuts[k].place, cuts[k].start_s, cuts[k].end_s, known[k].refused * revolutions_of_a_cut,
                             revolutions_of_a_cut));
         }
         for (const auto& m : known[k].measured) {
-            measured.push_back({m, cuts[k].axial_depth_mm, immersion_of(cuts[k])});
+            result.measured.push_back({m, cuts[k].axial_depth_mm, immersion_of(cuts[k])});
         }
     }
-    return measured;
+    result.questions = look_at_recorded_forces(options.cuts, cuts, averages, parameters.tool);
+    return result;
 }
 
 bool is_same_cut(const MeasuredCut& a, const MeasuredCut& b) {
@@ -270,7 +279,7 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
                         "whose width the drop shows",
                         options.tool.string()));
     }
-    const std::vector<MeasuredCut> cuts = read_known_cuts(options, parameters);
+    const auto [cuts, questions] = read_known_cuts(options, parameters);
     auto result = law_of(cuts);
     refuse_what_cuts_lack(options, cuts, result);
     const LeftOut left_out = leave_each_out(cuts);
@@ -293,7 +302,7 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
         "most; no "
         "estimate for {} of {}\n",
         100.0 * left_out.mean, 100.0 * left_out.worst, left_out.without, left_out.cuts);
-    return left_out.worst > largest_error ? exit_bound_broken : exit_done;
+    return ask(out, questions, left_out.worst > largest_error ? exit_bound_broken : exit_done);
 }
 
 }  // namespace millforce::host

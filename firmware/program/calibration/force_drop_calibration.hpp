@@ -18,15 +18,16 @@ struct ForceShapeCalibrationOptions {
 
 /// Table [force_drop] of a tool: edge lengths, r = a r_av + b and ln K/K_av from cuts of known immersion (Hwang et al.,
 /// estimation_calibration/force_drop_calibration.hpp). Each cut is then estimated by the law of the others. Returns 0,
-/// or 1 where one of them is off by more than 10 %. Throws InputError for bad data, for fewer than four different cuts,
-/// where the forces follow no cutting law (axes swapped or reversed), and where the cuts do not determine the law: it
-/// names what is missing. The law is used down to the narrowest of the cuts.
+/// or 1 where one of them is off by more than 10 %, or a unit is asked for (look_at_recorded_forces). Throws InputError
+/// for bad data, for fewer than four different cuts, where the forces follow no cutting law (axes swapped or reversed),
+/// and where the cuts do not determine the law: it names what is missing. The law is used down to the narrowest of the
+/// cuts.
 int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostream& out);
 
 /// tip_angle_deg of table [depth_shape]: the angle of the teeth at the encoder's zero, from cuts of known depths
 /// (estimation/depth_shape/flute_profile_fit.hpp). Several cuts are averaged by their standard deviations. Returns 0,
-/// or 1 where they disagree by more than four of them. Throws InputError for bad data, and if no cut determines the
-/// angle.
+/// or 1 where they disagree by more than four of them, or a unit is asked for. Throws InputError for bad data, and if
+/// no cut determines the angle.
 int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

@@ -4,6 +4,7 @@
 #include "calibration/axis_motion.hpp"
 #include "calibration/calibration_report.hpp"
 #include "calibration/motion_friction.hpp"
+#include "calibration/plausible_drives.hpp"
 #include "estimation/number/student_t.hpp"
 #include "estimation_calibration/friction_fit.hpp"
 #include "files/atomic_file.hpp"
@@ -112,13 +113,19 @@ AxisFit fit_what_is_determined(const std::vector<SteadyFeed>& feeds) {
     return result;
 }
 
-void refuse_what_no_axis_has(const std::string& file, char axis, const std::vector<SteadyFeed>& feeds,
-                             const AxisFit& fit) {
-    constexpr double largest_current_A = 100.0;
+/// Over all feeds, along the motion.
+double mean_friction_A(const std::vector<SteadyFeed>& feeds, const AxisFit& fit) {
     double friction_A = 0.0;
     for (const SteadyFeed& feed : feeds) {
         friction_A += fit.friction_A(feed.feed_m_per_min) / static_cast<double>(feeds.size());
     }
+    return friction_A;
+}
+
+void refuse_what_no_axis_has(const std::string& file, char axis, const std::vector<SteadyFeed>& feeds,
+                             const AxisFit& fit) {
+    constexpr double largest_current_A = 100.0;
+    const double friction_A = mean_friction_A(feeds, fit);
     if (friction_A < 0.0) {
         throw InputError(fmt::format(
             "{}: {}: the current is opposite to the motion: {:.4g} A of friction on average; expected a "
@@ -214,9 +221,10 @@ void write_range(const std::vector<SteadyFeed>& feeds, const AxisFit& fit, TomlW
 
 /// Writes the axis' table; returns whether its friction kept.
 bool fit_axis(const std::string& file, char axis, const std::vector<SteadyFeed>& feeds, TomlWriter& toml,
-              std::ostream& out) {
+              std::ostream& out, UnitQuestions& questions) {
     const AxisFit fit = fit_what_is_determined(feeds);
     refuse_what_no_axis_has(file, axis, feeds, fit);
+    append(questions, ask_about_axis_friction(axis, mean_friction_A(feeds, fit)));
     toml.table(std::string_view(&axis, 1));
     out << fmt::format("{}: I_f(w) = K_x1 w² + K_x2 w + K_x3, w in m/min, {} steady feeds in air\n", axis,
                        feeds.size());
@@ -240,11 +248,14 @@ bool fit_axis(const std::string& file, char axis, const std::vector<SteadyFeed>&
 
 /// Steady feeds of all files, each file after the one before. A file given twice would make the standard errors too
 /// small: what was there already is left out.
-std::vector<SteadyFeed> steady_feeds_of_all(const FrictionCalibrationOptions& options, char axis, std::ostream& out) {
-    std::vector<SteadyFeed> feeds;
+RecordedFeeds steady_feeds_of_all(const FrictionCalibrationOptions& options, char axis, std::ostream& out) {
+    RecordedFeeds all;
+    std::vector<SteadyFeed>& feeds = all.feeds;
     double offset_s = 0.0;
     for (const auto& file : options.data) {
-        auto found = read_steady_feeds(file, axis, options.minimum_speed_mm_s);
+        auto [is_recorded, found, questions] = read_steady_feeds(file, axis, options.minimum_speed_mm_s);
+        all.is_recorded = all.is_recorded || is_recorded;
+        append(all.questions, questions);
         const auto before = feeds;
         const auto copies = std::erase_if(found, [&](const SteadyFeed& feed) {
             return std::any_of(before.begin(), before.end(), [&](const SteadyFeed& b) {
@@ -264,23 +275,34 @@ std::vector<SteadyFeed> steady_feeds_of_all(const FrictionCalibrationOptions& op
         offset_s += last_s;
         feeds.insert(feeds.end(), found.begin(), found.end());
     }
-    return feeds;
+    return all;
+}
+
+void print_standing_axis(std::ostream& out, char axis, bool is_recorded, double minimum_speed_mm_s) {
+    if (is_recorded) {
+        out << fmt::format(
+            "{}: left out: no steady feed faster than {:g} mm/s; if it moved, is {}_velocity_mm_s in m/s?\n", axis,
+            minimum_speed_mm_s, axis);
+    }
 }
 
 int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream& out) {
     std::ostringstream fitted_text;
     TomlWriter fitted_toml(fitted_text);
     std::string first_refusal;
+    UnitQuestions questions;
     bool any = false;
     bool holds = true;
     for (const char axis : {'x', 'y', 'z'}) {
-        const std::vector<SteadyFeed> feeds = steady_feeds_of_all(options, axis, out);
+        const auto [is_recorded, feeds, of_motion] = steady_feeds_of_all(options, axis, out);
         if (feeds.empty()) {
+            print_standing_axis(out, axis, is_recorded, options.minimum_speed_mm_s);
             continue;
         }
         const std::string lack = what_the_axis_lacks(axis, feeds);
         if (lack.empty()) {
-            holds = fit_axis(options.data.front().string(), axis, feeds, fitted_toml, out) && holds;
+            holds = fit_axis(options.data.front().string(), axis, feeds, fitted_toml, out, questions) && holds;
+            append(questions, of_motion);
             any = true;
         } else {
             first_refusal = first_refusal.empty() ? lack : first_refusal;
@@ -293,7 +315,7 @@ int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream&
                         first_refusal.empty()
                             ? std::string("'K_x1' to 'K_x3' cannot be determined: no axis with AXIS_velocity_mm_s "
                                           "and AXIS_current_A moves steadily for 0.3 s; expected air cuts at three "
-                                          "feeds in each direction")
+                                          "feeds in each direction; is a velocity in m/s, or time_s in min?")
                             : first_refusal));
     }
     AtomicFile file(options.output);
@@ -302,7 +324,7 @@ int calibrate_recording(const FrictionCalibrationOptions& options, std::ostream&
     toml.comment("Fitted from " + list_of_files(options.data));
     file.stream() << fitted_text.str();
     file.commit();
-    return holds ? exit_done : exit_bound_broken;
+    return ask(out, questions, holds ? exit_done : exit_bound_broken);
 }
 
 }  // namespace

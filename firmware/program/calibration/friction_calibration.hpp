@@ -35,9 +35,10 @@ struct FrictionCalibrationOptions {
 /// A parameter whose standard error is larger than its value (K_x1: whose 95 % band is) is left out: the fit is made
 /// without it, and it is not written.
 ///
-/// Prints the fit on `out` and writes `output`. Returns 0, or 1 where the bound is broken; where the data cannot show
-/// it, the report says so. Throws InputError for bad data, for a reversed sign or a wrong unit, and where the data
-/// cannot determine a parameter that the friction needs: it names the parameter and what to measure.
+/// Prints the fit on `out` and writes `output`. Returns 0, or 1 where the bound is broken or a unit is asked for;
+/// where the data cannot show a change, the report says so. Throws InputError for bad data, for a reversed sign or a
+/// wrong unit, and where the data cannot determine a parameter that the friction needs: it names the parameter and what
+/// to measure.
 int calibrate_friction(const FrictionCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

@@ -3,6 +3,7 @@
 
 #include "calibration/axis_motion.hpp"
 #include "calibration/calibration_report.hpp"
+#include "calibration/plausible_drives.hpp"
 #include "calibration/signal.hpp"
 #include "estimation_calibration/friction_fit.hpp"
 #include "files/atomic_file.hpp"
@@ -308,6 +309,8 @@ int calibrate_motion_friction(const FrictionCalibrationOptions& options, std::os
         motions.push_back(read_axis_motion(file, options.low_pass_hz));
     }
     const MechanicalResult result = fit_or_refuse(options, motions);
+    const UnitQuestions questions = look_at_axis_mass(options.data.front().string(),
+                                                      result.symmetric.solution.parameters(estimation::symmetric_mass));
 
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
@@ -327,10 +330,9 @@ int calibrate_motion_friction(const FrictionCalibrationOptions& options, std::os
                "are written, too\n";
     }
     file.commit();
-    return check_second_half(
-               out, second_half(motions, options.minimum_speed_mm_s / 1000.0, result.directional.solution.residual_rms))
-               ? exit_done
-               : exit_bound_broken;
+    const bool holds = check_second_half(
+        out, second_half(motions, options.minimum_speed_mm_s / 1000.0, result.directional.solution.residual_rms));
+    return ask(out, questions, holds ? exit_done : exit_bound_broken);
 }
 
 }  // namespace millforce::host

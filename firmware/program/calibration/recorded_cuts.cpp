@@ -102,6 +102,7 @@ void average_recording(const std::filesystem::path& path, const std::vector<Stre
             }
         }
     }
+    angle_unit.look_at_end(csv);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/duplicate_rows.hpp"
+#include "calibration/plausible_units.hpp"
 #include "estimation/number/student_t.hpp"
 #include "estimation_calibration/roughness_in_double.hpp"
 #include "files/atomic_file.hpp"
@@ -105,6 +106,16 @@ void read_tests(const std::filesystem::path& file, const std::string& measure, D
         rows.push_back({{cut, csv.required_number(roughness, 1e-4, 1e4)},
                         fmt::format("{}:{}", csv.file_name(), csv.line_number())});
     }
+}
+
+UnitQuestions look_at_units(const std::vector<TestRow>& rows, const std::string& measure) {
+    std::vector<RoughnessUnits> tests;
+    tests.reserve(rows.size());
+    for (const auto& [test, place] : rows) {
+        const auto& [speed_rpm, feed_mm_rev, diameter_mm, depth_mm, force_ratio] = test.cut;
+        tests.push_back({place, speed_rpm, feed_mm_rev, diameter_mm, depth_mm, force_ratio, test.roughness_um});
+    }
+    return look_at_roughness_tests(tests, measure);
 }
 
 unsigned held_bits(const RoughnessCalibrationOptions& options) {
@@ -274,6 +285,7 @@ int calibrate_roughness(const RoughnessCalibrationOptions& options, std::ostream
         read_tests(file, measure, duplicates, rows);
     }
     duplicates.report(out);
+    const UnitQuestions questions = look_at_units(rows, measure);
     const auto fit = fit_without(rows, rows.size(), held);
     const std::string lack = what_the_tests_lack(fit);
     if (!lack.empty()) {
@@ -282,7 +294,7 @@ int calibrate_roughness(const RoughnessCalibrationOptions& options, std::ostream
     print_model(out, measure, fit, held, rows);
     const bool holds = check_left_out(out, rows, held);
     write_model(options, measure, fit);
-    return holds ? exit_done : exit_bound_broken;
+    return ask(out, questions, holds ? exit_done : exit_bound_broken);
 }
 
 }  // namespace millforce::host

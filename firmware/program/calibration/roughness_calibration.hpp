@@ -31,8 +31,8 @@ inline constexpr std::array<const char*, 5> roughness_columns{"spindle_speed_rpm
 ///
 /// Prints exponents with standard errors, scatter, the test furthest off, and how many tests lie in the 95 % prediction
 /// interval of the model that was fitted without them; the stated bound is 85 % of them. Writes a complete [roughness]
-/// table to `output`. Returns 0, or 1 where the bound is broken. Throws InputError for bad data, and where the tests
-/// cannot determine an exponent: it names the exponent and the missing variation.
+/// table to `output`. Returns 0, or 1 where the bound is broken or a unit is asked for. Throws InputError for bad data,
+/// and where the tests cannot determine an exponent: it names the exponent and the missing variation.
 int calibrate_roughness(const RoughnessCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

@@ -3,6 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/duplicate_rows.hpp"
+#include "calibration/plausible_drives.hpp"
 #include "calibration/signal.hpp"
 #include "calibration/spindle_rows.hpp"
 #include "estimation_calibration/spindle_fit.hpp"
@@ -149,8 +150,10 @@ void refuse_what_no_spindle_has(const SpindleCalibrationOptions& options, const 
     }
     const double gain = result.value(estimation::spindle_K_t1);
     if (gain < least_gain_Nm_per_A) {
-        throw InputError(fmt::format("{}: 'K_t1_Nm_per_A' = {:.3g}; expected {:g} or more; is spindle_current_A in mA?",
-                                     file, gain, least_gain_Nm_per_A));
+        throw InputError(
+            fmt::format("{}: 'K_t1_Nm_per_A' = {:.3g}; expected {:g} or more; is spindle_current_A in mA, or "
+                        "spindle_torque_Nm in kN·m?",
+                        file, gain, least_gain_Nm_per_A));
     }
     const double inertia = result.value(estimation::spindle_inertia);
     if (inertia < 0.0) {
@@ -175,6 +178,36 @@ void refuse_what_no_spindle_has(const SpindleCalibrationOptions& options, const 
                         "expected a positive current at idle; are current and torque both reversed?",
                         file, result.value(estimation::spindle_K_t2)));
     }
+}
+
+SpindleLoad strongest_load(const std::vector<Sample>& samples) {
+    SpindleLoad strongest;
+    for (const Sample& s : samples) {
+        const SpindleLoad load{s.torque_Nm, s.speed_rad_s, s.current_A};
+        strongest = load.power_W() > strongest.power_W() ? load : strongest;
+    }
+    return strongest;
+}
+
+SpindleSpeeds speeds_of(const SpindleResult& result) {
+    SpindleSpeeds speeds;
+    for (const Sample& s : result.kept) {
+        speeds.speeds_rad_s.push_back(s.speed_rad_s);
+    }
+    speeds.W_per_A = strongest_load(result.kept).W_per_A();
+    speeds.base_speed_rad_s = result.value(estimation::spindle_base_speed);
+    speeds.base_speed_W_per_A = result.value(estimation::spindle_K_t1) * speeds.base_speed_rad_s;
+    return speeds;
+}
+
+void refuse_other_units(const std::string& file, const KnownTorques& known, const SpindleResult& result) {
+    const SpeedSource source = known.by_angle ? SpeedSource::angle : SpeedSource::column;
+    double fastest_rad_s = 0.0;
+    for (const Sample& s : result.kept) {
+        fastest_rad_s = std::max(fastest_rad_s, s.speed_rad_s);
+    }
+    refuse_implausible_spindle_speed(file, fastest_rad_s, source);
+    refuse_implausible_power(file, strongest_load(result.kept), source);
 }
 
 void print_outliers(std::ostream& out, const KnownTorques& known, const SpindleResult& result) {
@@ -246,6 +279,7 @@ int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& ou
     refuse_what_is_missing(options, result.kept, result.fit, result.correlated);
     leave_out_vague_terms(result);
     refuse_what_no_spindle_has(options, result);
+    refuse_other_units(options.data.front().string(), known, result);
 
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
@@ -259,7 +293,7 @@ int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& ou
     file.commit();
     out << fmt::format("  residual {:.4g} N·m rms\n", result.fit.solution.residual_rms);
     print_what_is_not_seen(out, result, asked_terms);
-    return exit_done;
+    return ask(out, ask_about_spindle_speeds(speeds_of(result)), exit_done);
 }
 
 }  // namespace millforce::host

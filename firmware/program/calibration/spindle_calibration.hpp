@@ -29,7 +29,8 @@ struct SpindleCalibrationOptions {
 /// larger than its value is left out: the fit is made without it, and it is not written; nor is a term that the rows
 /// cannot show.
 ///
-/// Prints the fit on `out`, writes `output`, returns 0. Throws InputError for bad data, for a reversed sign or a wrong
+/// Prints the fit on `out`, writes `output`, returns 0, or 1 where a speed may be in another unit
+/// (ask_about_spindle_speeds). Throws InputError for bad data, for a reversed sign or a wrong
 /// unit, where a fifth of the rows are outliers, and where the data cannot determine a parameter: it names the
 /// parameter and what to measure.
 int calibrate_spindle(const SpindleCalibrationOptions& options, std::ostream& out);

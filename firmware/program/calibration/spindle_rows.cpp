@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace millforce::host {
@@ -73,6 +72,7 @@ SpindleRows read_rows(const std::filesystem::path& path, DuplicateRows& duplicat
         rows.samples.push_back(sample);
         rows.places.push_back(row_place(csv));
     }
+    angle_unit.look_at_end(csv);
     return rows;
 }
 
@@ -143,46 +143,17 @@ void refuse_implausible_units(const std::string& place, const Sample& sample) {
                                      place, sample.current_A, largest_current_A));
     }
     if (std::abs(sample.torque_Nm) * sample.speed_rad_s > largest_power_W) {
-        throw InputError(
-            fmt::format("{}: {:.5g} N·m at {:.5g} rad/s is {:.4g} kW; expected at most {:g} kW; is "
-                        "spindle_speed_rad_s in 1/min, or spindle_torque_Nm in another unit?",
-                        place, sample.torque_Nm, sample.speed_rad_s,
-                        std::abs(sample.torque_Nm) * sample.speed_rad_s / 1000.0, largest_power_W / 1000.0));
+        throw InputError(fmt::format(
+            "{}: column 'spindle_torque_Nm': {:.5g} N·m at {:.5g} rad/s is {:.4g} kW; expected at most {:g} kW; is "
+            "spindle_speed_rad_s in 1/min, or spindle_torque_Nm in N·cm or N·mm?",
+            place, sample.torque_Nm, sample.speed_rad_s, std::abs(sample.torque_Nm) * sample.speed_rad_s / 1000.0,
+            largest_power_W / 1000.0));
     }
 }
 
 bool is_complete(const Sample& s) {
     return std::isfinite(s.current_A) && std::isfinite(s.speed_rad_s) && std::isfinite(s.acceleration_rad_s2) &&
            std::isfinite(s.torque_Nm);
-}
-
-/// Nobody chooses speeds like these in rad/s.
-bool are_whole_fifties(const std::vector<Sample>& samples) {
-    constexpr double step = 50.0;
-    return std::all_of(samples.begin(), samples.end(),
-                       [](const Sample& sample) { return std::fmod(sample.speed_rad_s, step) == 0.0; });
-}
-
-/// There are such spindles, but a speed in 1/min or an angle in degrees is more likely.
-void warn_of_fast_spindle(std::ostream& out, const std::vector<Sample>& samples) {
-    constexpr double fast_rad_s = 3000.0;
-    constexpr double least_round_rad_s = 500.0;
-    constexpr double rpm = 30.0 / std::numbers::pi;  // in 1 rad/s
-    double fastest = 0.0;
-    for (const Sample& sample : samples) {
-        fastest = std::max(fastest, sample.speed_rad_s);
-    }
-    if (fastest > fast_rad_s) {
-        out << fmt::format(
-            "warning: the spindle turns at up to {:.5g} rad/s, {:.6g} 1/min; is its speed in 1/min, or its angle in "
-            "degrees?\n",
-            fastest, fastest * rpm);
-    } else if (fastest >= least_round_rad_s && are_whole_fifties(samples)) {
-        out << fmt::format(
-            "warning: each speed is a multiple of 50, up to {:.5g} rad/s, which is {:.6g} 1/min; is "
-            "spindle_speed_rad_s in 1/min?\n",
-            fastest, fastest * rpm);
-    }
 }
 
 }  // namespace
@@ -194,6 +165,7 @@ KnownSpindleTorques read_known_spindle_torques(const std::vector<std::filesystem
     std::vector<std::string> spikes;
     for (const auto& path : data) {
         SpindleRows rows = read_rows(path, duplicates);
+        known.by_angle = known.by_angle || rows.by_angle;
         if (rows.by_angle) {
             const auto found = differentiate(rows, path, low_pass_hz);
             spikes.insert(spikes.end(), found.begin(), found.end());
@@ -210,7 +182,6 @@ KnownSpindleTorques read_known_spindle_torques(const std::vector<std::filesystem
     if (!spikes.empty()) {
         out << fmt::format("{} spikes of the current were replaced: {}\n", spikes.size(), list_of_places(spikes));
     }
-    warn_of_fast_spindle(out, known.samples);
     if (known.samples.size() < 4) {
         throw InputError(
             fmt::format("{}: 'K_t1_Nm_per_A' cannot be determined: {} rows with a known torque; expected at "

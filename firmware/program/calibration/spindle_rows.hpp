@@ -14,6 +14,7 @@ namespace millforce::host {
 struct KnownSpindleTorques {
     std::vector<estimation::SpindleSample> samples;
     std::vector<std::string> places;  ///< "spindle.csv:3" of each
+    bool by_angle = false;            ///< the speed of some comes from an angle
 };
 
 /// Reads the columns that calibrate_spindle names. Rows of a table that repeat another one count once; spikes of the

@@ -3,6 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/coefficient_library.hpp"
+#include "calibration/plausible_drives.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "parameters/parameter_files.hpp"
@@ -142,8 +143,9 @@ void refuse_implausible_gains(const StandardCutOptions& options, const StandardC
     constexpr double least_N_per_A = 1.0;
     const auto refuse_small = [&](std::string_view key, double gain, double least, std::string_view column) {
         if (gain < least) {
-            throw InputError(fmt::format("{}: '{}' = {:.3g}; expected {:g} or more; is {} in mA?",
-                                         options.cuts.string(), key, gain, least, column));
+            throw InputError(
+                fmt::format("{}: '{}' = {:.3g}; expected {:g} or more; is {} in mA, or a depth or width in m?",
+                            options.cuts.string(), key, gain, least, column));
         }
     };
     refuse_small(K_t1_key.name, gains.spindle.gain, least_Nm_per_A, "spindle_current_A");
@@ -153,6 +155,18 @@ void refuse_implausible_gains(const StandardCutOptions& options, const StandardC
                          fmt::format("{}_current_A", axis_tables[k]));
         }
     }
+}
+
+UnitQuestions questions_about_gains(const MachineParameters& machine, const StandardCutGains& gains) {
+    UnitQuestions questions =
+        ask_about_gain(K_t1_key.name, gains.spindle.gain, static_cast<double>(machine.spindle.K_t1_Nm_per_A));
+    for (std::size_t k = 0; k < gains.axes.size(); ++k) {
+        if (gains.axes[k]) {
+            append(questions, ask_about_gain(fmt::format("{}.{}", axis_tables[k], K_x4_key.name), gains.axes[k]->gain,
+                                             static_cast<double>(machine.axes[k].K_x4_N_per_A)));
+        }
+    }
+    return questions;
 }
 
 /// Prints and writes one drive's gain and offset, and the uncertainty of the gain.
@@ -283,7 +297,7 @@ int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out)
         }
     }
     file.commit();
-    return exit_done;
+    return ask(out, questions_about_gains(machine, gains), exit_done);
 }
 
 }  // namespace millforce::host

@@ -47,8 +47,9 @@ void leave_out_vague_K_x5(StandardCutGains& gains, const std::vector<RecordedStr
 
 /// Kim & Chung's second step: K_t1, K_t2 of the spindle and K_x4, K_x5 of the axes that fed, from standard cuts whose
 /// forces are known from the database. Prints them, and writes K_t1, K_t2, K_x4, K_x5 and gain_relative_sd (the fit's
-/// standard error and the database's uncertainty together) to `output`. Returns 0. Throws InputError for bad data, for
-/// a wrong unit, and where the cuts cannot determine a parameter: it names the parameter and the missing cut.
+/// standard error and the database's uncertainty together) to `output`. Returns 0, or 1 where a gain is far from that
+/// of the machine's file (ask_about_gain). Throws InputError for bad data, for a wrong unit, and where the cuts cannot
+/// determine a parameter: it names the parameter and the missing cut.
 int calibrate_standard_cut(const StandardCutOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

@@ -6,6 +6,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/force_drop_calibration.hpp"
+#include "calibration/plausible_units.hpp"
 #include "calibration/recorded_forces.hpp"
 #include "estimation/depth_shape/depth_monitor.hpp"
 #include "estimation/number/circle.hpp"
@@ -47,28 +48,57 @@ void refuse_tools_without_shape(const ForceShapeCalibrationOptions& options,
     }
 }
 
-std::vector<TipAngle> angles_of(const ForceShapeCalibrationOptions& options,
-                                const firmware::Parameters<float>& parameters,
-                                const std::vector<StretchConditions>& cuts) {
+/// The shape is that of one feed per tooth: at another one the angle would not be that of the tips.
+void refuse_another_feed(const StretchConditions& cut, const RecordedCutAverages& average,
+                         const firmware::ToolParameters<float>& tool) {
+    constexpr double largest_ratio = 3.0;
+    if (average.spindle_rad_s == 0.0) {
+        return;
+    }
+    const double feed_per_tooth_mm = average.feed_per_tooth_mm(cut.flutes);
+    const double ratio = feed_per_tooth_mm / static_cast<double>(tool.depth_shape.feed_per_tooth_mm);
+    if (ratio > largest_ratio || ratio < 1.0 / largest_ratio) {
+        throw InputError(fmt::format(
+            "{}: {:.3g} mm per tooth, and [depth_shape] of the tool's file has {:g}; expected a third to three times "
+            "that; is a velocity in m/min or mm/min, or spindle_angle_rad in another unit?",
+            cut.place, feed_per_tooth_mm, tool.depth_shape.feed_per_tooth_mm));
+    }
+}
+
+struct FoundAngles {
+    std::vector<TipAngle> of_cuts;
+    std::vector<RecordedCutAverages> averages;
+};
+
+FoundAngles angles_of(const ForceShapeCalibrationOptions& options, const firmware::Parameters<float>& parameters,
+                      const std::vector<StretchConditions>& cuts) {
     std::vector<DepthMonitor> monitors;
-    std::vector<TipAngle> angles(cuts.size());
+    FoundAngles found;
+    std::vector<TipAngle>& angles = found.of_cuts;
+    angles.resize(cuts.size());
     monitors.reserve(cuts.size());
     for (const StretchConditions& cut : cuts) {
         monitors.push_back(monitor_of(cut, parameters.tool));
     }
-    read_recorded_forces(options.data, cuts, parameters, [&](std::size_t k, float dt_s, const FeedForces& forces) {
-        if (!forces.valid || forces.is_new_frame) {
-            monitors[k].restart();
-        }
-        if (forces.valid &&
-            monitors[k].add(dt_s, forces.angle_rev * estimation::turn_rad<float>, forces.along_N, forces.across_N) &&
-            !angles[k].valid) {
-            const estimation::DepthsOfCut<float> known{static_cast<float>(cuts[k].axial_depth_mm),
-                                                       static_cast<float>(cuts[k].radial_width_mm)};
-            angles[k] = monitors[k].learn_tip_angle(known) ? monitors[k].tip_angle_rad() : TipAngle{};
-        }
-    });
-    return angles;
+    found.averages =
+        read_recorded_forces(options.data, cuts, parameters, [&](std::size_t k, float dt_s, const FeedForces& forces) {
+            if (!forces.valid || forces.is_new_frame) {
+                monitors[k].restart();
+            }
+            if (forces.valid &&
+                monitors[k].add(dt_s, forces.angle_rev * estimation::turn_rad<float>, forces.along_N,
+                                forces.across_N) &&
+                !angles[k].valid) {
+                const estimation::DepthsOfCut<float> known{static_cast<float>(cuts[k].axial_depth_mm),
+                                                           static_cast<float>(cuts[k].radial_width_mm)};
+                angles[k] = monitors[k].learn_tip_angle(known) ? monitors[k].tip_angle_rad() : TipAngle{};
+            }
+        });
+    refuse_implausible_cuts(cuts, found.averages);
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        refuse_another_feed(cuts[k], found.averages[k], parameters.tool);
+    }
+    return found;
 }
 
 /// The weighted mean on the circle, and how far the angles are from it in units of their deviations.
@@ -120,13 +150,15 @@ int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostrea
     refuse_tools_without_shape(options, parameters.tool);
     const auto cuts = cuts_of_tool(options.cuts, options.data, parameters.tool);
     const double pitch_rad = 2.0 * static_cast<double>(estimation::pi<float>) / parameters.tool.teeth;
-    const MeanAngle mean = mean_of(angles_of(options, parameters, cuts), pitch_rad);
+    const FoundAngles found = angles_of(options, parameters, cuts);
+    const MeanAngle mean = mean_of(found.of_cuts, pitch_rad);
     if (mean.cuts == 0) {
         throw InputError(
             fmt::format("{}: '{}' cannot be determined: no cut shows it; expected {} revolutions of a steady "
                         "cut of known depths, its sweep no whole number of tooth pitches",
                         options.cuts.string(), tip_angle_key.name, parameters.tool.depth_shape.revolutions));
     }
+    const UnitQuestions questions = look_at_recorded_forces(options.cuts, cuts, found.averages, parameters.tool);
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
     toml.comment("Where the teeth stand against the encoder's zero, for the depths from the force's shape.");
@@ -137,7 +169,7 @@ int calibrate_tip_angle(const ForceShapeCalibrationOptions& options, std::ostrea
     file.commit();
     out << fmt::format("angle of the tips {:.2f} ± {:.2f}°, from {} of {} cuts\n", mean.angle_rad * rad_in_deg,
                        mean.sd_rad * rad_in_deg, mean.cuts, cuts.size());
-    return mean.worst_disagreement > largest_disagreement ? exit_bound_broken : exit_done;
+    return ask(out, questions, mean.worst_disagreement > largest_disagreement ? exit_bound_broken : exit_done);
 }
 
 }  // namespace millforce::host

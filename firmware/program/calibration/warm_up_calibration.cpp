@@ -3,6 +3,7 @@
 
 #include "calibration/calibration_report.hpp"
 #include "calibration/drive_forces.hpp"
+#include "calibration/plausible_drives.hpp"
 #include "calibration/plausible_units.hpp"
 #include "estimation/number/circle.hpp"
 #include "estimation_calibration/warm_up_fit.hpp"
@@ -85,6 +86,7 @@ std::vector<IdleSecond> read_idle_seconds(const std::filesystem::path& path) {
             seconds.add(time_s, csv.number(angle), csv.number(current));
         }
     }
+    angle_unit.look_at_end(csv);
     return seconds.found();
 }
 
@@ -92,8 +94,9 @@ std::vector<IdleSecond> read_idle_seconds(const std::filesystem::path& path) {
 /// torque.
 std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vector<IdleSecond> seconds) {
     if (seconds.empty()) {
-        throw InputError(
-            fmt::format("{}: less than a second; expected ten minutes or more of idling from cold", path.string()));
+        throw InputError(fmt::format(
+            "{}: less than a second; expected ten minutes or more of idling from cold; is time_s in min or h?",
+            path.string()));
     }
     std::vector<double> speeds;
     speeds.reserve(seconds.size());
@@ -103,6 +106,9 @@ std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vec
     const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
     std::nth_element(speeds.begin(), middle, speeds.end());
     const double speed = *middle;
+    if (speed > 0.0) {
+        refuse_implausible_spindle_speed(path.string(), speed, SpeedSource::angle);
+    }
     const std::size_t all = seconds.size();
     std::erase_if(seconds, [speed](const IdleSecond& s) { return std::abs(s.speed_rad_s - speed) > 0.02 * speed; });
     if (!(speed > 1.0) || seconds.size() < all - all / 10) {
@@ -113,12 +119,14 @@ std::vector<IdleSecond> at_one_speed(const std::filesystem::path& path, std::vec
 }
 
 estimation::WarmUpFit warm_up_or_refuse(const std::filesystem::path& path,
-                                        const std::vector<estimation::IdleTorque>& torques) {
+                                        const std::vector<estimation::IdleTorque>& torques,
+                                        const UnitQuestions& questions) {
     const auto fit = estimation::fit_warm_up(torques);
     switch (fit.lack) {
         case estimation::WarmUpLack::samples:
-            throw InputError(fmt::format("{}: '{}' cannot be determined: {} s of idling; expected ten minutes or more",
-                                         path.string(), time_key.name, torques.size()));
+            throw InputError(fmt::format(
+                "{}: '{}' cannot be determined: {} s of idling; expected ten minutes or more{}", path.string(),
+                time_key.name, torques.size(), questions.empty() ? "" : "; " + questions.front()));
         case estimation::WarmUpLack::excess:
             throw InputError(
                 fmt::format("{}: '{}' cannot be determined: the idle torque does not fall beyond its noise; "
@@ -136,6 +144,19 @@ estimation::WarmUpFit warm_up_or_refuse(const std::filesystem::path& path,
     return fit;
 }
 
+void refuse_other_current(const std::filesystem::path& path, const MachineParameters& machine,
+                          const std::vector<IdleSecond>& seconds) {
+    const auto count = static_cast<double>(seconds.size());
+    IdlingSpindle idling;
+    for (const IdleSecond& s : seconds) {
+        idling.current_A += s.current_A / count;
+        idling.torque_Nm += spindle_gain_Nm_per_A(machine, s.speed_rad_s) * s.current_A / count;
+    }
+    idling.rated_current_A = static_cast<double>(machine.spindle_rated_current_A);
+    idling.torque_of_file_Nm = static_cast<double>(machine.spindle.K_t2_Nm);
+    refuse_implausible_idling(path.string(), idling);
+}
+
 }  // namespace
 
 int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out) {
@@ -146,7 +167,10 @@ int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out
     for (const IdleSecond& s : seconds) {
         torques.push_back({s.time_s, spindle_gain_Nm_per_A(machine, s.speed_rad_s) * s.current_A});
     }
-    const auto fit = warm_up_or_refuse(options.data, torques);
+    refuse_other_current(options.data, machine, seconds);
+    const UnitQuestions questions =
+        ask_about_spindle_speeds({.speeds_rad_s = {seconds.back().speed_rad_s}, .of_one_angle = true});
+    const auto fit = warm_up_or_refuse(options.data, torques, questions);
 
     AtomicFile file(options.output);
     TomlWriter toml(file.stream());
@@ -165,7 +189,7 @@ int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out
     file.commit();
     out << fmt::format("  warm idle torque {:.4g} ± {:.2g} N·m, residual {:.3g} N·m over a second\n", fit.warm_Nm,
                        fit.warm_se_Nm, fit.residual_Nm);
-    return exit_done;
+    return ask(out, questions, exit_done);
 }
 
 }  // namespace millforce::host

@@ -19,9 +19,9 @@ struct WarmUpCalibrationOptions {
 /// averaged second by second.
 ///
 /// Prints T_cold and τ with standard errors, and writes warm_up_torque_Nm, warm_up_time_s and warm_up_torque_sd_Nm (a
-/// third of the torque: how warm the spindle is when the controller starts is not known). Returns 0. Throws InputError
-/// for bad data, where the torque does not fall, and if the record is too short to determine τ: it says how long is
-/// enough.
+/// third of the torque: how warm the spindle is when the controller starts is not known). Returns 0, or 1 where the
+/// speed may be in another unit. Throws InputError for bad data, for a current or a speed that no idling spindle has,
+/// where the torque does not fall, and if the record is too short to determine τ: it says how long is enough.
 int calibrate_warm_up(const WarmUpCalibrationOptions& options, std::ostream& out);
 
 }  // namespace millforce::host

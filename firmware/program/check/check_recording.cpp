@@ -7,7 +7,6 @@
 #include "check/recorded_units.hpp"
 #include "check/spindle_idle.hpp"
 #include "check/tooth_lines.hpp"
-#include "files/csv.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
 #include "firmware/usable_signals.hpp"
@@ -41,22 +40,6 @@ hal::DriveSample usable_sample(const hal::DriveSample& sample) {
         hal::set_present(usable, hal::Present::force_sensor);
     }
     return usable;
-}
-
-/// An angle in degrees makes all that is worked out from it wrong, and is looked for first.
-std::optional<Finding> angle_in_degrees(const std::filesystem::path& recording) {
-    CsvReader csv(recording);
-    const CsvColumn angle = csv.require("spindle_angle_rad");
-    AngleUnit unit;
-    while (csv.next_row()) {
-        const double value = csv.number(angle);
-        try {
-            unit.look_at(csv, angle, value);
-        } catch (const InputError& refusal) {
-            return Finding{Severity::error, refusal.what(), "spindle_angle_rad"};
-        }
-    }
-    return std::nullopt;
 }
 
 }  // namespace
@@ -145,8 +128,9 @@ Findings RecordingCheck::findings(const std::string& name) const {
 }
 
 Findings check_recording(const std::filesystem::path& recording, const firmware::Parameters<float>& parameters) {
-    if (const auto degrees = angle_in_degrees(recording)) {
-        return {*degrees};
+    // It makes all that is worked out from the angle wrong, and is looked for first.
+    if (const auto why = angle_in_another_unit(recording)) {
+        return {{Severity::error, *why, "spindle_angle_rad"}};
     }
     RecordingReader reader(recording, parameters.machine.encoder_counts_per_rev);
     RecordingCheck check(parameters, reader.has_index());

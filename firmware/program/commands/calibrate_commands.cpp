@@ -71,7 +71,8 @@ void add_friction(Command& calibrate) {
         "its standard error is left out of the fit and of the file.\n"
         "Exit code 1: the friction changed within the data. Of a motion: the second half lies beyond what the first\n"
         "half predicts, or its friction differs by more than 10 % and four standard deviations. Of air cuts: the same\n"
-        "from the first stretch to the last. Where the data cannot show it, the report says so, with exit code 0.");
+        "from the first stretch to the last. Where the data cannot show it, the report says so, with exit code 0.\n"
+        "Exit code 1, too: a warning asks for a unit.");
     add_data_and_output(command, *options);
     command.option("--axis", options->axis, "Axis, for data with a single axis")
         .one_of({"x", "y", "z"})
@@ -98,7 +99,8 @@ void add_spindle(Command& calibrate) {
         "The current is positive where the motor drives. Rows far from the fit are left out and named; rows that "
         "repeat\n"
         "another one exactly count once. The table goes into machine.toml as it is; a term that is smaller than its\n"
-        "standard error, or that the rows do not show, is not in it.");
+        "standard error, or that the rows do not show, is not in it.\n"
+        "Exit code 1: a warning asks for the unit of the speed or the torque, which few spindles have.");
     add_data_and_output(command, *options);
     command.option("--low-pass", options->low_pass_hz, "Zero-phase filter of a recording, Hz")
         .within(0.01, 1e4)
@@ -114,7 +116,8 @@ void add_standard_cut(Command& calibrate) {
         "air\n"
         "between them. CUTS.csv says which stretch is which cut: start_s, end_s, tool_diameter_mm, flutes,\n"
         "axial_depth_mm and radial_width_mm (0: in air), and recording if there are several. The tables go into\n"
-        "machine.toml as they are.");
+        "machine.toml as they are.\n"
+        "Exit code 1: a warning asks for a unit, since a gain is not a third to three times the machine file's.");
     add_data_and_output(command, *options);
     command.option("--cuts", options->cuts, "Which stretch is which cut").required().value_name("CUTS.csv");
     command.option("--machine", options->machine, "Machine file with the friction of the air cuts")
@@ -134,7 +137,8 @@ void add_warm_up(Command& calibrate) {
     Command command = calibrate.subcommand("warm-up", "Spindle: idle torque of the cold bearing, time constant");
     command.footer(
         "Data: a recording of the spindle idling at one speed from cold for ten minutes or more (time_s,\n"
-        "spindle_angle_rad, spindle_current_A). The table goes into machine.toml as it is.");
+        "spindle_angle_rad, spindle_current_A). The table goes into machine.toml as it is.\n"
+        "Exit code 1: a warning asks for the unit of the angle or the time.");
     command.option("data", options->data, "Recording of the idling spindle").required().value_name("IDLE.csv");
     command.option("--machine", options->machine, "Machine file with the spindle's torque per ampere")
         .required()
@@ -153,7 +157,10 @@ void add_cutting(Command& calibrate) {
         "Signs: normal_force_N is positive where it pushes tool and wall apart, which it always does in down milling;\n"
         "feed_force_N is the force on the workpiece, positive along the feed; spindle_torque_Nm is positive.\n"
         "Rows that repeat another one exactly count once.\n"
-        "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation.");
+        "Exit code 1: fewer than nine of ten held-out values lie within twice their stated deviation, or a warning "
+        "asks "
+        "for a\n"
+        "unit.");
     add_data_and_output(command, *options);
     add_side(command, options->side, "Side of the cuts; unknown: the one that fits the forces");
     command.option("--cuts", options->cuts, "Table of the cuts, for recordings of drive currents")
@@ -174,7 +181,10 @@ void add_roughness(Command& calibrate) {
         "Data, one cutting test a row: spindle_speed_rpm, feed_mm_rev (per revolution), tool_diameter_mm,\n"
         "axial_depth_mm, force_ratio (F_x/F_z) or feed_force_N and axial_force_N, and the measured Ra_um or Rz_um.\n"
         "At least 7 tests; each variable must change on its own, or be held. Copy the table into tool.toml unchanged.\n"
-        "Exit code 1: fewer than 85 of 100 tests lie in the 95 % interval of the model fitted without them.");
+        "Exit code 1: fewer than 85 of 100 tests lie in the 95 % interval of the model fitted without them, or a "
+        "warning "
+        "asks\n"
+        "for a unit.");
     add_data_and_output(command, *options);
     command.option("--measure", options->measure, "Ra or Rz; default: Ra if the data have it").one_of({"Ra", "Rz"});
     command.option("--hold", options->held, "Column that the shop does not vary: its exponent is not fitted")
@@ -205,7 +215,8 @@ void add_force_drop(Command& calibrate) {
         "should span those of the work: at least four different cuts, and no estimate below the narrowest of them.\n"
         "Copy the table into tool.toml unchanged.\n"
         "Exit code 1: the immersion of a cut, estimated by the law fitted to the other cuts, is off by more than 10 "
-        "%.");
+        "%,\n"
+        "or a warning asks for a unit.");
     add_force_shape(command, calibrate_force_drop);
 }
 
@@ -216,7 +227,7 @@ void add_tip_angle(Command& calibrate) {
     command.footer(
         "Data: recordings of steady cuts of known depth and width with a force sensor (fx_N, fy_N); one is enough.\n"
         "CUTS.csv as for force-drop. Copy the key into tool.toml's [depth_shape] unchanged.\n"
-        "Exit code 1: the cuts disagree by more than four standard deviations.");
+        "Exit code 1: the cuts disagree by more than four standard deviations, or a warning asks for a unit.");
     add_force_shape(command, calibrate_tip_angle);
 }
 

@@ -17,8 +17,21 @@
 namespace millforce::host {
 
 namespace {
+
 constexpr double mm_min_per_m_per_min = 1000.0;
+
+std::string air_verdict(bool is_sound, const std::string& report) {
+    if (is_sound) {
+        return "friction of each axis is a function of the feed and did not change";
+    }
+    return report.find("BROKEN") != std::string::npos
+               ? "the friction changed while it was measured; move the axes for ten minutes, "
+                 "then start again with --repeat air"
+               : "a current or a velocity may be in another unit, see the warning; correct it, then start again with "
+                 "--repeat air";
 }
+
+}  // namespace
 
 bool Commissioning::idle() {
     idle_watch_ = std::make_unique<IdleWatch>(counts_per_rev(), plan_.idle_rpm.size(), plan_.idle_dwell_s);
@@ -62,13 +75,9 @@ bool Commissioning::air() {
         FrictionCalibrationOptions friction;
         friction.data = session_.recordings("air");
         friction.output = session_.file("friction.toml");
-        const bool kept = calibrate_friction(friction, report) == exit_done;
+        const bool is_sound = calibrate_friction(friction, report) == exit_done;
         machine_.merge(session_.file("friction.toml"), "air cuts");
-        judge("air", kept,
-              kept ? "friction of each axis is a function of the feed and did not change"
-                   : "the friction changed while it was measured; move the axes for ten minutes, "
-                     "then start again with --repeat air",
-              report.str());
+        judge("air", is_sound, air_verdict(is_sound, report.str()), report.str());
         return true;
     } catch (const InputError& error) {
         refuse({"air"}, error);

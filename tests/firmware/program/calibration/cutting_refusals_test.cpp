@@ -20,6 +20,7 @@ using millforce::estimation::CuttingLawForm;
 namespace {
 
 struct Ended {
+    int code = -1;
     std::string error;
     std::string text;
     toml::table toml;
@@ -42,7 +43,7 @@ Ended calibrate(const std::vector<CutRow>& cuts, CuttingLawForm form = CuttingLa
     options.side = side;
     std::ostringstream out;
     Ended ended;
-    ended.error = message_of<InputError>([&] { calibrate_cutting(options, out); });
+    ended.error = message_of<InputError>([&] { ended.code = calibrate_cutting(options, out); });
     ended.text = out.str();
     if (ended.error.empty()) {
         ended.toml = toml::parse(folder.read("out.toml"));
@@ -191,6 +192,58 @@ TEST(CuttingRefusals, a_torque_in_another_unit_or_of_the_opposite_sign) {
             {"cuts.csv", "pressure", "spindle_torque_Nm in another unit"});
     refuses(calibrate(changed(make_cuts(carbide_law(), {}), [](CutRow& row) { row.spindle_torque_Nm *= -1.0; })),
             {"cuts.csv", "torque of the cuts is negative"});
+}
+
+TEST(CuttingRefusals, a_force_in_kN_or_mN_by_the_torque_beside_it) {
+    const auto times = [](double factor) {
+        return changed(make_cuts(carbide_law(), {}), [=](CutRow& row) { row.normal_force_N *= factor; });
+    };
+    refuses(calibrate(times(1e-3)), {"cuts.csv: column 'normal_force_N': ",
+                                     "along the edge by the torque (medians of 20 cuts); expected 0.02 "
+                                     "to 20 times as much; is it in kN?"});
+    refuses(calibrate(times(1e3)), {"cuts.csv: column 'normal_force_N': ", "is it in mN"});
+    refuses(calibrate(changed(make_cuts(carbide_law(), by_feed_force), [](CutRow& row) { row.feed_force_N *= 1e-3; })),
+            {"cuts.csv: column 'feed_force_N': ", "is it in kN?"});
+}
+
+TEST(CuttingRefusals, a_spindle_speed_in_1_per_s_by_its_chip) {
+    refuses(
+        calibrate(changed(make_cuts(carbide_law(), {}), [](CutRow& row) { row.spindle_rad_s /= 6.2831853; })),
+        {"cuts.csv:12", "a chip of 0.503 mm on a tool of Ø8 mm", "is spindle_rad_s in 1/s, or feed_mm_s in mm/min?"});
+}
+
+TEST(CuttingRefusals, a_feed_in_m_per_second_by_a_chip_thinner_than_an_edge_is_sharp) {
+    refuses(calibrate(changed(make_cuts(carbide_law(), {}), [](CutRow& row) { row.feed_mm_s *= 1e-3; })),
+            {"cuts.csv:2: column 'feed_mm_s'", "a chip of 0.02 µm on a tool of Ø8 mm; expected at least 0.8 µm",
+             "feed_mm_s in m/min or m/s?"});
+}
+
+TEST(CuttingRefusals, a_spindle_speed_in_1_per_s_is_asked_about_where_soft_material_would_be_cut_slowly) {
+    const CutsToMake thin_chips{.feeds_per_tooth_mm = {0.02, 0.04, 0.06}};
+    LONGS_EQUAL(0, calibrate(make_cuts(carbide_law(), thin_chips)).code);
+    const Ended ended =
+        calibrate(changed(make_cuts(carbide_law(), thin_chips), [](CutRow& row) { row.spindle_rad_s /= 6.2831853; }));
+    STRCMP_EQUAL("", ended.error.c_str());
+    STRCMP_CONTAINS("N/mm² at 0.084 m/s (medians) takes 3", ended.text.substr(ended.text.find("warning")).c_str());
+    LONGS_EQUAL(1, ended.code);
+    CHECK(contains(ended.text, "spindle_rad_s in 1/s"));
+}
+
+TEST(CuttingRefusals, a_spindle_speed_in_1_per_min_is_asked_about_where_hard_material_would_be_cut_fast) {
+    auto aluminium = carbide_law();
+    aluminium.k_s_N_per_mm2 = 300.0;
+    CutsToMake make;
+    const auto fast = [](double factor) {
+        return [=](CutRow& row) {
+            row.spindle_rad_s *= factor;
+            row.feed_mm_s *= 4.0;
+        };
+    };
+    LONGS_EQUAL(0, calibrate(changed(make_cuts(aluminium, make), fast(4.0))).code);
+    const Ended ended = calibrate(changed(make_cuts(aluminium, make), fast(4.0 * 9.549)));
+    STRCMP_EQUAL("", ended.error.c_str());
+    LONGS_EQUAL(1, ended.code);
+    CHECK(contains(ended.text, "soft material is cut fast, and hard one slowly; is spindle_rad_s in 1/min"));
 }
 
 TEST_GROUP(CuttingParameters){};

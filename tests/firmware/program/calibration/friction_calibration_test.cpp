@@ -3,6 +3,7 @@
 #include "calibration/axis_motion.hpp"
 #include "estimation_calibration/friction_fit.hpp"
 #include "files/input_error.hpp"
+#include "firmware/program/calibration/scaled_column.hpp"
 #include "temporary_folder.hpp"
 
 #include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
@@ -172,6 +173,8 @@ TEST(FrictionCalibration, of_a_recording_in_air_gives_the_quadratic_current_by_d
     within("K_x3_A", 1.9);
     within("gravity_A", -0.4);
     CHECK(!run.toml.contains("y"));  // it stood still
+    CHECK(
+        contains(run.text, "y: left out: no steady feed faster than 2 mm/s; if it moved, is y_velocity_mm_s in m/s?"));
 }
 
 TEST(FrictionCalibration, refuses_a_recording_that_lacks_feeds_or_a_direction_and_says_which) {
@@ -260,6 +263,57 @@ TEST(FrictionCalibration, refuses_a_recording_with_reversed_current_or_in_other_
     CHECK(contains(error({.current_scale = 1000.0}), "is x_current_A in mA?"));
     CHECK(contains(error({.velocity_scale = 60.0}), "column 'x_velocity_mm_s': "));
     CHECK(contains(error({.velocity_scale = 60.0}), "is it in mm/min?"));
+}
+
+TEST(FrictionCalibration, asks_about_a_velocity_in_mm_per_min_of_a_slow_axis) {
+    const TemporaryFolder folder;
+    const auto run = [&](const std::vector<double>& feeds, double scale) {
+        return calibrate({folder.write("air.csv", recording(feeds, 0.05, {.velocity_scale = scale}))});
+    };
+    const std::vector<double> slow{2, 5, 10, 20, -2, -5, -10, -20, 10, -10};
+    LONGS_EQUAL(0, run(slow, 1.0).code);
+    const Run fast = run(slow, 60.0);
+    LONGS_EQUAL(1, fast.code);
+    CHECK(contains(fast.text, "warning: x moves at up to 12"));
+    CHECK(contains(fast.text, "mm/s; usual are 1000 mm/s (60 m/min) or less; is x_velocity_mm_s in mm/min?"));
+}
+
+TEST(FrictionCalibration, asks_about_a_velocity_in_m_per_min_by_an_axis_that_hardly_accelerates) {
+    const TemporaryFolder folder;
+    const std::vector<double> feeds{40, 60, 80, 100, 60, -40, -60, -80, -100, -60};
+    const Run run = calibrate({folder.write("air.csv", recording(feeds, 0.05, {.velocity_scale = 0.06}))});
+    STRCMP_EQUAL("", run.error.c_str());
+    LONGS_EQUAL(1, run.code);
+    CHECK(contains(run.text, "warning: x never accelerates by more than 0.0"));
+    CHECK(contains(run.text, "is x_velocity_mm_s in m/min or m/s, or time_s in ms?"));
+}
+
+TEST(FrictionCalibration, refuses_a_time_in_ms_by_a_travel_that_no_axis_has) {
+    const TemporaryFolder folder;
+    const std::string sound = recording({10, 30, 60, -10, -30, -60, 10, -10, 30, -30}, 0.05);
+    CHECK(contains(calibrate({folder.write("air.csv", scaled(sound, "time_s", 1000.0))}).error,
+                   "air.csv: column 'time_s': 5 s from sample to sample, in which x travels 2"));
+    CHECK(contains(calibrate({folder.write("axis.csv", scaled(text_of_file(measured_axis), "time_s", 1000.0))}).error,
+                   "axis.csv: column 'time_s': 5 s from sample to sample; expected at most 0.2 s; is it in ms?"));
+}
+
+TEST(FrictionCalibration, asks_about_a_current_in_mA_of_an_axis_with_little_friction) {
+    const TemporaryFolder folder;
+    const std::vector<double> feeds{10, 30, 60, -10, -30, -60, 10, -10, 30, -30};
+    const Run run = calibrate({folder.write("air.csv", recording(feeds, 0.05, {.current_scale = 20.0}))});
+    LONGS_EQUAL(1, run.code);
+    CHECK(contains(run.text, "A of friction on average; usual is less than 20 A; is x_current_A in mA?"));
+}
+
+TEST(FrictionCalibration, of_a_force_in_another_unit_is_seen_by_the_mass_that_it_means) {
+    const TemporaryFolder folder;
+    const auto in_unit = [&](double factor) {
+        return calibrate({folder.write("axis.csv", scaled(text_of_file(measured_axis), "motor_force_N", factor))});
+    };
+    CHECK(contains(in_unit(1e-3).error, "'mass_kg' = 0.09503; expected 0.2 to 200000; is motor_force_N in kN"));
+    const Run mN = in_unit(1e3);
+    LONGS_EQUAL(1, mN.code);
+    CHECK(contains(mN.text, "usual are 5 to 20000 kg; is motor_force_N in mN"));
 }
 
 TEST(FrictionCalibration, of_a_recording_whose_friction_drifts_is_a_broken_bound) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/roughness_calibration.hpp"
 #include "files/input_error.hpp"
+#include "firmware/program/calibration/scaled_column.hpp"
 #include "parameters/parameter_files.hpp"
 #include "temporary_folder.hpp"
 
@@ -200,6 +201,38 @@ TEST(RoughnessCalibration, names_what_is_missing_or_wrong_in_the_file) {
     CHECK(contains(calibrate(header + "1000,0.1,6,0.3,0,-20,1,5\n").error, ":2: column 'feed_force_N': 0 N"));
     CHECK(contains(calibrate(header + "1000,-0.1,6,0.3,5,-20,1,5\n").error, ":2: column 'feed_mm_rev': '-0.1'"));
     CHECK(contains(calibrate(header + "1000,0.1,6,0.3,5,-20,0,5\n").error, ":2: column 'Ra_um': '0'"));
+}
+
+TEST(RoughnessCalibration, refuses_a_column_in_another_unit_by_the_tools_diameter_or_the_grades_of_roughness) {
+    const auto error = [](const char* column, double factor) {
+        return calibrate(scaled(published_tests(), column, factor)).error;
+    };
+    CHECK(
+        contains(error("feed_mm_rev", 8000.0),
+                 "tests.csv:2: column 'feed_mm_rev': 80 on a tool of Ø4 mm; expected a ten-thousandth of the diameter "
+                 "to the diameter; is it in mm/min, mm/s or µm?"));
+    CHECK(contains(error("feed_mm_rev", 1e-3), "is it in m or inch?"));
+    CHECK(contains(error("axial_depth_mm", 1e3), "tests.csv:2: column 'axial_depth_mm': 300 on a tool of Ø4 mm"));
+    CHECK(contains(error("axial_depth_mm", 1e-3), "is it in m?"));
+    CHECK(contains(error("spindle_speed_rpm", 1e-3), "column 'spindle_speed_rpm': 8 on a tool of Ø4 mm"));
+    CHECK(contains(error("axial_force_N", 1e-3), "times the axial one; expected 0.01 to 100; is one of them in kN?"));
+    CHECK(contains(error("Ra_um", 1e-3), "column 'Ra_um': 0.00"));
+    CHECK(contains(error("Ra_um", 1e-3), "grades of roughness go from 0.025 to 50 µm; is it in mm?"));
+    STRCMP_EQUAL("", calibrate(published_tests()).error.c_str());
+    LONGS_EQUAL(0, calibrate(published_tests()).code);
+}
+
+TEST(RoughnessCalibration, asks_about_speeds_that_are_round_only_in_another_unit_and_a_roughness_beyond_the_grades) {
+    const auto asked = [](const char* column, double factor, const char* measure = "Ra") {
+        const Run run = calibrate(scaled(published_tests(), column, factor), measure);
+        LONGS_EQUAL(1, run.code);
+        return run.text;
+    };
+    CHECK(contains(asked("spindle_speed_rpm", 0.104719755), "1256.6 rad/s being 12000 1/min; is it in rad/s?"));
+    CHECK(contains(asked("spindle_speed_rpm", 1.0 / 60.0), "200 1/s being 12000 1/min; is it in 1/s?"));
+    CHECK(contains(asked("Ra_um", 100.0), "grades of roughness go from 0.025 to 50 µm; is it in nm or µinch?"));
+    CHECK(contains(asked("Rz_um", 1e-3, "Rz"), "grades of roughness go from 0.1 to 200 µm; is it in mm?"));
+    CHECK(contains(asked("feed_mm_rev", 100.0), "usual is less than 1.8; is it in mm/s?"));
 }
 
 TEST(RoughnessCalibration, ends_with_1_where_left_out_tests_fall_outside_their_intervals) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/spindle_calibration.hpp"
 #include "files/input_error.hpp"
+#include "firmware/program/calibration/scaled_column.hpp"
 #include "temporary_folder.hpp"
 
 #include <toml++/toml.h>  // before CppUTest, which makes `new` a macro
@@ -196,18 +197,78 @@ TEST(SpindleCalibration, refuses_other_units_by_name) {
 }
 
 TEST(SpindleCalibration, warns_of_a_speed_that_only_few_spindles_have) {
-    const std::vector<double> torques{0, 1, 2, 4, 6, 8};
-    CHECK(contains(calibrate(table({60, 90, 120}, torques, {.speed_scale = 40.0})).text,
-                   "warning: the spindle turns at up to 4800 rad/s, 45836.6 1/min; is its speed in 1/min"));
-    CHECK(!contains(calibrate(table({60, 90, 120}, torques)).text, "warning"));
+    const Run fast = calibrate(table({60, 90, 120}, {0, 0.1, 0.2, 0.3, 0.4, 0.5}, {.speed_scale = 30.0}));
+    CHECK(contains(fast.text, "warning: the spindle turns at up to 3600 rad/s, 34377.5 1/min; is its speed in 1/min"));
+    LONGS_EQUAL(1, fast.code);
+    const Run usual = calibrate(table({60, 90, 120}, {0, 1, 2, 4, 6, 8}));
+    CHECK(!contains(usual.text, "warning"));
+    LONGS_EQUAL(0, usual.code);
 }
 
 TEST(SpindleCalibration, warns_of_round_speeds_that_are_chosen_in_1_per_min) {
     const std::vector<double> torques{0, 1, 2, 4, 6, 8};
-    CHECK(contains(calibrate(table({600, 850, 1200}, torques)).text,
+    const Run round = calibrate(table({600, 850, 1200}, torques));
+    CHECK(contains(round.text,
                    "warning: each speed is a multiple of 50, up to 1200 rad/s, which is 11459.2 1/min; is "
                    "spindle_speed_rad_s in 1/min?"));
+    LONGS_EQUAL(1, round.code);
     CHECK(!contains(calibrate(table({600, 850, 1210}, torques)).text, "warning"));
+}
+
+TEST(SpindleCalibration, refuses_a_torque_in_N_cm_by_the_power_that_no_drive_gives_for_an_ampere) {
+    const std::string sound = table({60, 90, 120}, {0, 1, 2, 4, 6, 8});
+    const std::string error = calibrate(scaled(sound, "spindle_torque_Nm", 100.0)).error;
+    CHECK(contains(error, "column 'spindle_torque_Nm': 801.97 N·m at 120 rad/s and 6.314 A are 1.524e+04 W"));
+    CHECK(contains(error, "W for each ampere; expected at most 2400 W, as from 690 V; is it in N·cm or N·mm"));
+    CHECK(contains(calibrate(scaled(recording({}), "spindle_torque_Nm", 100.0)).error, "is it in N·cm or N·mm"));
+}
+
+TEST(SpindleCalibration, asks_about_a_torque_in_N_cm_of_a_spindle_with_less_than_24_V) {
+    const std::string sound = table({10, 15}, {0, 1, 2, 4, 6, 8});
+    const Run run = calibrate(scaled(sound, "spindle_torque_Nm", 100.0));
+    LONGS_EQUAL(1, run.code);
+    CHECK(contains(run.text, "warning: the drive gives"));
+    CHECK(contains(run.text, "is spindle_torque_Nm in N·cm"));
+}
+
+TEST(SpindleCalibration, refuses_a_torque_in_kN_m_by_a_motor_of_less_than_a_volt) {
+    const std::string sound = table({60, 90, 120}, {0, 1, 2, 4, 6, 8}, {.current_scale = 0.3});
+    CHECK(contains(calibrate(scaled(sound, "spindle_torque_Nm", 1e-3)).error,
+                   "expected at least 1 W, or the motor takes less than a volt; is it in kN·m"));
+}
+
+TEST(SpindleCalibration, asks_about_a_speed_in_1_per_s_by_the_voltage_at_which_the_field_is_weakened) {
+    const std::string sound = table({60, 90, 120, 220, 300, 400}, {0, 0, 2, 4, 6, 8});
+    LONGS_EQUAL(0, calibrate(sound).code);
+    const Run run = calibrate(scaled(sound, "spindle_speed_rad_s", 0.5 / std::numbers::pi));
+    LONGS_EQUAL(1, run.code);
+    CHECK(contains(run.text, "warning: the field is weakened above 24.9"));
+    CHECK(contains(run.text, "is the speed in 1/s, or the angle in revolutions?"));
+}
+
+TEST(SpindleCalibration, asks_about_a_speed_in_1_per_s_by_the_voltage_of_the_fastest_cut) {
+    const std::string sound = table({60, 90, 120}, {0, 1, 2, 4, 6, 8});
+    const Run run = calibrate(scaled(sound, "spindle_speed_rad_s", 0.5 / std::numbers::pi));
+    LONGS_EQUAL(1, run.code);
+    CHECK(contains(run.text, "warning: the spindle turns at up to 19.1 rad/s, 182.38 1/min, and gives at most 2"));
+}
+
+TEST(SpindleCalibration, asks_about_a_speed_that_is_round_only_in_1_per_s) {
+    const Run run = calibrate(table({16.67, 33.33, 133.33}, {0, 1, 2, 4, 6, 8}));
+    LONGS_EQUAL(1, run.code);
+    CHECK(
+        contains(run.text, "warning: only in 1/s is each speed a multiple of 50 1/min, 133.33 1/s being 7999.8 1/min"));
+    CHECK(!contains(calibrate(table({16.67, 33.33, 134.3}, {0, 1, 2, 4, 6, 8})).text, "warning"));
+    CHECK(!contains(calibrate(table({104.7, 209.4, 523.6}, {0, 1, 2, 4, 6, 8})).text, "warning"));  // 1/min
+}
+
+TEST(SpindleCalibration, refuses_an_angle_in_revolutions_and_a_time_in_ms) {
+    CHECK(contains(calibrate(recording({.angle_scale = 0.5 / std::numbers::pi})).error,
+                   "column 'spindle_angle_rad': it begins again at 1; expected rad, which begin again at 6.283 or go "
+                   "on; is it in revolutions?"));
+    CHECK(contains(calibrate(scaled(recording({}), "time_s", 1000.0)).error,
+                   "the spindle turns at 0.13 rad/s, 1.241 1/min; expected 5 to 20000 rad/s; is spindle_angle_rad in "
+                   "revolutions, or time_s in ms?"));
 }
 
 TEST(SpindleCalibration, leaves_out_a_term_that_is_smaller_than_its_error) {

@@ -2,6 +2,7 @@
 #include "calibration/standard_cut_calibration.hpp"
 #include "calibration/cutting_calibration.hpp"
 #include "files/input_error.hpp"
+#include "firmware/program/calibration/scaled_column.hpp"
 #include "temporary_folder.hpp"
 
 #include <fmt/format.h>
@@ -64,8 +65,8 @@ struct Recorded {
 };
 
 Recorded record(const millforce::estimation::CuttingLaw<double>& law, const std::vector<Cut>& cuts,
-                bool with_air = true) {
-    constexpr double speed_rad_s = 1260.0 * 2.0 * std::numbers::pi / 60.0;
+                bool with_air = true, double speed_scale = 1.0) {
+    const double speed_rad_s = speed_scale * 1260.0 * 2.0 * std::numbers::pi / 60.0;
     std::mt19937 generator(5);
     std::normal_distribution<double> noise(0.0, 0.02);
     Recorded result;
@@ -81,10 +82,11 @@ Recorded record(const millforce::estimation::CuttingLaw<double>& law, const std:
             const double w = cut.feed_mm_min / 1000.0;
             result.table += fmt::format("{:.3f},{:.3f},8,4,{},{}\n", t - 0.005, t + 1.994, width > 0.0 ? 12 : 0, width);
             for (int k = 0; k < 200; ++k, t += 0.01) {
-                result.recording += fmt::format("{:.4f},{:.6f},{:.6f},{:.6f},{:.6f}\n", t,
-                                                std::fmod(t * speed_rad_s, 2.0 * std::numbers::pi),
-                                                (torque_Nm + 0.6) / 0.65 + noise(generator),
-                                                1.6 + 0.6 * w + forces.feed_N / 110.0 + noise(generator), w / 0.06);
+                result.recording += fmt::format(
+                    "{:.4f},{:.6f},{:.6f},{:.6f},{:.6f}\n", t,
+                    speed_scale == 1.0 ? std::fmod(t * speed_rad_s, 2.0 * std::numbers::pi) : t * speed_rad_s,
+                    (torque_Nm + 0.6) / 0.65 + noise(generator),
+                    1.6 + 0.6 * w + forces.feed_N / 110.0 + noise(generator), w / 0.06);
             }
         }
     }
@@ -92,6 +94,7 @@ Recorded record(const millforce::estimation::CuttingLaw<double>& law, const std:
 }
 
 struct Ended {
+    int code = -1;
     std::string error;
     std::string text;
     toml::table toml;
@@ -108,7 +111,7 @@ Ended standard_cut(const Recorded& recorded, const std::string& entry = "carbide
     options.output = folder.path("out.toml");
     std::ostringstream out;
     Ended ended;
-    ended.error = message_of<InputError>([&] { calibrate_standard_cut(options, out); });
+    ended.error = message_of<InputError>([&] { ended.code = calibrate_standard_cut(options, out); });
     ended.text = out.str();
     if (ended.error.empty()) {
         ended.toml = toml::parse(folder.read("out.toml"));
@@ -203,6 +206,35 @@ TEST(StandardCutCalibration, refuses_tables_that_do_not_fit_the_recording) {
 TEST(StandardCutCalibration, refuses_feeds_below_the_velocity_floor) {
     refuses(standard_cut(record(carbide(), {{50, 0.8}, {250, 0.8}, {250, 1.6}})),
             {"cuts.csv:2", "near rest", "x.velocity_floor_mm_s = 1"});
+}
+
+TEST(StandardCutCalibration, refuses_an_angle_or_a_feed_in_another_unit_by_its_chip) {
+    const auto with_scaled = [](const char* column, double factor) {
+        Recorded recorded = record(carbide(), seven_cuts);
+        recorded.recording = scaled(recorded.recording, column, factor);
+        return standard_cut(recorded);
+    };
+    refuses(with_scaled("x_velocity_mm_s", 60.0),
+            {"cuts.csv:2: column 'x_velocity_mm_s': 100 mm/s is a chip of 1.19 mm", "x_velocity_mm_s in mm/min?"});
+    Recorded recorded = record(carbide(), seven_cuts, true, 57.29578);
+    refuses(standard_cut(recorded), {"cuts.csv:2", "is a chip of 0.346 µm on a tool of Ø8 mm; expected at least 0.8 µm",
+                                     "is spindle_angle_rad in degrees"});
+}
+
+TEST(StandardCutCalibration, asks_about_a_depth_or_width_in_cm_by_gains_that_are_far_from_the_machines) {
+    LONGS_EQUAL(0, standard_cut(record(carbide(), seven_cuts)).code);
+    for (const char* column : {"axial_depth_mm", "radial_width_mm"}) {
+        Recorded recorded = record(carbide(), seven_cuts);
+        recorded.table = scaled(recorded.table, column, 0.1);
+        const Ended ended = standard_cut(recorded);
+        STRCMP_EQUAL("", ended.error.c_str());
+        LONGS_EQUAL(1, ended.code);
+        CHECK(contains(ended.text, "warning: 'K_t1_Nm_per_A' = 0.0"));
+        CHECK(contains(ended.text,
+                       "and the machine's file has 0.7; usual is a third to three times that; are "
+                       "axial_depth_mm or radial_width_mm in cm"));
+        CHECK(contains(ended.text, "warning: 'x.K_x4_N_per_A' = "));
+    }
 }
 
 TEST(StandardCutCalibration, lists_the_entries_of_the_database) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/warm_up_calibration.hpp"
 #include "files/input_error.hpp"
+#include "firmware/program/calibration/scaled_column.hpp"
 #include "temporary_folder.hpp"
 
 #include <fmt/format.h>
@@ -42,19 +43,23 @@ std::string standing_recording() {
 }
 
 struct WarmUpRun {
+    int code = -1;
+    std::string text;
     std::string error;
     toml::table toml;
 };
 
-WarmUpRun calibrate_warm_up_of(const std::string& data) {
+WarmUpRun calibrate_warm_up_of(const std::string& data,
+                               const std::string& machine = "[spindle]\nK_t1_Nm_per_A = 0.5\n") {
     const TemporaryFolder folder;
     WarmUpCalibrationOptions options;
     options.data = folder.write("idle.csv", data);
-    options.machine = folder.write("machine.toml", "[spindle]\nK_t1_Nm_per_A = 0.5\n");
+    options.machine = folder.write("machine.toml", machine);
     options.output = folder.path("out.toml");
     std::ostringstream out;
     WarmUpRun run;
-    run.error = message_of<InputError>([&] { calibrate_warm_up(options, out); });
+    run.error = message_of<InputError>([&] { run.code = calibrate_warm_up(options, out); });
+    run.text = out.str();
     if (run.error.empty()) {
         run.toml = toml::parse(folder.read("out.toml"));
     } else {
@@ -108,4 +113,35 @@ TEST(WarmUpCalibration, passes_over_samples_without_an_angle_or_a_current) {
     const WarmUpRun run = calibrate_warm_up_of(text);
     STRCMP_EQUAL("", run.error.c_str());
     DOUBLES_EQUAL(200.0, run.toml["spindle"]["warm_up_time_s"].value_or(0.0), 40.0);
+}
+
+TEST(WarmUpCalibration, refuses_a_time_or_an_angle_in_another_unit_by_the_speed_that_it_means) {
+    const std::string sound = idle_recording(700.0);
+    refuses_warm_up(scaled(sound, "time_s", 1000.0),
+                    "the spindle turns at 0.4 rad/s, 3.82 1/min; expected 5 to 20000 rad/s; is spindle_angle_rad in "
+                    "revolutions, or time_s in ms?");
+    refuses_warm_up(scaled(sound, "time_s", 1.0 / 60.0), "is spindle_angle_rad in degrees, or time_s in min?");
+    refuses_warm_up(scaled(sound, "time_s", 1.0 / 3600.0), "less than a second; expected ten minutes or more");
+    refuses_warm_up(scaled(sound, "spindle_angle_rad", 57.29578), "is spindle_angle_rad in degrees");
+}
+
+TEST(WarmUpCalibration, refuses_a_current_in_mA_by_the_amperes_the_rated_current_or_the_idle_torque) {
+    const std::string in_mA = scaled(idle_recording(700.0), "spindle_current_A", 1000.0);
+    refuses_warm_up(in_mA, "A, 9");
+    refuses_warm_up(in_mA, "N·m; expected at most 1000 A; is it in mA?");
+    const std::string of_a_small_spindle = scaled(idle_recording(700.0), "spindle_current_A", 100.0);
+    const auto error_beside = [&](const std::string& key) {
+        return calibrate_warm_up_of(of_a_small_spindle, "[spindle]\nK_t1_Nm_per_A = 0.5\n" + key).error;
+    };
+    CHECK(contains(error_beside("rated_current_A = 12\n"), "less than the rated 12 A of the machine's file"));
+    CHECK(contains(error_beside("K_t2_Nm = -0.9\n"), "about the 0.9 N·m of the machine's file; is it in mA?"));
+}
+
+TEST(WarmUpCalibration, asks_about_a_speed_that_is_round_only_in_1_per_s) {
+    const std::string at_1000_rpm = scaled(idle_recording(700.0), "spindle_angle_rad", 104.719755 / 400.0);
+    LONGS_EQUAL(0, calibrate_warm_up_of(at_1000_rpm).code);
+    const WarmUpRun run = calibrate_warm_up_of(scaled(at_1000_rpm, "spindle_angle_rad", 0.15915494));
+    LONGS_EQUAL(1, run.code);
+    CHECK(contains(run.text, "only in 1/s is each speed a multiple of 50 1/min"));
+    CHECK(contains(run.text, "is spindle_angle_rad in revolutions?"));
 }
