@@ -85,25 +85,31 @@ struct FeedAheadSettings {
     Scalar disagreement_mm{Scalar(0.5F)};
 };
 
+/// What a tick knows.
+template <typename Scalar>
+struct FeedAheadStep {
+    bool position_known = false;
+    Scalar position_mm{0};      ///< along the path
+    Scalar travel_mm{0};        ///< since the last step
+    Scalar blind_feed_mm_s{0};  ///< feed that is safe where nothing is known
+    bool fresh = false;         ///< the rest is a new estimate
+    Scalar tangential_N{0};     ///< F_at
+    Scalar tangential_sd_N{0};
+    Scalar mean_feed_mm_s{0};   ///< over the estimate's window
+    Scalar window_mm{0};        ///< way gone in it, and since it where the force comes late
+    Scalar contact_level_N{0};  ///< force from which on the tool counts as in contact
+    bool feed_force_valid = false;
+    Scalar feed_force_N{0};  ///< F_ax
+    Scalar feed_force_sd_N{0};
+};
+
+/// The window of a chip that has a map over a bus.
+inline constexpr std::size_t small_window = 64;
+
 template <typename Scalar, std::size_t Capacity = 256>
 class FeedAhead {
   public:
-    /// What a tick knows.
-    struct Step {
-        bool position_known = false;
-        Scalar position_mm{0};      ///< along the path
-        Scalar travel_mm{0};        ///< since the last step
-        Scalar blind_feed_mm_s{0};  ///< feed that is safe where nothing is known
-        bool fresh = false;         ///< the rest is a new estimate
-        Scalar tangential_N{0};     ///< F_at
-        Scalar tangential_sd_N{0};
-        Scalar mean_feed_mm_s{0};   ///< over the estimate's window
-        Scalar window_mm{0};        ///< way gone in it, and since it where the force comes late
-        Scalar contact_level_N{0};  ///< force from which on the tool counts as in contact
-        bool feed_force_valid = false;
-        Scalar feed_force_N{0};  ///< F_ax
-        Scalar feed_force_sd_N{0};
-    };
+    using Step = FeedAheadStep<Scalar>;
 
     explicit FeedAhead(const FeedAheadSettings<Scalar>& settings);
 
@@ -182,5 +188,7 @@ class FeedAhead {
 
 extern template class FeedAhead<float>;
 extern template class FeedAhead<estimation::Fixed>;
+extern template class FeedAhead<float, small_window>;
+extern template class FeedAhead<estimation::Fixed, small_window>;
 
 }  // namespace millforce::control

@@ -27,6 +27,10 @@ std::uint32_t position_id(const CanControllerSettings& settings, const WaySource
     return way != nullptr ? program_status::position_frame_id(settings.program.id) : 0;
 }
 
+std::uint32_t way_id(const WaySource<float>* way) {
+    return way != nullptr ? way->frame_id() : 0;
+}
+
 std::uint64_t microseconds(float seconds) {
     return static_cast<std::uint64_t>(seconds * 1e6F);
 }
@@ -81,6 +85,9 @@ void CanController::begin() {
         std::destroy_at(&tick_);
         std::construct_at(&tick_, parameters_, tools_);
     }
+    if (way_ != nullptr) {
+        way_->begin_again();
+    }
     bus_time_us_ = 0;
     has_begun_ = false;
     sample_ = {};
@@ -128,6 +135,9 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
     program_receiver_.on_frame(frame, time_us);
     tool_receiver_.on_frame(frame, time_us);
     position_receiver_.on_frame(frame, time_us);
+    if (way_ != nullptr && frame.id == way_->frame_id()) {
+        way_->on_frame(frame);
+    }
     bus_.on_frame(frame, time_us);
     run_ticks();
 }
@@ -318,7 +328,8 @@ void CanController::judge(std::uint64_t now_us) {
 }
 
 bool CanController::take_frame(hal::CanFrame& frame) {
-    return sync_.take_frame(frame) || sender_.take_frame(frame) || bus_.take_frame(frame);
+    return sync_.take_frame(frame) || sender_.take_frame(frame) || bus_.take_frame(frame) ||
+           (way_ != nullptr && way_->take_frame(frame));
 }
 
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
@@ -332,7 +343,7 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
     for (const std::uint32_t id : {settings_.program.id, tool_id(settings_, tools_), position_id(settings_, way_),
-                                   settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+                                   way_id(way_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }
