@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 
 #include "cia402/objects.hpp"
-#include "hal/finite.hpp"
+#include "firmware/path_speed.hpp"
 
 namespace millforce::firmware {
 
@@ -264,18 +263,10 @@ void CanController::stop(std::uint64_t now_us) {
 hal::ProgramStatus CanController::program_at(std::uint64_t time_us) const {
     hal::ProgramStatus program = program_receiver_.program(time_us);
     program.feed_hold = program.feed_hold || is_any_drive_stopped();
-    const program_status::ProgramPosition position = position_receiver_.position(time_us, path_speed_mm_s());
+    const program_status::ProgramPosition position = position_receiver_.position(time_us, path_speed_mm_s(sample_));
     program.line = position.line;
     program.distance_to_go_mm = position.distance_to_go_mm;
     return program;
-}
-
-float CanController::path_speed_mm_s() const {
-    float sum = 0.0F;
-    for (const float velocity_mm_s : sample_.axis_velocity_mm_s) {
-        sum += velocity_mm_s * velocity_mm_s;
-    }
-    return hal::is_finite(sum) ? std::sqrt(sum) : 0.0F;
 }
 
 /// The CNC brakes by itself then; the override must neither rise meanwhile nor jump when the drive comes back.

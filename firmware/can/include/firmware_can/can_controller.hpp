@@ -133,7 +133,6 @@ class CanController {
     void tick_without_sample();
     void finish(const hal::FeedOverride& output, std::uint64_t time_us);
     [[nodiscard]] hal::ProgramStatus program_at(std::uint64_t time_us) const;
-    [[nodiscard]] float path_speed_mm_s() const;
     void reset_fault_where_asked();
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] bool is_any_drive_stopped() const;
