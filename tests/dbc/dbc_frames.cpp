@@ -32,7 +32,7 @@ void print(const hal::CanFrame& frame, const Values& values) {
     }
     std::printf("%s", frame.length == 0 ? "-" : "");
     for (const auto& [name, value] : values) {
-        std::printf(" %s=%.10g", name.c_str(), value);
+        std::printf(" %s=%.12g", name.c_str(), value);
     }
     std::printf("\n");
 }

@@ -15,7 +15,7 @@ constexpr unsigned whole_block = (1U << block_frames) - 1U;
 
 }  // namespace
 
-WayEvent WayReceiver::on_frame(const hal::CanFrame& frame, std::size_t room) {
+WayEvent WayReceiver::on_frame(const hal::CanFrame& frame) {
     WayFrame found;
     if (decode(frame, id_, found) != FrameError::none) {
         return WayEvent::nothing;
@@ -27,7 +27,8 @@ WayEvent WayReceiver::on_frame(const hal::CanFrame& frame, std::size_t room) {
         ask_ = found.number;
         return WayEvent::asked;
     }
-    return put_together(found, room);
+    put_together(found);
+    return WayEvent::nothing;
 }
 
 /// The same session once more is the same frame once more.
@@ -43,55 +44,59 @@ WayEvent WayReceiver::begin(const WayFrame& frame) {
     run_ = frame.number;
     expected_ = 0;
     digest_ = 0;
-    parts_ = 0;
+    forget_parts();
     state_ = frame.payload.back() != layout_version ? WayState::other_layout
              : tool_checksum != tool_checksum_      ? WayState::other_tool
                                                     : WayState::takes;
     return WayEvent::begun;
 }
 
-/// Its frames may come in any order; those that have come need not come again.
-WayEvent WayReceiver::put_together(const WayFrame& frame, std::size_t room) {
-    const bool is_of_next = state_ == WayState::takes && frame.session == session_ &&
-                            frame.number == static_cast<std::uint8_t>(expected_) && room > 0;
-    if (!is_of_next) {
-        return WayEvent::nothing;
+void WayReceiver::put_together(const WayFrame& frame) {
+    const auto ahead = static_cast<std::uint8_t>(frame.number - static_cast<std::uint8_t>(expected_));
+    if (state_ != WayState::takes || frame.session != session_ || ahead >= most_in_work) {
+        return;
     }
-    const bool is_of_block = frame.kind >= kind_of(WayFrameKind::block);
-    const std::size_t part = frame.kind - kind_of(is_of_block ? WayFrameKind::block : WayFrameKind::stretch);
-    parts_ = is_of_block == is_block_ ? parts_ | (1U << part) : 1U << part;
-    is_block_ = is_of_block;
+    InWork& record = in_work(expected_ + std::size_t{ahead});
+    const bool is_block = frame.kind >= kind_of(WayFrameKind::block);
+    const std::size_t part = frame.kind - kind_of(is_block ? WayFrameKind::block : WayFrameKind::stretch);
+    const unsigned kept = is_block == record.is_block ? record.parts : 0U;
+    record.is_block = is_block;
+    record.parts = static_cast<std::uint8_t>(kept | (1U << part));
     std::copy(frame.payload.begin(), frame.payload.end(),
-              bytes_.begin() + static_cast<std::ptrdiff_t>(part * payload_bytes));
-    if (parts_ != (is_of_block ? whole_block : whole_stretch)) {
-        return WayEvent::nothing;
-    }
-    parts_ = 0;
-    return is_of_block ? take_block() : take_stretch();
+              record.bytes.begin() + static_cast<std::ptrdiff_t>(part * payload_bytes));
 }
 
-WayEvent WayReceiver::take_stretch() {
-    stretch_ = stretch_of(bytes_);
+NextRecord WayReceiver::take_record() {
+    InWork& record = in_work(expected_);
+    if (state_ != WayState::takes || record.parts != (record.is_block ? whole_block : whole_stretch)) {
+        return NextRecord::none;
+    }
+    record.parts = 0;
+    return record.is_block ? take_block(record) : take_stretch(record);
+}
+
+NextRecord WayReceiver::take_stretch(const InWork& record) {
+    stretch_ = stretch_of(record.bytes);
     if (!is_sound(stretch_)) {
         refuse();
-        return WayEvent::nothing;
+        return NextRecord::none;
     }
     ++expected_;
-    digest_ = digest(digest_, bytes_);
-    return WayEvent::stretch;
+    digest_ = digest(digest_, record.bytes);
+    return NextRecord::stretch;
 }
 
-WayEvent WayReceiver::take_block() {
+NextRecord WayReceiver::take_block(const InWork& record) {
     BlockBytes bytes{};
-    std::copy_n(bytes_.begin(), bytes.size(), bytes.begin());
+    std::copy_n(record.bytes.begin(), bytes.size(), bytes.begin());
     block_ = block_of(bytes);
     if (!is_sound(block_)) {
         refuse();
-        return WayEvent::nothing;
+        return NextRecord::none;
     }
     ++expected_;
     digest_ = digest(digest_, bytes);
-    return WayEvent::block;
+    return NextRecord::block;
 }
 
 WayAnswer WayReceiver::answer() const {
@@ -102,7 +107,7 @@ void WayReceiver::forget() {
     state_ = WayState::waits;
     session_ = 0;
     expected_ = 0;
-    parts_ = 0;
+    forget_parts();
 }
 
 void WayReceiver::set_tool(std::uint32_t tool_checksum) {

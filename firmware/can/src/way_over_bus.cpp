@@ -75,21 +75,17 @@ void WayOverBus<Scalar>::begin_again() {
 template <typename Scalar>
 void WayOverBus<Scalar>::on_frame(const hal::CanFrame& frame) {
     using way_window::WayEvent;
-    switch (receiver_.on_frame(frame, room())) {
+    switch (receiver_.on_frame(frame)) {
         case WayEvent::nothing:
             break;
         case WayEvent::begun:
             begin();
             break;
-        case WayEvent::stretch:
-            take_stretch();
-            break;
-        case WayEvent::block:
-            take_block();
-            break;
         case WayEvent::asked:
             is_asked_ = true;
             break;
+    }
+    while (room() > 0 && take_record()) {
     }
     if (!receiver_.has_session()) {
         empty();
@@ -116,17 +112,23 @@ void WayOverBus<Scalar>::empty() {
 }
 
 template <typename Scalar>
-void WayOverBus<Scalar>::take_stretch() {
-    if (!ahead_.add(stretch_of<Scalar>(receiver_.stretch()))) {
+bool WayOverBus<Scalar>::take_record() {
+    using way_window::NextRecord;
+    bool goes_on = false;
+    switch (receiver_.take_record()) {
+        case NextRecord::none:
+            return false;
+        case NextRecord::stretch:
+            goes_on = ahead_.add(stretch_of<Scalar>(receiver_.stretch()));
+            break;
+        case NextRecord::block:
+            goes_on = blocks_.add(block_of<Scalar>(receiver_.block()));
+            break;
+    }
+    if (!goes_on) {
         receiver_.refuse();
     }
-}
-
-template <typename Scalar>
-void WayOverBus<Scalar>::take_block() {
-    if (!blocks_.add(block_of<Scalar>(receiver_.block()))) {
-        receiver_.refuse();
-    }
+    return goes_on;
 }
 
 template <typename Scalar>

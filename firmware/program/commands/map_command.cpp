@@ -177,8 +177,8 @@ int send(const SendOptions& options) {
             last = state;
         }
     }
-    fmt::print("{}: {} frames sent, {} not sent; the map was begun {} times\n", options.interface,
-               socket.health().sent, socket.health().send_failures, sender.sessions());
+    fmt::print("{}: {} frames sent, {} not sent; the map was begun {} times\n", options.interface, socket.health().sent,
+               socket.health().send_failures, sender.sessions());
     return last && *last == way_window::WayState::takes ? 0 : 1;
 }
 

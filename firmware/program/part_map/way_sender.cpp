@@ -17,7 +17,6 @@ using way_window::WayFrameKind;
 using way_window::WayState;
 
 constexpr std::uint64_t ask_period_us = 10'000;
-constexpr std::uint64_t ask_patience_us = 50'000;  // then it was lost
 constexpr std::uint64_t silent_after_us = 500'000;
 constexpr std::uint64_t refused_patience_us = 1'000'000;  // the tool may change
 constexpr std::uint64_t left_behind_patience_us = 50'000;
@@ -91,21 +90,28 @@ double WaySender::known_to_mm() const {
     return taken_ > first_ ? begin_mm(records_[taken_ - 1]) : 0.0;
 }
 
-/// Everything by what was sent before the ask: answers to earlier ones are out of date.
+/// Newer than the last one, and to an ask since the sender went back: what was sent before is out of date.
+bool WaySender::is_of_use(const WayAnswer& answer) {
+    const auto age = static_cast<std::uint8_t>(static_cast<std::uint8_t>(asks_) - answer.ask);
+    if (age >= asks_ || asks_ - age <= answered_ask_ || asks_ - age < valid_from_ask_) {
+        return false;
+    }
+    answered_ask_ = asks_ - age;
+    return true;
+}
+
 void WaySender::take_answer(const WayAnswer& answer, std::uint64_t time_us) {
-    answer_ = answer;
     answer_us_ = time_us;
-    if (!is_ask_open_ || answer.ask != ask_) {
+    if (!is_of_use(answer)) {
         return;
     }
-    is_ask_open_ = false;
+    answer_ = answer;
     if (is_refused()) {
         return;
     }
     // 16 bits of a count that goes on from the last one.
-    const std::size_t new_records =
-        static_cast<std::uint16_t>(answer.expected - static_cast<std::uint16_t>(taken_ - first_));
-    const std::size_t taken = taken_ + new_records;
+    const auto last = static_cast<std::uint16_t>(taken_ - first_);
+    const std::size_t taken = taken_ + static_cast<std::uint16_t>(answer.expected - last);
     if (answer.state == WayState::waits || answer.session != session_ || taken > next_) {
         begin(time_us);
         return;
@@ -118,23 +124,27 @@ void WaySender::take_answer(const WayAnswer& answer, std::uint64_t time_us) {
         return;
     }
     room_ = answer.room;
-    if (taken_ < next_at_ask_) {
-        next_ = taken_;
-        frames_.clear();
+    if (taken_ < next_at_ask_[answer.ask]) {
+        go_back();
     }
+}
+
+void WaySender::go_back() {
+    next_ = taken_;
+    frames_.clear();
+    valid_from_ask_ = asks_ + 1;
 }
 
 void WaySender::begin(std::uint64_t now_us) {
     session_ = static_cast<std::uint8_t>(session_ % way_window::last_session + 1);
     ++sessions_;
     first_ = position_mm_ ? first_record_at(*position_mm_ - kept_behind_mm) : 0;
-    next_ = first_;
     taken_ = first_;
     digest_ = 0;
     room_ = way_window::largest_window;
     left_behind_us_ = 0;
     begun_us_ = now_us;
-    frames_.clear();
+    go_back();
     push(way_window::begin_frame(session_, run_, tool_checksum_));
     ask(now_us);
 }
@@ -160,9 +170,6 @@ void WaySender::poll(std::uint64_t now_us) {
     if (session_ == 0 || is_left || (is_refused() && now_us > begun_us_ + refused_patience_us)) {
         begin(now_us);
     }
-    if (is_ask_open_ && now_us > ask_us_ + ask_patience_us) {
-        ask(now_us);
-    }
     send_next(now_us);
     const std::uint64_t periods = (now_us - paced_us_) / settings_.frame_period_us;
     paced_us_ += periods * settings_.frame_period_us;
@@ -175,7 +182,7 @@ bool WaySender::is_refused() const {
 
 void WaySender::send_next(std::uint64_t now_us) {
     const bool is_full = next_ >= records_.size() || next_ - taken_ >= room_;
-    if (frames_.empty() && !is_ask_open_ && now_us >= ask_us_ + ask_period_us) {
+    if (frames_.empty() && now_us >= ask_us_ + ask_period_us) {
         ask(now_us);
     } else if (frames_.empty() && !is_full && !is_refused()) {
         send_record();
@@ -199,14 +206,13 @@ void WaySender::send_record() {
 }
 
 void WaySender::ask(std::uint64_t now_us) {
-    ++ask_;
+    ++asks_;
     ask_us_ = now_us;
-    next_at_ask_ = next_;
-    is_ask_open_ = true;
     WayFrame frame;
-    frame.number = ask_;
+    frame.number = static_cast<std::uint8_t>(asks_);
     frame.kind = static_cast<std::uint8_t>(WayFrameKind::ask);
     frame.session = session_;
+    next_at_ask_[frame.number] = next_;
     push(frame);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -50,6 +51,7 @@ class WaySender {
 
   private:
     void take_position(std::uint64_t time_us);
+    [[nodiscard]] bool is_of_use(const way_window::WayAnswer& answer);
     void take_answer(const way_window::WayAnswer& answer, std::uint64_t time_us);
     void begin(std::uint64_t now_us);
     [[nodiscard]] std::size_t first_record_at(double path_mm) const;
@@ -57,6 +59,7 @@ class WaySender {
     [[nodiscard]] bool is_refused() const;
     void send_next(std::uint64_t now_us);
     void send_record();
+    void go_back();
     void ask(std::uint64_t now_us);
     void push(const way_window::WayFrame& frame);
 
@@ -81,9 +84,10 @@ class WaySender {
     std::size_t taken_ = 0;     // so many the controller has
     std::uint16_t digest_ = 0;  // of those
     std::size_t room_ = way_window::largest_window;
-    bool is_ask_open_ = false;
-    std::uint8_t ask_ = 0;
-    std::size_t next_at_ask_ = 0;
+    std::uint64_t asks_ = 0;
+    std::array<std::size_t, 256> next_at_ask_{};  // by an ask's number
+    std::uint64_t answered_ask_ = 0;
+    std::uint64_t valid_from_ask_ = 0;  // since the sender went back
     std::uint64_t ask_us_ = 0;
     std::uint64_t begun_us_ = 0;  // the session
     std::optional<way_window::WayAnswer> answer_{};

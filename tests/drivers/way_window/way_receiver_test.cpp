@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint8_t node = 0x7E;
 constexpr std::uint32_t tool = 0x1234'5678;
-constexpr std::size_t room = 64;
 
 hal::CanFrame frame_of(const WayFrame& frame) {
     return encode(frame, way_frame_id(node));
@@ -44,15 +43,17 @@ std::vector<hal::CanFrame> stretch_at(std::uint32_t begin_um, std::uint8_t numbe
 TEST_GROUP(WayReceiver) {
     WayReceiver receiver{node, tool};
 
-    WayEvent give(const std::vector<hal::CanFrame>& frames, std::size_t room_for = room) {
-        WayEvent event = WayEvent::nothing;
+    NextRecord give(const std::vector<hal::CanFrame>& frames) {
         for (const hal::CanFrame& frame : frames) {
-            event = receiver.on_frame(frame, room_for);
+            (void)receiver.on_frame(frame);
         }
-        return event;
+        return receiver.take_record();
+    }
+    WayEvent hear(const WayFrame& frame) {
+        return receiver.on_frame(frame_of(frame));
     }
     void begin(std::uint8_t session = 1) {
-        CHECK(give({frame_of(begin_frame(session, 0, tool))}) == WayEvent::begun);
+        CHECK(hear(begin_frame(session, 0, tool)) == WayEvent::begun);
     }
     void expect(std::uint16_t number) {
         UNSIGNED_LONGS_EQUAL(number, receiver.answer().expected);
@@ -61,15 +62,15 @@ TEST_GROUP(WayReceiver) {
 
 TEST(WayReceiver, takes_records_in_their_order) {
     begin();
-    CHECK(give(stretch_at(5000, 0)) == WayEvent::stretch);
+    CHECK(give(stretch_at(5000, 0)) == NextRecord::stretch);
     UNSIGNED_LONGS_EQUAL(5000, receiver.stretch().begin_um);
-    CHECK(give(frames_of(BlockRecord{7, 9000, 4000}, WayFrameKind::block, 1)) == WayEvent::block);
+    CHECK(give(frames_of(BlockRecord{7, 9000, 4000}, WayFrameKind::block, 1)) == NextRecord::block);
     CHECK((receiver.block() == BlockRecord{7, 9000, 4000}));
     expect(2);
 }
 
 TEST(WayReceiver, takes_nothing_before_a_session) {
-    CHECK(give(stretch_at(5000, 0)) == WayEvent::nothing);
+    CHECK(give(stretch_at(5000, 0)) == NextRecord::none);
     CHECK(receiver.answer().state == WayState::waits);
 }
 
@@ -78,11 +79,10 @@ TEST(WayReceiver, takes_a_doubled_frame_once) {
     for (std::uint8_t number = 0; number < 3; ++number) {
         int taken = 0;
         for (const hal::CanFrame& frame : stretch_at(number, number)) {
-            taken += receiver.on_frame(frame, room) == WayEvent::stretch ? 1 : 0;
-            taken += receiver.on_frame(frame, room) == WayEvent::stretch ? 1 : 0;
+            taken += give({frame, frame}) == NextRecord::stretch ? 1 : 0;
         }
         LONGS_EQUAL(1, taken);
-        CHECK(give(stretch_at(number, number)) == WayEvent::nothing);
+        CHECK(give(stretch_at(number, number)) == NextRecord::none);
     }
     expect(3);
 }
@@ -92,19 +92,32 @@ TEST(WayReceiver, a_lost_frame_leaves_the_record_to_be_sent_again) {
     for (std::uint8_t number = 0; number < stretch_frames; ++number) {
         std::vector<hal::CanFrame> lost = stretch_at(number, number);
         lost.erase(lost.begin() + number);
-        CHECK(give(lost) == WayEvent::nothing);
-        CHECK(give(stretch_at(99, static_cast<std::uint8_t>(number + 1))) == WayEvent::nothing);  // not expected yet
+        CHECK(give(lost) == NextRecord::none);
         expect(number);
-        CHECK(give({stretch_at(number, number)[number]}) == WayEvent::stretch);
+        CHECK(give({stretch_at(number, number)[number]}) == NextRecord::stretch);
         UNSIGNED_LONGS_EQUAL(number, receiver.stretch().begin_um);
     }
+}
+
+TEST(WayReceiver, records_that_overtake_a_lost_one_wait_for_it_up_to_eight_in_all) {
+    begin();
+    for (std::uint8_t number = 12; number > 0; --number) {
+        CHECK(give(stretch_at(number, number)) == NextRecord::none);
+    }
+    CHECK(give(stretch_at(0, 0)) == NextRecord::stretch);
+    for (std::uint8_t number = 1; number < 8; ++number) {
+        CHECK(receiver.take_record() == NextRecord::stretch);
+        UNSIGNED_LONGS_EQUAL(number, receiver.stretch().begin_um);
+    }
+    CHECK(receiver.take_record() == NextRecord::none);
+    expect(8);
 }
 
 TEST(WayReceiver, frames_of_a_record_may_overtake_each_other) {
     begin();
     std::vector<hal::CanFrame> frames = stretch_at(0xABCD'EF01, 0);
     std::reverse(frames.begin(), frames.end());
-    CHECK(give(frames) == WayEvent::stretch);
+    CHECK(give(frames) == NextRecord::stretch);
     UNSIGNED_LONGS_EQUAL(0xABCD'EF01, receiver.stretch().begin_um);
 }
 
@@ -112,55 +125,48 @@ TEST(WayReceiver, frames_of_two_records_make_none) {
     begin();
     std::vector<hal::CanFrame> mixed = stretch_at(1, 0);
     mixed[2] = stretch_at(1, 1)[2];
-    CHECK(give(mixed) == WayEvent::nothing);
+    CHECK(give(mixed) == NextRecord::none);
     mixed = stretch_at(1, 0);
     mixed[1] = frames_of(BlockRecord{7, 9000, 4000}, WayFrameKind::block, 0)[1];
-    CHECK(give(mixed) == WayEvent::nothing);
+    CHECK(give(mixed) == NextRecord::none);
     expect(0);
 }
 
 TEST(WayReceiver, frames_of_another_session_are_not_taken) {
     begin(1);
     begin(2);
-    CHECK(give(stretch_at(1, 0, 1)) == WayEvent::nothing);
-    CHECK(give(stretch_at(1, 0, 2)) == WayEvent::stretch);
-    CHECK(give({frame_of(begin_frame(2, 0, tool))}) == WayEvent::nothing);  // the same frame once more
+    CHECK(give(stretch_at(1, 0, 1)) == NextRecord::none);
+    CHECK(give(stretch_at(1, 0, 2)) == NextRecord::stretch);
+    CHECK(hear(begin_frame(2, 0, tool)) == WayEvent::nothing);  // the same frame once more
     expect(1);
 }
 
 TEST(WayReceiver, refuses_another_tool_or_layout_until_a_session_that_fits) {
-    CHECK(give({frame_of(begin_frame(1, 0, tool + 1))}) == WayEvent::begun);
+    CHECK(hear(begin_frame(1, 0, tool + 1)) == WayEvent::begun);
     CHECK(receiver.answer().state == WayState::other_tool);
-    CHECK(give(stretch_at(1, 0)) == WayEvent::nothing);
+    CHECK(give(stretch_at(1, 0)) == NextRecord::none);
     WayFrame of_tomorrow = begin_frame(2, 0, tool);
     ++of_tomorrow.payload.back();
-    give({frame_of(of_tomorrow)});
+    (void)hear(of_tomorrow);
     CHECK(receiver.answer().state == WayState::other_layout);
     begin(3);
-    CHECK(give(stretch_at(1, 0, 3)) == WayEvent::stretch);
+    CHECK(give(stretch_at(1, 0, 3)) == NextRecord::stretch);
 }
 
 TEST(WayReceiver, a_record_out_of_its_range_ends_the_session) {
     begin();
-    CHECK(give(stretch_at(1, 0)) == WayEvent::stretch);
-    CHECK(give(frames_of(StretchRecord{.begin_um = 9, .feed_um_s = 0}, WayFrameKind::stretch, 1)) == WayEvent::nothing);
+    CHECK(give(stretch_at(1, 0)) == NextRecord::stretch);
+    CHECK(give(frames_of(StretchRecord{.begin_um = 9, .feed_um_s = 0}, WayFrameKind::stretch, 1)) == NextRecord::none);
     CHECK(receiver.answer().state == WayState::unsound_record);
     CHECK_FALSE(receiver.has_session());
-    CHECK(give(stretch_at(9, 1)) == WayEvent::nothing);
-}
-
-TEST(WayReceiver, takes_nothing_where_there_is_no_room) {
-    begin();
-    CHECK(give(stretch_at(1, 0), 0) == WayEvent::nothing);
-    expect(0);
-    CHECK(give(stretch_at(1, 0), 1) == WayEvent::stretch);
+    CHECK(give(stretch_at(9, 1)) == NextRecord::none);
 }
 
 TEST(WayReceiver, numbers_go_on_over_their_end) {
     begin();
     for (std::uint32_t k = 0; k < 70'000; ++k) {
         CHECK(give(frames_of(BlockRecord{7, 9000, 4000}, WayFrameKind::block, static_cast<std::uint8_t>(k))) ==
-              WayEvent::block);
+              NextRecord::block);
     }
     expect(static_cast<std::uint16_t>(70'000));
 }
@@ -168,7 +174,7 @@ TEST(WayReceiver, numbers_go_on_over_their_end) {
 TEST(WayReceiver, an_ask_gets_its_number_and_the_digest_of_what_was_taken) {
     begin();
     give(stretch_at(5000, 0));
-    CHECK(give({frame_of({99, static_cast<std::uint8_t>(WayFrameKind::ask), 1, {}})}) == WayEvent::asked);
+    CHECK(hear({99, static_cast<std::uint8_t>(WayFrameKind::ask), 1, {}}) == WayEvent::asked);
     const WayAnswer answer = receiver.answer();
     UNSIGNED_LONGS_EQUAL(99, answer.ask);
     UNSIGNED_LONGS_EQUAL(1, answer.session);
@@ -179,5 +185,5 @@ TEST(WayReceiver, another_tool_in_the_spindle_ends_the_session) {
     begin();
     receiver.set_tool(tool + 1);
     CHECK(receiver.answer().state == WayState::waits);
-    CHECK(give(stretch_at(1, 0)) == WayEvent::nothing);
+    CHECK(give(stretch_at(1, 0)) == NextRecord::none);
 }

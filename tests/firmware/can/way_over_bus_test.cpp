@@ -93,8 +93,7 @@ struct Chip {
         }
     }
     WayAnswer asked() {
-        window.on_frame(
-            encode(WayFrame{1, static_cast<std::uint8_t>(WayFrameKind::ask), 1, {}}, way_frame_id(node)));
+        window.on_frame(encode(WayFrame{1, static_cast<std::uint8_t>(WayFrameKind::ask), 1, {}}, way_frame_id(node)));
         hal::CanFrame frame;
         WayAnswer answer;
         CHECK(window.take_frame(frame));

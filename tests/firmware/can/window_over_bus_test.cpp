@@ -23,12 +23,11 @@ struct Run {
     sim::RunFigures figures{};
     std::uint32_t sessions = 0;
     bool is_refuted = false;
-    float feed_at_end_mm_s = 0.0F;
 };
 
-/// The controller of a chip; `disturb` may do so, at each 20 µs.
 using Disturb = std::function<void(ControllerOnLoopback&, WaySenderOnLoopback&, firmware::WayOverBus<float>&)>;
 
+/// The controller of a chip; `disturb` may do so each 20 µs.
 Run with_window(const sim::Scenario& scenario, const host::PartMap& map, const Disturb& disturb = {}) {
     firmware::WayOverBus<float> way = way_over_bus(scenario.parameters);
     ControllerOnLoopback bench(scenario, nullptr, &way);
@@ -61,7 +60,7 @@ sim::RunFigures with_way(const sim::Scenario& scenario, firmware::WaySource<floa
 TEST_GROUP(WindowOverBus){};
 
 TEST(WindowOverBus, a_chip_mills_as_fast_as_with_the_whole_map) {
-    for (const char* name : {"slot_entry", "width_step"}) {
+    for (const char* name : {"slot_entry", "width_step", "interrupted"}) {
         const sim::Scenario scenario = scenario_of(name);
         const host::PartMap map = sim::preview(scenario);
         host::MapFollower follower(scenario.parameters, map);
@@ -76,12 +75,13 @@ TEST(WindowOverBus, a_chip_mills_as_fast_as_with_the_whole_map) {
     }
 }
 
+/// Its map has 344 records: a window holds a part of it.
 TEST(WindowOverBus, where_the_sender_dies_the_chip_goes_on_blind_and_breaks_no_tooth) {
-    const sim::Scenario scenario = scenario_of("width_step");
+    const sim::Scenario scenario = scenario_of("interrupted");
     const host::PartMap map = sim::preview(scenario);
     const sim::RunFigures blind = with_way(scenario, nullptr);
-    const double half_mm = 0.5 * map.back().path_mm;
     const Run whole = with_window(scenario, map);
+    const double half_mm = 0.5 * map.back().path_mm;
     bool has_died = false;
     const Run run = with_window(scenario, map, [&](ControllerOnLoopback&, WaySenderOnLoopback& sender, auto& way) {
         has_died = has_died || (way.position_mm() && static_cast<double>(*way.position_mm()) > half_mm);
@@ -89,12 +89,12 @@ TEST(WindowOverBus, where_the_sender_dies_the_chip_goes_on_blind_and_breaks_no_t
     });
     CHECK(has_died);
     CHECK(sim::bounds_hold(run.figures));
-    CHECK(run.figures.time_s > whole.figures.time_s);
+    CHECK(run.figures.time_s > 1.1 * whole.figures.time_s);
     CHECK(run.figures.time_s < 1.03 * blind.time_s);
 }
 
 TEST(WindowOverBus, a_bus_that_loses_a_fifth_doubles_delays_and_reorders_costs_little) {
-    const sim::Scenario scenario = scenario_of("width_step");
+    const sim::Scenario scenario = scenario_of("interrupted");
     const host::PartMap map = sim::preview(scenario);
     const Run clean = with_window(scenario, map);
     std::mt19937 random(7);
@@ -119,7 +119,7 @@ TEST(WindowOverBus, a_bus_that_loses_a_fifth_doubles_delays_and_reorders_costs_l
 }
 
 TEST(WindowOverBus, a_chip_that_starts_anew_in_mid_program_gets_the_map_from_there) {
-    const sim::Scenario scenario = scenario_of("width_step");
+    const sim::Scenario scenario = scenario_of("interrupted");
     const host::PartMap map = sim::preview(scenario);
     const Run clean = with_window(scenario, map);
     const double half_mm = 0.5 * map.back().path_mm;

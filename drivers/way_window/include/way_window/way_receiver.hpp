@@ -12,27 +12,36 @@ namespace millforce::way_window {
 /// What a frame led to.
 enum class WayEvent : std::uint8_t {
     nothing,
-    begun,    ///< a session: what came before is to be forgotten
-    stretch,  ///< stretch() is the next record
-    block,    ///< block() is
-    asked,    ///< answer() is to be sent
+    begun,  ///< a session: what came before is to be forgotten
+    asked,  ///< answer() is to be sent
+};
+
+/// The next record of a session.
+enum class NextRecord : std::uint8_t {
+    none,     ///< not all of it has come
+    stretch,  ///< stretch() is it
+    block,    ///< block() is it
 };
 
 /// The controller's side of the window: puts records together, and takes each once and in its order.
 ///
-/// Only frames of the next record are used. Where one was lost or comes too early or too late, the sender, which learns
-/// by answer() what is expected, goes back to it. What is late by 256 records could be taken for another; the digest of
-/// what was taken shows the sender that. A session with another tool, or in which a record is out of its range, is
-/// refused as a whole.
+///     switch (receiver.on_frame(frame)) { ... }
+///     while (room > 0 && receiver.take_record() != NextRecord::none) { ... }
 ///
-/// No heap. Not thread-safe. RAM: sizeof, some 50 bytes.
+/// Frames of the next eight records may come in any order. Where one was lost, the sender, which learns by answer()
+/// which record is expected, goes back to that; what has come need not come again. What is late by 248 records could be
+/// taken for another; the digest of what was taken shows the sender that. A session with another tool, or in which a
+/// record is out of its range, is refused as a whole.
+///
+/// No heap. Not thread-safe. RAM: sizeof, some 240 bytes.
 class WayReceiver {
   public:
     WayReceiver(std::uint8_t node_id, std::uint32_t tool_checksum)
         : id_(way_frame_id(node_id)), tool_checksum_(tool_checksum) {}
 
-    /// `room`: for so many records; what comes in excess is not taken.
-    [[nodiscard]] WayEvent on_frame(const hal::CanFrame& frame, std::size_t room);
+    [[nodiscard]] WayEvent on_frame(const hal::CanFrame& frame);
+    /// Only where there is room for it.
+    [[nodiscard]] NextRecord take_record();
 
     [[nodiscard]] const StretchRecord& stretch() const { return stretch_; }
     [[nodiscard]] const BlockRecord& block() const { return block_; }
@@ -50,10 +59,20 @@ class WayReceiver {
     void set_tool(std::uint32_t tool_checksum);
 
   private:
+    /// A record of which frames have come.
+    struct InWork {
+        bool is_block = false;
+        std::uint8_t parts = 0;  // that have come, a bit each
+        StretchBytes bytes{};
+    };
+    static constexpr std::size_t most_in_work = 8;
+
     [[nodiscard]] WayEvent begin(const WayFrame& frame);
-    [[nodiscard]] WayEvent put_together(const WayFrame& frame, std::size_t room);
-    [[nodiscard]] WayEvent take_stretch();
-    [[nodiscard]] WayEvent take_block();
+    void put_together(const WayFrame& frame);
+    [[nodiscard]] InWork& in_work(std::size_t number) { return in_work_[number % most_in_work]; }
+    void forget_parts() { in_work_ = {}; }
+    [[nodiscard]] NextRecord take_stretch(const InWork& record);
+    [[nodiscard]] NextRecord take_block(const InWork& record);
 
     std::uint32_t id_;
     std::uint32_t tool_checksum_;
@@ -63,9 +82,7 @@ class WayReceiver {
     std::uint8_t ask_ = 0;
     std::uint16_t expected_ = 0;
     std::uint16_t digest_ = 0;
-    bool is_block_ = false;  // the record in work
-    unsigned parts_ = 0;     // of it that have come, a bit each
-    StretchBytes bytes_{};
+    std::array<InWork, most_in_work> in_work_{};  // by their numbers, from the expected one on
     StretchRecord stretch_{};
     BlockRecord block_{};
 };

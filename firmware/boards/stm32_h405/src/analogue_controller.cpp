@@ -110,8 +110,8 @@ void AnalogueController::receive_frames(std::uint64_t now_us) {
 void AnalogueController::send_frames() {
     hal::CanFrame frame;
     // The boot-up comes before any EMCY, the newest override before both once it runs: the sender's order first.
-    while (can_.has_room() && (sender_.take_frame(frame) || emergencies_.take_frame(frame) ||
-                               (way_ && way_->take_frame(frame)))) {
+    while (can_.has_room() &&
+           (sender_.take_frame(frame) || emergencies_.take_frame(frame) || (way_ && way_->take_frame(frame)))) {
         can_.send(frame);
     }
 }
@@ -165,8 +165,7 @@ hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
 
 hal::ProgramStatus AnalogueController::program_at(std::uint64_t now_us) const {
     hal::ProgramStatus program = program_.program(now_us);
-    const program_status::ProgramPosition position =
-        position_.position(now_us, firmware::path_speed_mm_s(sample_));
+    const program_status::ProgramPosition position = position_.position(now_us, firmware::path_speed_mm_s(sample_));
     program.line = position.line;
     program.distance_to_go_mm = position.distance_to_go_mm;
     return program;

@@ -14,6 +14,7 @@
 using namespace millforce;
 using namespace millforce::host;
 using way_window::BlockRecord;
+using way_window::NextRecord;
 using way_window::StretchRecord;
 using way_window::WayEvent;
 
@@ -130,14 +131,16 @@ TEST_GROUP(WaySender) {
         }
     }
     void hear(const hal::CanFrame& frame) {
-        const WayEvent event = controller.on_frame(frame, room);
+        const WayEvent event = controller.on_frame(frame);
         if (event == WayEvent::begun) {
             room = 64;
             first_line = 0;
-        } else if (event == WayEvent::block) {
-            first_line = first_line == 0 ? controller.block().line : first_line;
         }
-        room -= event == WayEvent::stretch || event == WayEvent::block ? 1 : 0;
+        auto record = NextRecord::none;
+        while (room > 0 && (record = controller.take_record()) != NextRecord::none) {
+            --room;
+            first_line = record == NextRecord::block && first_line == 0 ? controller.block().line : first_line;
+        }
         if (event == WayEvent::asked) {
             way_window::WayAnswer answer = controller.answer();
             answer.room = static_cast<std::uint8_t>(room);

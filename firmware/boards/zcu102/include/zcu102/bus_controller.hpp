@@ -71,8 +71,8 @@ inline constexpr std::uint32_t watchdog_clock_MHz = 100;
 /// | fault of the processor, a tick that hangs or answers nonsense | silence, reset, EMCY 0x6010 after it |
 class BusController {
   public:
-    /// With `tools`, which outlive this, the CNC tells which of them is in the spindle. Without, a sender on the bus may
-    /// hand over the part map of the one tool (way_over_bus.hpp).
+    /// With `tools`, which outlive this, the CNC tells which of them is in the spindle. Without, a sender on the bus
+    /// may hand over the part map of the one tool (way_over_bus.hpp).
     BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
                   const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools = nullptr);
 
