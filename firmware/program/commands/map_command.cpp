@@ -156,6 +156,7 @@ int send(const SendOptions& options) {
     const std::atomic<bool>& stop = stop_on_signal();
     fmt::print("{}: {} records, {:.1f} mm, to node {}\n", options.map, sender.record_count(), file.map.back().path_mm,
                settings.node_id);
+    std::fflush(stdout);
     std::optional<way_window::WayState> last;
     while (!stop.load(std::memory_order_relaxed)) {
         socket.wait(settings.frame_period_us);
