@@ -129,7 +129,9 @@ TEST_GROUP(Zcu102Guard) {
             arrive(axis, 8, 0, no_current_operation_enabled);
         }
     }
-    void tell_tool(std::uint32_t number) { tell(program_status::encode_tool(number, 0x2FD)); }
+    void tell_tool(std::uint32_t number) {
+        tell(program_status::encode_tool(number, 0x2FD));
+    }
     void tell(const hal::CanFrame& frame) {
         const auto word = [&frame](std::size_t first) {
             std::uint32_t value = 0;

@@ -9,7 +9,10 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <deque>
+#include <limits>
 #include <string>
+#include <utility>
 
 using namespace millforce;
 using namespace millforce::host;
@@ -119,6 +122,9 @@ TEST_GROUP(WaySender) {
     std::uint8_t counter = 0;
     std::size_t room = 64;
     std::uint32_t first_line = 0;  // of the session
+    bool changes_a_byte = false;
+    std::uint64_t delay_us = 0;
+    std::deque<std::pair<std::uint64_t, hal::CanFrame>> answers{};
 
     void run_ms(int duration_ms) {
         for (int k = 0; k < duration_ms; ++k) {
@@ -126,7 +132,11 @@ TEST_GROUP(WaySender) {
             sender.poll(now_us);
             hal::CanFrame frame;
             while (sender.take_frame(frame)) {
-                hear(frame);
+                hear(changed(frame));
+            }
+            while (!answers.empty() && answers.front().first <= now_us) {
+                sender.on_frame(answers.front().second, now_us);
+                answers.pop_front();
             }
         }
     }
@@ -144,8 +154,19 @@ TEST_GROUP(WaySender) {
         if (event == WayEvent::asked) {
             way_window::WayAnswer answer = controller.answer();
             answer.room = static_cast<std::uint8_t>(room);
-            sender.on_frame(encode(answer, way_window::way_answer_id(node)), now_us);
+            answers.emplace_back(now_us + delay_us, encode(answer, way_window::way_answer_id(node)));
         }
+    }
+    hal::CanFrame changed(const hal::CanFrame& frame) {
+        way_window::WayFrame way_frame;
+        const std::uint32_t id = way_window::way_frame_id(node);
+        CHECK(decode(frame, id, way_frame) == way_window::FrameError::none);
+        if (!changes_a_byte || way_frame.kind != 1) {
+            return frame;
+        }
+        changes_a_byte = false;
+        ++way_frame.payload[0];
+        return encode(way_frame, id);
     }
     void report(double path_mm) {
         const auto line = static_cast<std::uint32_t>(path_mm / 10.0) + 1;
@@ -216,6 +237,24 @@ TEST(WaySender, a_controller_that_has_taken_something_else_gets_all_again) {
     run_ms(50);
     CHECK(sender.sessions() > sessions);
     run_ms(1000);
+    UNSIGNED_LONGS_EQUAL(64, controller.answer().expected);
+}
+
+TEST(WaySender, a_wrong_byte_that_no_checksum_has_shown_is_found_by_the_digest) {
+    run_ms(100);
+    changes_a_byte = true;
+    run_ms(100);
+    CHECK_FALSE(changes_a_byte);
+    UNSIGNED_LONGS_EQUAL(2, sender.sessions());
+    run_ms(1000);
+    UNSIGNED_LONGS_EQUAL(2, sender.sessions());
+    UNSIGNED_LONGS_EQUAL(64, controller.answer().expected);
+}
+
+TEST(WaySender, answers_may_be_a_fifth_of_a_second_late) {
+    delay_us = 200'000;
+    run_ms(3000);
+    UNSIGNED_LONGS_EQUAL(1, sender.sessions());
     UNSIGNED_LONGS_EQUAL(64, controller.answer().expected);
 }
 
