@@ -180,11 +180,16 @@ bool WaySender::is_refused() const {
     return answer_ && answer_->session == session_ && is_refusal(answer_->state);
 }
 
+/// Until then no record is sent: where no controller hears them they would only load the bus.
+bool WaySender::is_accepted() const {
+    return answer_ && answer_->session == session_ && !is_refusal(answer_->state);
+}
+
 void WaySender::send_next(std::uint64_t now_us) {
     const bool is_full = next_ >= records_.size() || next_ - taken_ >= room_;
     if (frames_.empty() && now_us >= ask_us_ + ask_period_us) {
         ask(now_us);
-    } else if (frames_.empty() && !is_full && !is_refused()) {
+    } else if (frames_.empty() && !is_full && is_accepted()) {
         send_record();
     }
 }

@@ -57,6 +57,7 @@ class WaySender {
     [[nodiscard]] std::size_t first_record_at(double path_mm) const;
     [[nodiscard]] bool is_left_behind(std::uint64_t now_us) const;
     [[nodiscard]] bool is_refused() const;
+    [[nodiscard]] bool is_accepted() const;
     void send_next(std::uint64_t now_us);
     void send_record();
     void go_back();

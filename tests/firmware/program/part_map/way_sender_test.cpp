@@ -269,6 +269,19 @@ TEST(WaySender, a_controller_of_another_tool_is_asked_again_each_second) {
     UNSIGNED_LONGS_EQUAL(64, controller.answer().expected);
 }
 
+TEST(WaySender, without_a_controller_the_bus_carries_asks_alone) {
+    int frames = 0;
+    for (int k = 0; k < 2000; ++k) {
+        now_us += ms;
+        sender.poll(now_us);
+        hal::CanFrame frame;
+        while (sender.take_frame(frame)) {
+            ++frames;
+        }
+    }
+    CHECK(frames < 250);
+}
+
 TEST(WaySender, a_silent_controller_is_named_so) {
     run_ms(100);
     CHECK(sender.controller_state(now_us) == way_window::WayState::takes);
