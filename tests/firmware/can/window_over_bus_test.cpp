@@ -55,6 +55,42 @@ sim::RunFigures with_way(const sim::Scenario& scenario, firmware::WaySource<floa
     return sim::simulate(scenario, bench, "millforce").result.figures;
 }
 
+/// The tick with a window, and the sender beside it: no bus, no time between them.
+template <typename Scalar>
+class WindowedTick final : public sim::TickController<Scalar> {
+  public:
+    WindowedTick(const firmware::Parameters<float>& parameters, const host::PartMap& map)
+        : sim::TickController<Scalar>(parameters),
+          way_(firmware::parameters_in<Scalar>(parameters), firmware::tool_checksum(parameters.tool),
+               override_frame::default_node_id),
+          sender_(way_sender_settings(), map, parameters) {}
+    [[nodiscard]] bool is_refuted() const { return way_.is_refuted(); }
+
+  private:
+    void look_ahead(firmware::ForceControlTick<Scalar>& tick, const hal::ProgramStatus& program) override {
+        now_us_ += 1000;
+        if (now_us_ % 10'000 == 0) {
+            sender_.on_frame(program_status::encode_position({program.line, program.distance_to_go_mm, ++counter_},
+                                                             way_sender_settings().position_id),
+                             now_us_);
+        }
+        sender_.poll(now_us_);
+        hal::CanFrame frame;
+        while (sender_.take_frame(frame)) {
+            way_.on_frame(frame);
+        }
+        while (way_.take_frame(frame)) {
+            sender_.on_frame(frame, now_us_);
+        }
+        way_.look_ahead(tick, program);
+    }
+
+    firmware::WayOverBus<Scalar> way_;
+    host::WaySender sender_;
+    std::uint64_t now_us_ = 1'000'000;
+    std::uint8_t counter_ = 0;
+};
+
 }  // namespace
 
 TEST_GROUP(WindowOverBus){};
@@ -149,4 +185,20 @@ TEST(WindowOverBus, a_map_of_another_tool_is_refused_and_does_no_harm) {
     CHECK(sim::bounds_hold(figures));
     const sim::RunFigures blind = with_way(scenario, nullptr);
     DOUBLES_EQUAL(blind.time_s, figures.time_s, 0.03 * blind.time_s);
+}
+
+TEST(WindowOverBus, a_tick_in_fixed_point_mills_with_a_window_as_one_in_float) {
+    const sim::Scenario scenario = scenario_of("interrupted");
+    const host::PartMap map = sim::preview(scenario);
+    sim::MappedController whole(scenario.parameters, map);
+    WindowedTick<float> in_float(scenario.parameters, map);
+    WindowedTick<estimation::Fixed> in_fixed(scenario.parameters, map);
+    const sim::RunFigures of_whole = sim::simulate(scenario, whole, "millforce").result.figures;
+    const sim::RunFigures of_float = sim::simulate(scenario, in_float, "millforce").result.figures;
+    const sim::RunFigures of_fixed = sim::simulate(scenario, in_fixed, "millforce").result.figures;
+    CHECK(sim::bounds_hold(of_float));
+    CHECK(sim::bounds_hold(of_fixed));
+    CHECK_FALSE(in_fixed.is_refuted());
+    DOUBLES_EQUAL(of_whole.time_s, of_float.time_s, 0.01 * of_whole.time_s);
+    DOUBLES_EQUAL(of_float.time_s, of_fixed.time_s, 0.01 * of_float.time_s);
 }
