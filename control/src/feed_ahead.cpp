@@ -5,5 +5,7 @@ namespace millforce::control {
 
 template class FeedAhead<float>;
 template class FeedAhead<estimation::Fixed>;
+template class FeedAhead<float, small_window>;
+template class FeedAhead<estimation::Fixed, small_window>;
 
 }  // namespace millforce::control

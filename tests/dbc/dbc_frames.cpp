@@ -12,8 +12,10 @@
 #include "emergency/emergencies.hpp"
 #include "override_frame/override_sender.hpp"
 #include "override_sender_settings.hpp"
+#include "program_status/position_frame.hpp"
 #include "program_status/program_status_frame.hpp"
 #include "program_status/tool_frame.hpp"
+#include "way_window/way_frames.hpp"
 
 /// Frames of every kind that millforce.dbc names, by the code that sends them, each with the values that went in:
 /// `id data name=value...`. check_dbc decodes them by the DBC and compares.
@@ -30,7 +32,7 @@ void print(const hal::CanFrame& frame, const Values& values) {
     }
     std::printf("%s", frame.length == 0 ? "-" : "");
     for (const auto& [name, value] : values) {
-        std::printf(" %s=%.10g", name.c_str(), value);
+        std::printf(" %s=%.12g", name.c_str(), value);
     }
     std::printf("\n");
 }
@@ -122,6 +124,46 @@ void print_tools() {
     }
 }
 
+void print_positions() {
+    const std::uint32_t id = program_status::position_frame_id(program_status::default_id);
+    for (std::uint32_t k = 0; k < 10; ++k) {
+        const program_status::ProgramPosition position{70'007 * k + 1, 16.25F * static_cast<float>(k),
+                                                       static_cast<std::uint8_t>(28 * k)};
+        const hal::CanFrame frame = program_status::encode_position(position, id);
+        print(frame, {{"ProgramLine", position.line},
+                      {"DistanceToGo", 16.25 * k},
+                      {"PositionCounter", position.counter},
+                      {"PositionChecksum", frame.data[7]}});
+    }
+}
+
+void print_way_window() {
+    using namespace way_window;
+    for (std::uint8_t k = 0; k < 8; ++k) {
+        const auto session = static_cast<std::uint8_t>(k + 8);
+        const hal::CanFrame frame = encode(WayFrame{static_cast<std::uint8_t>(31 * k), k, session, {1, 2, 3, 4, k}},
+                                           way_frame_id(override_frame::default_node_id));
+        print(frame, {{"WindowNumber", 31 * k},
+                      {"WindowKind", k},
+                      {"WindowSession", session},
+                      {"WindowPayload", 0x0403'0201 + 4294967296.0 * k},
+                      {"WindowChecksum", frame.data[7]}});
+    }
+    for (std::uint8_t k = 0; k <= static_cast<std::uint8_t>(WayState::refuted); ++k) {
+        const auto expected = static_cast<std::uint16_t>(12'345 * k);
+        const hal::CanFrame frame =
+            encode(WayAnswer{k, static_cast<WayState>(k), k, expected, static_cast<std::uint8_t>(64 - k), 0xABCD},
+                   way_answer_id(override_frame::default_node_id));
+        print(frame, {{"AnswerAsk", k},
+                      {"AnswerState", k},
+                      {"AnswerSession", k},
+                      {"AnswerExpected", expected},
+                      {"AnswerRoom", 64 - k},
+                      {"AnswerDigest", 0xABCD},
+                      {"AnswerChecksum", frame.data[7]}});
+    }
+}
+
 /// SYNC and NMT start, by the master.
 void print_master() {
     cia402::BusSettings settings = test::a_bus();
@@ -209,6 +251,8 @@ int main() {
     print_own_emergencies();
     print_program_statuses();
     print_tools();
+    print_positions();
+    print_way_window();
     print_master();
     print_drives();
     return 0;

@@ -2,8 +2,11 @@
 // A sequence of CAN frames with their times, into the controller of `millforce run`: one that has just begun, and one
 // whose drives run and whose CNC is alive.
 //
-// The first byte chooses the controller. Then, for each frame: the time since the last one, the id, shape and data.
+// The first byte chooses the controller. Then, for each frame: the time since the last one, the id, shape and data. The
+// controller has its part map over the bus, and a bit of the shape gives a frame of it a checksum that is right.
 #include "firmware/can/controller_on_loopback.hpp"
+#include "firmware/tool_checksum.hpp"
+#include "firmware_can/way_over_bus.hpp"
 #include "fuzz/hostile_bytes.hpp"
 #include "hal/finite.hpp"
 #include "override_frame/override_frame.hpp"
@@ -45,8 +48,11 @@ struct Controllers {
         test::controller_settings(host::read_machine_bus(scenario.machine_file).value());
     float most = scenario.parameters.machine.cnc.override_max;
     TickCheck check{most};
-    firmware::CanController starting{settings, scenario.parameters, &check};
-    firmware::CanController running{settings, scenario.parameters, &check};
+    firmware::WayOverBus<float> new_way{scenario.parameters, firmware::tool_checksum(scenario.parameters.tool),
+                                        settings.feed_override.node_id};
+    firmware::WayOverBus<float> way = new_way;  ///< of the controller in work
+    firmware::CanController starting{settings, scenario.parameters, &check, nullptr, &way};
+    firmware::CanController running{settings, scenario.parameters, &check, nullptr, &way};
     std::uint64_t now_us = 0;
 
     Controllers() {
@@ -70,6 +76,25 @@ struct Controllers {
     }
 };
 
+std::uint32_t tool_checksum() {
+    static const std::uint32_t checksum = firmware::tool_checksum(
+        sim::read_scenario(MILLFORCE_SOURCE_DIR "/sim/scenarios/depth_ramp.toml").parameters.tool);
+    return checksum;
+}
+
+/// A session of the controller's own tool begins where it otherwise hardly ever would.
+hal::CanFrame way_frame(const hal::CanFrame& from) {
+    way_window::WayFrame frame{from.data[0],
+                               static_cast<std::uint8_t>(from.data[1] & 0x07U),
+                               static_cast<std::uint8_t>(from.data[1] >> 4U),
+                               {}};
+    std::copy_n(from.data.begin() + 2, way_window::payload_bytes, frame.payload.begin());
+    if (frame.kind == static_cast<std::uint8_t>(way_window::WayFrameKind::begin)) {
+        frame = way_window::begin_frame(frame.session, frame.number, tool_checksum());
+    }
+    return way_window::encode(frame, way_window::way_frame_id(override_frame::default_node_id));
+}
+
 hal::CanFrame next_frame(fuzz::Bytes& bytes, std::span<const hal::CanFilter> known) {
     hal::CanFrame frame;
     const std::uint8_t choice = bytes.u8();
@@ -78,10 +103,11 @@ hal::CanFrame next_frame(fuzz::Bytes& bytes, std::span<const hal::CanFilter> kno
     frame.length = shape & 0x0FU;  // 9 to 15: no frame of a bus, but a driver may be wrong
     frame.extended = (shape & 0x10U) != 0;
     frame.remote = (shape & 0x20U) != 0;
+    const bool is_of_map = (shape & 0x40U) != 0;
     for (std::size_t k = 0; k < frame.length && k < frame.data.size(); ++k) {
         frame.data[k] = bytes.u8();
     }
-    return frame;
+    return is_of_map ? way_frame(frame) : frame;
 }
 
 /// Mostly less than a SYNC period, up to 5 ms; once a leap, as of a clock that is set. It costs a thousand ticks: a
@@ -114,7 +140,8 @@ void send_all(firmware::CanController& controller, std::uint64_t now_us, float m
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const Controllers controllers;
+    static Controllers controllers;
+    controllers.way = controllers.new_way;
     fuzz::Bytes bytes({data, size});
     firmware::CanController controller = bytes.u8() % 2 == 0 ? controllers.running : controllers.starting;
     std::array<hal::CanFilter, firmware::CanController::filter_capacity> filters;

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 # Each after those that it links. What is for a certain chip or board stays in the tree.
 set(libraries hal estimation control firmware estimation_calibration candump cia402 cnc emergency local_link override_frame
-    program_status gpio iio socketcan firmware_can firmware_link core_in_one_file)
+    program_status way_window gpio iio socketcan firmware_can firmware_link core_in_one_file)
 
 set(component COMPONENT libmillforce-dev)
 set(include_folder ${CMAKE_INSTALL_INCLUDEDIR}/millforce)  # #include "control/feed_law.hpp" as in the tree

@@ -25,9 +25,10 @@
 ///
 /// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
 /// stands for it. In each cut that stays the same over the window of an estimate it is measured, κ = F_at/F(f)|κ=1, and
-/// averaged over some revolutions; not where e exceeds the feed per tooth, since teeth then miss the cut. At every place the feed may then be v_i. Now it may be the largest v from which the
-/// machine brakes to each of them, d_i ahead. On its way there the machine goes at √(v_i² + 2 a d), a: acceleration;
-/// what is asked for at d_i is done a reaction time T later, when the feed has fallen by a T more:
+/// averaged over some revolutions; not where e exceeds the feed per tooth, since teeth then miss the cut. At every
+/// place the feed may then be v_i. Now it may be the largest v from which the machine brakes to each of them, d_i
+/// ahead. On its way there the machine goes at √(v_i² + 2 a d), a: acceleration; what is asked for at d_i is done a
+/// reaction time T later, when the feed has fallen by a T more:
 ///
 ///   v = max(v_i, √(v_i² + 2 a d_i) − a T)    the lowest of all i
 ///
@@ -77,7 +78,6 @@ template <typename Scalar>
 struct FeedAheadSettings {
     Scalar acceleration_mm_s2{0};     ///< acceleration of the machine along the path; to be set, > 0
     Scalar reaction_s{0};             ///< time from an override to the first change of feed
-    Scalar teeth{1};
     Scalar position_tolerance_mm{1};  ///< tolerance of stock and path, each way: a map that is off by less agrees
     Scalar farthest_off_mm{2};        ///< no map that is off by more goes on unrefuted
     Scalar assumed_hardness = literal<Scalar>(1.3L);
@@ -90,27 +90,34 @@ struct FeedAheadSettings {
     Scalar disagreement_mm{Scalar(0.5F)};
 };
 
+/// What a tick knows.
+template <typename Scalar>
+struct FeedAheadStep {
+    bool position_known = false;
+    Scalar position_mm{0};         ///< along the path
+    Scalar travel_mm{0};           ///< since the last step
+    Scalar blind_feed_mm_s{0};     ///< feed that is safe where nothing is known
+    Scalar tooth_share{1};         ///< 1/N
+    Scalar runout_mm_s{0};         ///< e N n
+    Scalar mapped_runout_mm_s{0};  ///< e_0 N n
+    bool fresh = false;            ///< the rest is a new estimate
+    Scalar tangential_N{0};        ///< F_at
+    Scalar tangential_sd_N{0};
+    Scalar mean_feed_mm_s{0};   ///< over the estimate's window
+    Scalar window_mm{0};        ///< way gone in it, and since it where the force comes late
+    Scalar contact_level_N{0};  ///< force from which on the tool counts as in contact
+    bool feed_force_valid = false;
+    Scalar feed_force_N{0};  ///< F_ax
+    Scalar feed_force_sd_N{0};
+};
+
+/// The window of a chip that has a map over a bus.
+inline constexpr std::size_t small_window = 64;
+
 template <typename Scalar, std::size_t Capacity = 256>
 class FeedAhead {
   public:
-    /// What a tick knows.
-    struct Step {
-        bool position_known = false;
-        Scalar position_mm{0};      ///< along the path
-        Scalar travel_mm{0};        ///< since the last step
-        Scalar blind_feed_mm_s{0};  ///< feed that is safe where nothing is known
-        Scalar runout_mm_s{0};         ///< e N n
-        Scalar mapped_runout_mm_s{0};  ///< e_0 N n
-        bool fresh = false;         ///< the rest is a new estimate
-        Scalar tangential_N{0};     ///< F_at
-        Scalar tangential_sd_N{0};
-        Scalar mean_feed_mm_s{0};   ///< over the estimate's window
-        Scalar window_mm{0};        ///< way gone in it, and since it where the force comes late
-        Scalar contact_level_N{0};  ///< force from which on the tool counts as in contact
-        bool feed_force_valid = false;
-        Scalar feed_force_N{0};  ///< F_ax
-        Scalar feed_force_sd_N{0};
-    };
+    using Step = FeedAheadStep<Scalar>;
 
     explicit FeedAhead(const FeedAheadSettings<Scalar>& settings);
 
@@ -189,5 +196,7 @@ class FeedAhead {
 
 extern template class FeedAhead<float>;
 extern template class FeedAhead<estimation::Fixed>;
+extern template class FeedAhead<float, small_window>;
+extern template class FeedAhead<estimation::Fixed, small_window>;
 
 }  // namespace millforce::control

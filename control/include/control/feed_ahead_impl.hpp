@@ -238,7 +238,7 @@ Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, const Step& now) cons
     }
     const Scalar ratio = Scalar(1) - stretch.feed_per_softness * hardening_;
     const Scalar feed_mm_s = ratio > Scalar(0) ? stretch.feed_mm_s * ratio : Scalar(0);
-    const Scalar least_mm_s = feed_mm_s / settings_.teeth;
+    const Scalar least_mm_s = feed_mm_s * now.tooth_share;
     const Scalar of_worst_tooth_mm_s = feed_mm_s + now.mapped_runout_mm_s - now.runout_mm_s;
     return of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
 }

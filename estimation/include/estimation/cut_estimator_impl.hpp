@@ -64,7 +64,8 @@ void CutEstimator<Scalar>::follow_turning_force(Scalar dt_s, const EncoderReadin
                                                 const DriveSignals<Scalar>& signals) {
     const bool is_present = (signals.present & DriveSignals<Scalar>::spindle_present) != 0U;
     if (is_present && !settings_.load_is_held) {
-        harmonic_.add(dt_s, reading.turned_rev, reading.angle_rev, signals.values[DriveSignals<Scalar>::spindle_current]);
+        harmonic_.add(dt_s, reading.turned_rev, reading.angle_rev,
+                      signals.values[DriveSignals<Scalar>::spindle_current]);
     } else {
         harmonic_.restart();
     }

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 
 #include "cia402/objects.hpp"
-#include "hal/finite.hpp"
+#include "firmware/path_speed.hpp"
 
 namespace millforce::firmware {
 
@@ -25,6 +24,10 @@ std::uint32_t tool_id(const CanControllerSettings& settings, const ToolSource* t
 /// Nor is the position where nobody looks ahead.
 std::uint32_t position_id(const CanControllerSettings& settings, const WaySource<float>* way) {
     return way != nullptr ? program_status::position_frame_id(settings.program.id) : 0;
+}
+
+std::uint32_t way_id(const WaySource<float>* way) {
+    return way != nullptr ? way->frame_id() : 0;
 }
 
 std::uint64_t microseconds(float seconds) {
@@ -81,6 +84,9 @@ void CanController::begin() {
         std::destroy_at(&tick_);
         std::construct_at(&tick_, parameters_, tools_);
     }
+    if (way_ != nullptr) {
+        way_->begin_again();
+    }
     bus_time_us_ = 0;
     has_begun_ = false;
     sample_ = {};
@@ -128,6 +134,9 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
     program_receiver_.on_frame(frame, time_us);
     tool_receiver_.on_frame(frame, time_us);
     position_receiver_.on_frame(frame, time_us);
+    if (way_ != nullptr && frame.id == way_->frame_id()) {
+        way_->on_frame(frame);
+    }
     bus_.on_frame(frame, time_us);
     run_ticks();
 }
@@ -254,18 +263,10 @@ void CanController::stop(std::uint64_t now_us) {
 hal::ProgramStatus CanController::program_at(std::uint64_t time_us) const {
     hal::ProgramStatus program = program_receiver_.program(time_us);
     program.feed_hold = program.feed_hold || is_any_drive_stopped();
-    const program_status::ProgramPosition position = position_receiver_.position(time_us, path_speed_mm_s());
+    const program_status::ProgramPosition position = position_receiver_.position(time_us, path_speed_mm_s(sample_));
     program.line = position.line;
     program.distance_to_go_mm = position.distance_to_go_mm;
     return program;
-}
-
-float CanController::path_speed_mm_s() const {
-    float sum = 0.0F;
-    for (const float velocity_mm_s : sample_.axis_velocity_mm_s) {
-        sum += velocity_mm_s * velocity_mm_s;
-    }
-    return hal::is_finite(sum) ? std::sqrt(sum) : 0.0F;
 }
 
 /// The CNC brakes by itself then; the override must neither rise meanwhile nor jump when the drive comes back.
@@ -318,7 +319,8 @@ void CanController::judge(std::uint64_t now_us) {
 }
 
 bool CanController::take_frame(hal::CanFrame& frame) {
-    return sync_.take_frame(frame) || sender_.take_frame(frame) || bus_.take_frame(frame);
+    return sync_.take_frame(frame) || sender_.take_frame(frame) || bus_.take_frame(frame) ||
+           (way_ != nullptr && way_->take_frame(frame));
 }
 
 std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
@@ -332,7 +334,7 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
     for (const std::uint32_t id : {settings_.program.id, tool_id(settings_, tools_), position_id(settings_, way_),
-                                   settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+                                   way_id(way_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }

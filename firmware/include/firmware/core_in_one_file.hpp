@@ -32,6 +32,7 @@
 #include "firmware/src/tick_fixed.cpp"
 #include "firmware/src/tick_float.cpp"
 #include "firmware/src/tick_record.cpp"
+#include "firmware/src/tool_checksum.cpp"
 #include "firmware/src/tool_tick.cpp"
 #include "firmware/src/usable_signals.cpp"
 #include "firmware/src/wide_band_fixed.cpp"

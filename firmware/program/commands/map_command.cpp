@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
+#include "daemon/service.hpp"
 #include "files/atomic_file.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
@@ -15,6 +19,8 @@
 #include "parameters/parameter_files.hpp"
 #include "part_map/map_join.hpp"
 #include "part_map/part_map_file.hpp"
+#include "part_map/way_sender.hpp"
+#include "socketcan/can_socket.hpp"
 
 namespace millforce::host {
 
@@ -31,6 +37,13 @@ struct ShowOptions {
     std::string map;
     std::string tool;
     std::string output;
+};
+
+struct SendOptions {
+    std::string interface;
+    std::string map;
+    std::string tool;
+    std::string machine;
 };
 
 /// The tool's file, which must be the one that the map was made for.
@@ -84,10 +97,115 @@ int show(const ShowOptions& options) {
     return 0;
 }
 
+socketcan::CanSocketSettings socket_of(const SendOptions& options, const WaySenderSettings& sender) {
+    socketcan::CanSocketSettings settings;
+    if (!settings.set_interface(options.interface)) {
+        throw InputError(
+            fmt::format("'{}': expected a CAN interface of at most 15 characters, e.g. can0", options.interface));
+    }
+    settings.filters[0].id = sender.position_id;
+    settings.filters[1].id = way_window::way_answer_id(sender.node_id);
+    settings.filter_count = 2;
+    return settings;
+}
+
+WaySenderSettings sender_settings(const SendOptions& options, const firmware::BusParameters<float>& bus) {
+    const std::uint32_t position_id = program_status::position_frame_id(bus.program_status_id);
+    if (position_id == 0) {
+        throw InputError(
+            fmt::format("{}: bus.program_status_id = {}, expected 1 to {}: the frame of the position in the program is "
+                        "that id + 0x200",
+                        options.machine, bus.program_status_id, hal::largest_standard_can_id - 0x200));
+    }
+    return {.node_id = bus.override_node_id, .position_id = position_id};
+}
+
+std::string text_of(std::optional<way_window::WayState> state) {
+    if (!state) {
+        return "the controller is silent";
+    }
+    switch (*state) {
+        case way_window::WayState::waits:
+            return "the controller has no map yet";
+        case way_window::WayState::takes:
+            return "the controller takes the map";
+        case way_window::WayState::other_tool:
+            return "refused: the controller's tool has other parameters than the tool file";
+        case way_window::WayState::other_layout:
+            return "refused: the controller knows another version of the frames";
+        case way_window::WayState::unsound_record:
+            return "refused: the controller took a record for wrong";
+        case way_window::WayState::refuted:
+            return "the map does not fit the cut: the controller goes on without it";
+    }
+    return "";
+}
+
+/// A controller that has lost a session has another a moment later: that is no news.
+bool is_news(std::optional<way_window::WayState> last, std::optional<way_window::WayState> now) {
+    return now != last && now != way_window::WayState::waits;
+}
+
+int send(const SendOptions& options) {
+    const PartMapFile file = read_part_map(options.map);
+    const auto tool = tool_of(options.tool, options.map, file.origin);
+    const firmware::Parameters<float> parameters{read_machine_parameters(options.machine), tool};
+    const WaySenderSettings settings = sender_settings(options, parameters.machine.bus);
+    socketcan::CanSocket socket(socket_of(options, settings));
+    WaySender sender(settings, file.map, parameters);
+    const std::atomic<bool>& stop = stop_on_signal();
+    fmt::print("{}: {} records, {:.1f} mm, to node {}\n", options.map, sender.record_count(), file.map.back().path_mm,
+               settings.node_id);
+    std::fflush(stdout);
+    std::optional<way_window::WayState> last;
+    while (!stop.load(std::memory_order_relaxed)) {
+        socket.wait(settings.frame_period_us);
+        const std::uint64_t now_us = socketcan::monotonic_us();
+        socket.poll(now_us);
+        socketcan::ReceivedFrame received;
+        while (socket.receive(received)) {
+            sender.on_frame(received.frame, received.time_us);
+        }
+        sender.poll(now_us);
+        hal::CanFrame frame;
+        while (sender.take_frame(frame)) {
+            socket.send(frame);
+        }
+        const auto state = sender.controller_state(now_us);
+        if (is_news(last, state)) {
+            fmt::print("{}: {}\n", options.interface, text_of(state));
+            std::fflush(stdout);
+            last = state;
+        }
+    }
+    fmt::print("{}: {} frames sent, {} not sent; the map was begun {} times\n", options.interface, socket.health().sent,
+               socket.health().send_failures, sender.sessions());
+    return last && *last == way_window::WayState::takes ? 0 : 1;
+}
+
+void add_send(Command& map) {
+    auto options = std::make_shared<SendOptions>();
+    Command command = map.subcommand("send", "Hand a part map to a controller without files, over CAN");
+    command.footer(
+        "For a controller on a chip ('millforce run' takes --map). Runs beside it until SIGINT, SIGTERM or SIGHUP. It\n"
+        "hands over 64 stretches and 64 blocks ahead of the tool, and begins where the tool is. The CNC must send its\n"
+        "position frame. What the controller says of the map is printed when it changes.\n"
+        "Exit code 1: at the end the controller was silent, or did not use the map.");
+    command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
+    command.option("map", options->map, "Part map").required().value_name("PART.map");
+    command.option("--tool", options->tool, "Tool file of the map, as the controller has it")
+        .required()
+        .value_name("TOOL.toml");
+    command.option("--machine", options->machine, "Machine parameters, as the controller has them")
+        .required()
+        .value_name("M.toml");
+    command.on_run([options] { return send(*options); });
+}
+
 }  // namespace
 
 void add_map_commands(Command& program) {
-    Command map = program.subcommand("map", "Join the part maps of geometry and of a run, or show one");
+    Command map = program.subcommand("map", "Join the part maps of geometry and of a run, show one, or send it");
     map.requires_subcommand();
 
     auto join_options = std::make_shared<JoinOptions>();
@@ -113,6 +231,8 @@ void add_map_commands(Command& program) {
         .value_name("TOOL.toml");
     show_command.option("-o,--output", show_options->output, "Page to write").required().value_name("PAGE.html");
     show_command.on_run([show_options] { return show(*show_options); });
+
+    add_send(map);
 }
 
 }  // namespace millforce::host

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "control/feed_ahead.hpp"
+#include "firmware/along_path.hpp"
 #include "firmware/tick.hpp"
 #include "firmware/way_source.hpp"
 #include "part_map/part_map.hpp"
@@ -25,12 +26,11 @@ class MapFollower final : public firmware::WaySource<float> {
   private:
     void fill_window();
 
-    firmware::Parameters<float> parameters_;
     PathPosition position_;
     std::vector<control::Stretch<float>> stretches_;
     std::size_t next_ = 0;  // that the window does not hold yet
+    firmware::AlongPath<float> along_;
     control::FeedAhead<float> ahead_;
-    float path_mm_ = 0.0F;
 };
 
 }  // namespace millforce::host

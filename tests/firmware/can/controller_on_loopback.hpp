@@ -120,6 +120,9 @@ class ControllerOnLoopback : public sim::OverrideSource {
                     wire.send(sender_, frame, now_us);
                 }
             }
+            if (beside) {
+                beside(now_us);
+            }
             machine.poll(now_us);
             cnc.poll(now_us);
             for (const auto& frames : {machine.take_frames(), cnc.take_frames()}) {
@@ -141,6 +144,8 @@ class ControllerOnLoopback : public sim::OverrideSource {
     std::uint64_t now_us = 1'700'000'000'000'000;
     bool controller_runs = true;
     bool keeps_log = true;  ///< of frames
+    /// What others on the bus do, each 20 µs.
+    std::function<void(std::uint64_t now_us)> beside{};
     /// How much later than the SYNC its stamp is. Empty: not at all.
     std::function<std::uint64_t()> sync_stamp_late_us{};
 

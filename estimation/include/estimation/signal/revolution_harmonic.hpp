@@ -18,8 +18,8 @@
 ///
 /// Current and angle are taken as linear in time between two samples, and what that takes from a sine is given back.
 ///
-/// Valid: five samples a revolution or more; a revolution with fewer does not count. Cost: a sine and a cosine a sample,
-/// three divisions a revolution. No heap. Not thread-safe.
+/// Valid: five samples a revolution or more; a revolution with fewer does not count. Cost: a sine and a cosine a
+/// sample, three divisions a revolution. No heap. Not thread-safe.
 
 namespace millforce::estimation {
 
@@ -30,9 +30,9 @@ class RevolutionHarmonic {
     struct Mean {
         int revolutions = 0;  ///< 0: there is none
         Phasor<Scalar> current_A{};
-        Phasor<Scalar> time{};    ///< T_1
-        Scalar time_sd{0};        ///< deviation of each component in one revolution: the encoder's counts are whole
-        Scalar samples{0};        ///< in one revolution
+        Phasor<Scalar> time{};  ///< T_1
+        Scalar time_sd{0};      ///< deviation of each component in one revolution: the encoder's counts are whole
+        Scalar samples{0};      ///< in one revolution
     };
 
     explicit RevolutionHarmonic(std::uint32_t encoder_counts_per_rev)

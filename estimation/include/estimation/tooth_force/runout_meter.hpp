@@ -72,10 +72,11 @@ class RunoutMeter {
     void learn(const Cut& cut) {
         using std::sqrt;
         const EngagementEstimate<Scalar>& arc = cut.engagement;
-        const bool knows_air = air_revolutions_ > Scalar(0) &&
-                               is_near(cut.turning.speed_rad_s, air_.speed_rad_s, nearly_same_speed);
+        const bool knows_air =
+            air_revolutions_ > Scalar(0) && is_near(cut.turning.speed_rad_s, air_.speed_rad_s, nearly_same_speed);
         const bool knows_arc = arc.immersion_valid && arc.side != CutSide::unknown && arc.radial_immersion > Scalar(0);
-        if (!can_measure_ || !is_usable(cut.turning) || !knows_air || !knows_arc || !(cut.cutting_N > least_cutting_N)) {
+        if (!can_measure_ || !is_usable(cut.turning) || !knows_air || !knows_arc ||
+            !(cut.cutting_N > least_cutting_N)) {
             return;
         }
         const Scalar half_immersion = halved(arc.radial_immersion);  // sin² φ_m
@@ -117,7 +118,7 @@ class RunoutMeter {
     static constexpr Scalar mm_per_um = literal<Scalar>(0.001L);
     static constexpr Scalar same_speed = literal<Scalar>(0.02L);
     static constexpr Scalar nearly_same_speed = literal<Scalar>(0.05L);
-    static constexpr Scalar longest_air{500};                   // revolutions
+    static constexpr Scalar longest_air{500};  // revolutions
     static constexpr Scalar least_cutting_N{1};
     static constexpr Scalar walk_share = literal<Scalar>(0.007L);  // of the stated runout, per root of a revolution
     static constexpr Scalar model_share = literal<Scalar>(0.1L);
@@ -126,12 +127,10 @@ class RunoutMeter {
         const Scalar difference = a > b ? a - b : b - a;
         return difference < share * a;
     }
-    [[nodiscard]] static bool is_usable(const TurningForce<Scalar>& seen) {
-        return seen.revolutions > 0;
-    }
+    [[nodiscard]] static bool is_usable(const TurningForce<Scalar>& seen) { return seen.revolutions > 0; }
 
     Scalar stated_um_;
-    bool can_measure_;  // a single tooth takes all there is
+    bool can_measure_;                  // a single tooth takes all there is
     Scalar share_ = halved(Scalar(1));  // e/|E|
     TurningForce<Scalar> air_{};
     Scalar air_revolutions_{0};

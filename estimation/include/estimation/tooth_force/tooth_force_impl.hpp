@@ -11,9 +11,7 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 ToothForce<Scalar>::ToothForce(const CutEstimatorSettings<Scalar>& settings, const CuttingLaw<Scalar>& law)
-    : teeth_(settings.teeth),
-      cutter_radius_mm_(settings.cutter_radius_mm),
-      feed_exponent_(Scalar(1) + law.p_s) {}
+    : teeth_(settings.teeth), cutter_radius_mm_(settings.cutter_radius_mm), feed_exponent_(Scalar(1) + law.p_s) {}
 
 template <typename Scalar>
 void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table,

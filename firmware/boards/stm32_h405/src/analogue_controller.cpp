@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stm32_h405/analogue_controller.hpp"
 
+#include "firmware/path_speed.hpp"
+#include "firmware/tool_checksum.hpp"
 #include "hal/cia301.hpp"
 #include "hal/tick_watch.hpp"
 
@@ -30,9 +32,12 @@ AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wirin
       sender_(wiring.feed_override),
       program_(wiring.program),
       tool_(program_status::tool_frame_id(wiring.program.id)),
+      position_(program_status::position_frame_id(wiring.program.id)),
       emergencies_(wiring.feed_override.node_id),
       filters_{{{wiring.program.id, hal::largest_standard_can_id},
-                {program_status::tool_frame_id(wiring.program.id), hal::largest_standard_can_id}}} {}
+                {program_status::tool_frame_id(wiring.program.id), hal::largest_standard_can_id},
+                {program_status::position_frame_id(wiring.program.id), hal::largest_standard_can_id},
+                {way_window::way_frame_id(wiring.feed_override.node_id), hal::largest_standard_can_id}}} {}
 
 void AnalogueController::start(const StartReport& report, const firmware::Parameters<float>& parameters,
                                std::uint64_t now_us, const Tools* tools) {
@@ -46,11 +51,19 @@ void AnalogueController::start(const StartReport& report, const firmware::Parame
         output_.state = static_cast<std::uint8_t>(control::CutState::fault);
         return;
     }
+    parameters_ = &parameters;
     tick_.emplace(parameters, tools);
+    if (has_position()) {
+        way_.emplace(parameters, firmware::tool_checksum(parameters.tool), wiring_.feed_override.node_id);
+    }
     largest_ratio_ = parameters.machine.cnc.override_max;
     period_us_ = static_cast<std::uint32_t>(1e6F / parameters.machine.cnc.sample_rate_hz);
     drives_.watch_spindle(parameters.machine.encoder_counts_per_rev);
     watchdog_.start(tools != nullptr ? wiring_.watchdog_with_tools_us : wiring_.watchdog_us);
+}
+
+bool AnalogueController::has_position() const {
+    return program_status::position_frame_id(wiring_.program.id) != 0;
 }
 
 void AnalogueController::report_start(const StartReport& report) {
@@ -83,6 +96,10 @@ void AnalogueController::receive_frames(std::uint64_t now_us) {
     while (can_.receive(frame)) {
         program_.on_frame(frame, now_us);
         tool_.on_frame(frame, now_us);
+        position_.on_frame(frame, now_us);
+        if (way_) {
+            way_->on_frame(frame);
+        }
     }
     if (can_.is_on_bus() && can_.health().bus_offs != bus_offs_) {
         bus_offs_ = can_.health().bus_offs;
@@ -93,7 +110,8 @@ void AnalogueController::receive_frames(std::uint64_t now_us) {
 void AnalogueController::send_frames() {
     hal::CanFrame frame;
     // The boot-up comes before any EMCY, the newest override before both once it runs: the sender's order first.
-    while (can_.has_room() && (sender_.take_frame(frame) || emergencies_.take_frame(frame))) {
+    while (can_.has_room() &&
+           (sender_.take_frame(frame) || emergencies_.take_frame(frame) || (way_ && way_->take_frame(frame)))) {
         can_.send(frame);
     }
 }
@@ -128,18 +146,44 @@ hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
     }
     const bool is_complete = sample_.present == drives_.complete() && !stm32::supply_is_low(pwr_);
     emergencies_.set(Reason::inputs_missing, sample_.present != drives_.complete(), sample_.present);
-    const hal::ProgramStatus program = program_.program(now_us);
+    const hal::ProgramStatus program = program_at(now_us);
     if (program_.take_reset() && is_at_rest()) {
         tick_->reset_fault();
     }
     if (is_complete || was_tool_changed_) {
         complete_us_ = now_us;
     }
-    was_tool_changed_ = is_complete && tick_->follow_tool(tool_.number(now_us), is_at_rest());
+    was_tool_changed_ = false;
+    if (is_complete) {
+        follow_tool(now_us);
+    }
     if (is_complete && !was_tool_changed_) {
-        return tick_->step(sample_, program);
+        return step_on_sample(program);
     }
     return tick_->step_without_sample(seconds(now_us - complete_us_), seconds(period_us_), program);
+}
+
+hal::ProgramStatus AnalogueController::program_at(std::uint64_t now_us) const {
+    hal::ProgramStatus program = program_.program(now_us);
+    const program_status::ProgramPosition position = position_.position(now_us, firmware::path_speed_mm_s(sample_));
+    program.line = position.line;
+    program.distance_to_go_mm = position.distance_to_go_mm;
+    return program;
+}
+
+void AnalogueController::follow_tool(std::uint64_t now_us) {
+    was_tool_changed_ = tick_->follow_tool(tool_.number(now_us), is_at_rest());
+    if (was_tool_changed_ && way_) {
+        way_->set_tool(*parameters_, firmware::tool_checksum(parameters_->tool));
+    }
+}
+
+hal::FeedOverride AnalogueController::step_on_sample(const hal::ProgramStatus& program) {
+    tick_->take(sample_);
+    if (way_ && tick_->is_tool_known()) {
+        way_->look_ahead_of(tick_->of_tool(), program);
+    }
+    return tick_->answer(program);
 }
 
 bool AnalogueController::is_healthy(const hal::FeedOverride& output) const {

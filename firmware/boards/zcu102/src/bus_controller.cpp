@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zcu102/bus_controller.hpp"
 
+#include "firmware/tool_checksum.hpp"
 #include "hal/tick_watch.hpp"
 
 namespace millforce::zcu102 {
@@ -10,6 +11,16 @@ using emergency::Reason;
 namespace {
 constexpr std::uint64_t off_the_bus_us = 100'000;
 constexpr std::uint64_t still_us = 5'000;
+
+firmware::WaySource<float>* way_of(std::optional<firmware::WayOverBus<float>>& way,
+                                   const firmware::CanControllerSettings& settings,
+                                   const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools) {
+    if (tools != nullptr || program_status::position_frame_id(settings.program.id) == 0) {
+        return nullptr;
+    }
+    return &way.emplace(parameters, firmware::tool_checksum(parameters.tool), settings.feed_override.node_id);
+}
+
 }  // namespace
 
 BusController::BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
@@ -17,7 +28,7 @@ BusController::BusController(const Peripherals& peripherals, const firmware::Can
     : can_(peripherals.can),
       watchdog_(peripherals.watchdog, peripherals.errors),
       emergencies_(settings.feed_override.node_id),
-      controller_(settings, parameters, nullptr, tools),
+      controller_(settings, parameters, nullptr, tools, way_of(way_, settings, parameters, tools)),
       largest_ratio_(parameters.machine.cnc.override_max) {}
 
 void BusController::start(const zynqmp::CanBitTiming& timing, hal::ResetCause cause) {

@@ -47,7 +47,8 @@
 /// With a ToolSource the CNC reports which tool is in the spindle (tool_frame.hpp), and the tool's parameters change
 /// with it, at rest (tool_tick.hpp).
 ///
-/// With a WaySource the CNC reports where in its program the tool is (position_frame.hpp), and the tick looks ahead.
+/// With a WaySource the CNC reports where in its program the tool is (position_frame.hpp), and the tick looks ahead. It
+/// may have its map over this bus (way_over_bus.hpp).
 ///
 /// No heap, no operating system. One thread. Cost: that of the tick; some 20 kB of RAM.
 
@@ -75,7 +76,7 @@ class TickListener {
 
 class CanController {
   public:
-    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 5;
+    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 6;
 
     /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of one tool; it
     /// outlives this.
@@ -132,7 +133,6 @@ class CanController {
     void tick_without_sample();
     void finish(const hal::FeedOverride& output, std::uint64_t time_us);
     [[nodiscard]] hal::ProgramStatus program_at(std::uint64_t time_us) const;
-    [[nodiscard]] float path_speed_mm_s() const;
     void reset_fault_where_asked();
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] bool is_any_drive_stopped() const;

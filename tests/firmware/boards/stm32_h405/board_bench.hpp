@@ -95,12 +95,13 @@ class BoardBench {
     }
 
     void tell_tool(std::uint32_t number) {
-        const auto frame = millforce::program_status::encode_tool(
-            number, millforce::program_status::tool_frame_id(millforce::program_status::default_id));
-        can.arrive(frame.id << 21U, frame.length, word(frame, 0), word(frame, 4));
+        tell(millforce::program_status::encode_tool(
+            number, millforce::program_status::tool_frame_id(millforce::program_status::default_id)));
     }
     void tell_program(const millforce::program_status::ProgramStatusFrame& status) {
-        const auto frame = millforce::program_status::encode(status, millforce::program_status::default_id);
+        tell(millforce::program_status::encode(status, millforce::program_status::default_id));
+    }
+    void tell(const millforce::hal::CanFrame& frame) {
         can.arrive(frame.id << 21U, frame.length, word(frame, 0), word(frame, 4));
     }
 

@@ -2,6 +2,7 @@
 #include "zcu102/bus_controller.hpp"
 #include "drivers/zynqmp/fake_can.hpp"
 #include "firmware/ready_tools.hpp"
+#include "firmware/tool_checksum.hpp"
 #include "hal/tick_watch.hpp"
 #include "instructions/machine_and_tool.hpp"
 
@@ -68,6 +69,7 @@ TEST_GROUP(Zcu102Guard) {
     bool drives_answer = true;
     std::uint32_t answered = 0;
     std::optional<hal::CanFrame> newest_override;
+    std::optional<way_window::WayAnswer> newest_answer;
     std::array<std::optional<hal::CanFrame>, emergency::reason_count> emergencies;
     int feeds = 0;
 
@@ -98,6 +100,9 @@ TEST_GROUP(Zcu102Guard) {
             emergencies[frame.data[3]] = frame;
         } else if (frame.id == override_frame::default_id) {
             newest_override = frame;
+        } else if (frame.id == way_window::way_answer_id(override_frame::default_node_id)) {
+            frame.length = way_window::frame_bytes;
+            CHECK(way_window::decode(frame, frame.id, newest_answer.emplace()) == way_window::FrameError::none);
         }
     }
     void run_ms(int duration_ms) {
@@ -125,7 +130,9 @@ TEST_GROUP(Zcu102Guard) {
         }
     }
     void tell_tool(std::uint32_t number) {
-        const hal::CanFrame frame = program_status::encode_tool(number, 0x2FD);
+        tell(program_status::encode_tool(number, 0x2FD));
+    }
+    void tell(const hal::CanFrame& frame) {
         const auto word = [&frame](std::size_t first) {
             std::uint32_t value = 0;
             std::memcpy(&value, frame.data.data() + first, sizeof(value));
@@ -133,6 +140,14 @@ TEST_GROUP(Zcu102Guard) {
         };
         chip.arrive(frame.id << 21U, frame.length, word(0), word(4));
         poll();
+    }
+    void tell(const way_window::WayFrame& frame) {
+        tell(way_window::encode(frame, way_window::way_frame_id(override_frame::default_node_id)));
+    }
+    void begin_a_map_and_ask() {
+        tell(way_window::begin_frame(1, 0, firmware::tool_checksum(parameters.tool)));
+        tell(way_window::WayFrame{9, static_cast<std::uint8_t>(way_window::WayFrameKind::ask), 1, {}});
+        run_ms(1);
     }
     [[nodiscard]] std::uint32_t code_of(emergency::Reason reason) const {
         const auto& frame = emergencies[static_cast<std::size_t>(reason)];
@@ -245,6 +260,15 @@ TEST(Zcu102Guard, a_ratio_beyond_the_limits_is_not_healthy) {
         output.ratio = ratio;
         CHECK_FALSE(hal::is_within_limits(output, 1.5F));
     }
+}
+
+TEST(Zcu102Guard, a_map_over_the_bus_is_taken_for_one_tool) {
+    start(hal::ResetCause::power_on);
+    run_ms(50);
+    begin_a_map_and_ask();
+    CHECK_TRUE(newest_answer.has_value());
+    CHECK_TRUE(newest_answer->state == way_window::WayState::takes);
+    UNSIGNED_LONGS_EQUAL(9, newest_answer->ask);
 }
 
 TEST(Zcu102Bus, the_usual_mapping_and_the_table_s_numbers_make_settings_that_pass) {

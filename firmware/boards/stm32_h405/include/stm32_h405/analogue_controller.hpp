@@ -9,9 +9,11 @@
 #include "firmware/parameter_block.hpp"
 #include "firmware/tool_tick.hpp"
 #include "firmware/tools_in_block.hpp"
+#include "firmware_can/way_over_bus.hpp"
 #include "hal/drive_sample.hpp"
 #include "hal/reset_cause.hpp"
 #include "override_frame/override_sender.hpp"
+#include "program_status/position_frame.hpp"
 #include "program_status/program_status_receiver.hpp"
 #include "program_status/tool_frame.hpp"
 #include "stm32/clock.hpp"
@@ -40,6 +42,9 @@
 /// A change of the tool, at rest, builds its tick: some 0.15 s without a frame, in which the CNC stops the feed by
 /// itself. The tick of the new tool begins with the sample after it.
 ///
+/// Where the CNC reports its position in the program (position_frame.hpp), a sender on the bus may hand over the part
+/// map, a window at a time (way_over_bus.hpp). Without one, nothing is known of the way ahead.
+///
 /// A tick is healthy if its heartbeat went on by one and its ratio is within the limits; nothing else feeds the
 /// watchdog. A missing input is no reason for a reset, which would not bring it back.
 ///
@@ -62,8 +67,8 @@ class AnalogueController {
 
     AnalogueController(const Peripherals& peripherals, const Wiring& wiring);
 
-    /// `parameters` are used where the report says that there are some. With `tools`, which outlive this, the CNC tells
-    /// which of them is in the spindle.
+    /// `parameters` are used where the report says that there are some, and outlive this. With `tools`, which outlive
+    /// this and whose parameters these are, the CNC tells which of them is in the spindle.
     void start(const StartReport& report, const firmware::Parameters<float>& parameters, std::uint64_t now_us,
                const Tools* tools = nullptr);
     /// As often as possible, at least once per sample period.
@@ -93,12 +98,16 @@ class AnalogueController {
 
   private:
     void report_start(const StartReport& report);
+    [[nodiscard]] bool has_position() const;
     void receive_frames(std::uint64_t now_us);
     void send_frames();
     bool send_final_frames(emergency::Reason reason, std::uint32_t detail);
     void run_tick(std::uint64_t now_us);
     [[nodiscard]] bool is_at_rest() const;
     [[nodiscard]] hal::FeedOverride step(std::uint64_t now_us);
+    [[nodiscard]] hal::ProgramStatus program_at(std::uint64_t now_us) const;
+    void follow_tool(std::uint64_t now_us);
+    [[nodiscard]] hal::FeedOverride step_on_sample(const hal::ProgramStatus& program);
     [[nodiscard]] bool is_healthy(const hal::FeedOverride& output) const;
 
     Wiring wiring_;
@@ -109,10 +118,13 @@ class AnalogueController {
     override_frame::OverrideSender sender_;
     program_status::ProgramStatusReceiver program_;
     program_status::ToolReceiver tool_;
+    program_status::PositionReceiver position_;
     emergency::Emergencies emergencies_;
-    std::array<hal::CanFilter, 2> filters_;
+    std::array<hal::CanFilter, 4> filters_;
 
+    const firmware::Parameters<float>* parameters_ = nullptr;
     std::optional<firmware::ToolTickOf<Tick, Tools>> tick_{};
+    std::optional<firmware::WayOverBus<float>> way_{};
     bool was_tool_changed_ = false;  // at the last step
     float largest_ratio_ = 0.0F;
     std::uint32_t period_us_ = 1000;
