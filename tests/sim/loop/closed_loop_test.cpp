@@ -280,3 +280,26 @@ TEST(ClosedLoop, is_the_same_to_the_bit_for_the_same_seed) {
     CHECK(first.time_s == second.time_s);
     CHECK(controlled(scenario_named("interrupted", {1.0, 1.0, 10})).immersion_rms != first.immersion_rms);
 }
+
+TEST(ClosedLoop, the_cuts_that_calibrations_take_are_milled_to_their_end) {
+    for (const char* name : {"standard_cut_x", "standard_cut_y", "unknown_tool", "force_drop_cuts", "air_cuts"}) {
+        const RunFigures figures = controlled(scenario_named(std::string("commissioning/") + name));
+        STRCMP_EQUAL("none", figures.fault.c_str());
+        CHECK(figures.finished);
+    }
+}
+
+TEST(ClosedLoop, a_tool_that_runs_out_by_more_than_its_file_says_is_driven_by_what_is_measured) {
+    Scenario scenario = scenario_named("slot_entry");
+    scenario.cutter.runout_mm = 0.016;  // the file: 6 µm between two teeth; here 23 µm
+    const RunFigures measured = controlled(scenario);
+    CHECK(bounds_hold(measured));
+    CHECK_COMPARE(measured.peak_over_limit, >, 0.8);
+    // And one that runs true is not held back by what the file says.
+    scenario.cutter.runout_mm = 0.0;
+    const double true_s = controlled(scenario).time_s;
+    scenario.parameters.tool.runout_um = 23.0F;
+    const double feared_s = controlled(scenario).time_s;
+    CHECK_COMPARE(true_s, <, feared_s);
+    CHECK_COMPARE(true_s, <, measured.time_s);
+}
