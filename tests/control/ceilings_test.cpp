@@ -199,6 +199,29 @@ TEST(Ceilings, a_cut_that_fades_from_its_begin_shows_no_feed_to_be_safe) {
     check_ratio(ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air()), repeat(controller, in_air(), 2000));
 }
 
+TEST(Ceilings, an_estimate_that_stands_for_many_steps_shows_no_more_than_one) {
+    Controller controller(immediate());
+    Input old = in_contact();
+    old.cut.fresh = false;
+    for (int k = 0; k < 10; ++k) {
+        controller.step(in_contact());
+        repeat(controller, old, 100);
+    }
+    CHECK(controller.state() == CutState::in_cut);
+    check_ratio(ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air()), repeat(controller, in_air(), 2000));
+}
+
+TEST(Ceilings, below_the_cuts_before_the_next_contact_comes_at_the_feed_that_is_told) {
+    Controller controller(immediate());
+    repeat(controller, in_contact(), 2000);
+    const float told = ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air());
+    CHECK_COMPARE(repeat(controller, in_air(), 2000).ratio, >, 1.5F * told);
+    Input lower = in_air();
+    lower.velocity_z_mm_s = -10.0F;
+    repeat(controller, lower, 100);  // 1 mm
+    check_ratio(told, repeat(controller, in_air(), 100));
+}
+
 TEST(Ceilings, behind_a_light_cut_the_tool_waits_for_the_next_wall_at_that_feed) {
     Parameters p = immediate();
     p.exit_travel_mm = 1000.0F;
