@@ -269,3 +269,12 @@ TEST(CutStates, a_hold_of_the_operator_lasts_however_long_spindle_and_axes_stand
     held.feed_hold = true;
     CHECK(repeat(controller, held, 5000).state == CutState::hold);
 }
+
+TEST(CutStates, a_cut_whose_force_is_known_is_not_over_though_spindle_and_axes_stand) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input standing = in_contact();
+    standing.cut.spindle_turning = false;
+    standing.path_speed_mm_s = 0.0F;
+    CHECK(repeat(controller, standing, 5000).state == CutState::in_cut);
+}
