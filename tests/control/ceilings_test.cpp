@@ -131,6 +131,16 @@ TEST(Ceilings, a_step_of_the_depth_that_nobody_announces_stays_within_its_share_
     CHECK(repeat(controller, with_way(input, 1000.0F), 2000).limit == Limit::force);
 }
 
+TEST(Ceilings, where_the_way_ahead_is_known_the_force_may_reach_its_set_point_though_the_depth_may_step) {
+    Parameters p = immediate();
+    p.depth_step_ratio = 2.0F;
+    p.depth_step_share = 1.4F;
+    Controller controller(p);
+    const Output output = repeat(controller, with_way(in_contact(), 1000.0F), 2000);
+    DOUBLES_EQUAL(static_cast<double>(p.setpoint_share * p.tooth_force_limit_N),
+                  static_cast<double>(force_at(output.ratio, in_contact())), 0.1);
+}
+
 TEST(Ceilings, a_step_of_the_depth_that_the_set_point_survives_costs_nothing) {
     Parameters p = immediate();
     p.depth_step_ratio = 1.4F;
@@ -173,6 +183,43 @@ TEST(Ceilings, the_next_contact_may_come_at_the_feed_that_the_cuts_before_have_s
     CHECK(air.state == CutState::air);
     check_ratio(cut.ratio, air);  // a slot of the same depth: the tooth force is in its front
     CHECK(air.limit == Limit::air_feed);
+}
+
+TEST(Ceilings, a_cut_that_fades_from_its_begin_shows_no_feed_to_be_safe) {
+    Controller controller(immediate());
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    Output output;
+    for (int k = 0; k < 100; ++k) {
+        output = controller.step(input);
+        input.cut.section_mm2 *= 0.95F;
+    }
+    CHECK(output.state == CutState::in_cut);
+    CHECK_TRUE(output.fading);
+    check_ratio(ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air()), repeat(controller, in_air(), 2000));
+}
+
+TEST(Ceilings, an_estimate_that_stands_for_many_steps_shows_no_more_than_one) {
+    Controller controller(immediate());
+    Input old = in_contact();
+    old.cut.fresh = false;
+    for (int k = 0; k < 10; ++k) {
+        controller.step(in_contact());
+        repeat(controller, old, 100);
+    }
+    CHECK(controller.state() == CutState::in_cut);
+    check_ratio(ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air()), repeat(controller, in_air(), 2000));
+}
+
+TEST(Ceilings, below_the_cuts_before_the_next_contact_comes_at_the_feed_that_is_told) {
+    Controller controller(immediate());
+    repeat(controller, in_contact(), 2000);
+    const float told = ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air());
+    CHECK_COMPARE(repeat(controller, in_air(), 2000).ratio, >, 1.5F * told);
+    Input lower = in_air();
+    lower.velocity_z_mm_s = -10.0F;
+    repeat(controller, lower, 100);  // 1 mm
+    check_ratio(told, repeat(controller, in_air(), 100));
 }
 
 TEST(Ceilings, behind_a_light_cut_the_tool_waits_for_the_next_wall_at_that_feed) {
@@ -265,6 +312,13 @@ TEST(Ceilings, in_air_without_a_force_the_override_falls_to_its_minimum_unless_t
     }
 }
 
+TEST(Ceilings, without_a_force_the_override_does_not_rise_though_the_spindle_does_not_mill) {
+    Controller controller;
+    Input blind = without_force(in_air());
+    blind.cut.spindle_does_not_mill = true;
+    check_ratio(Parameters{}.override_min, repeat(controller, blind, 2000));
+}
+
 TEST(Ceilings, contact_that_begins_in_a_rapid_ends_its_freedom) {
     Controller controller;
     Input input = in_air();
@@ -281,14 +335,26 @@ TEST(Ceilings, contact_that_begins_in_a_rapid_ends_its_freedom) {
 TEST(Ceilings, a_rapid_at_the_feed_of_a_block_is_none_where_the_CNC_tells_the_feed_of_rapids) {
     Input stuck = in_air();
     stuck.rapid = true;
-    for (const bool tells : {false, true}) {
+    for (const float told_mm_s : {0.0F, beyond_all, 400.0F}) {
         Controller controller;
         Input rapid = stuck;
-        rapid.programmed_feed_mm_s = tells ? 400.0F : 0.0F;
+        rapid.programmed_feed_mm_s = told_mm_s;
         controller.step(in_air());
         repeat(controller, rapid, 2000);
+        const bool tells = told_mm_s == 400.0F;
         check_ratio(tells ? ratio_of(0.05F, in_air()) : 1.0F, repeat(controller, stuck, 2000));
     }
+}
+
+TEST(Ceilings, a_rapid_without_a_feed_gives_1_though_the_CNC_has_told_the_feed_of_others) {
+    Controller controller;
+    Input rapid = in_air();
+    rapid.rapid = true;
+    rapid.programmed_feed_mm_s = 400.0F;
+    controller.step(rapid);
+    check_ratio(ratio_of(0.05F, in_air()), repeat(controller, in_air(), 2000));
+    rapid.programmed_feed_mm_s = 0.0F;
+    check_ratio(1.0F, repeat(controller, rapid, 2000));
 }
 
 TEST(Ceilings, axes_that_are_faster_than_the_programmed_feed_allows_raise_nothing) {
@@ -434,6 +500,20 @@ TEST(Ceilings, the_lowest_lies_within_the_range_of_the_override) {
     const Ceilings<float> ceilings;
     const auto lowest = ceilings.lowest(Parameters{}, input, {CutState::air, false, 0.5F, 1.0F});
     DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_min), static_cast<double>(lowest.override_ratio), 0.0);
+}
+
+TEST(Ceilings, a_cut_goes_on_behind_a_feed_hold_as_fast_as_it_was_though_it_may_not_begin_so_fast) {
+    Controller controller;
+    Input input = in_contact();
+    input.cut.turn_ratio = 5.0F;  // a slot of that depth is too heavy
+    const float before = repeat(controller, input, 2000).ratio;
+    CHECK_COMPARE(before, >, 1.5F * ratio_of(Parameters{}.entry_feed_per_tooth_mm, input));
+    Input held = input;
+    held.feed_hold = true;
+    CHECK(repeat(controller, held, 100).state == CutState::hold);
+    const Output released = controller.step(input);
+    CHECK(released.state == CutState::entry);
+    check_ratio(before, released);
 }
 
 TEST(Ceilings, behind_a_gap_the_feed_may_rise_to_that_of_an_entry) {

@@ -127,6 +127,28 @@ TEST(ContactFeed, is_unknown_lower_than_the_tool_has_cut_and_known_again_after_a
     CHECK_COMPARE(feed.feed_per_tooth_mm(), <, at_first_mm);
 }
 
+TEST(ContactFeed, counts_depth_from_the_lowest_cut_wherever_the_first_and_the_last_were) {
+    ContactFeed<float> feed;
+    move_by(feed, 5.0F);
+    learn(feed, in_contact());
+    move_by(feed, -0.5F);
+    DOUBLES_EQUAL(0.0, static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+    learn(feed, in_contact());
+    move_by(feed, 3.0F);
+    learn(feed, in_contact());
+    move_by(feed, -3.0F);
+    CHECK(feed.feed_per_tooth_mm() > 0.0F);
+}
+
+TEST(ContactFeed, is_not_lost_by_the_drift_of_a_height_at_rest) {
+    ContactFeed<float> feed;
+    learn(feed, in_contact());
+    Input drifting = in_air();
+    drifting.velocity_z_mm_s = -0.04F;
+    feed.follow(drifting, 60.0F);
+    CHECK(feed.feed_per_tooth_mm() > 0.0F);
+}
+
 TEST(ContactFeed, is_forgotten_where_the_spindle_stands_or_the_motion_is_unseen) {
     for (const bool stands : {false, true}) {
         ContactFeed<float> feed;

@@ -48,6 +48,18 @@ TEST(CutStates, is_in_cut_after_the_entry_revolutions_and_the_entry_travel_both)
     CHECK(repeat(by_travel, in_contact(), 4).state == CutState::in_cut);
 }
 
+TEST(CutStates, a_speed_that_is_not_a_number_for_a_step_keeps_the_tool_from_no_state) {
+    for (const float speed_mm_s : {not_a_number, beyond_all}) {
+        Controller controller;
+        Input once = in_contact();
+        repeat(controller, once, 2);
+        once.path_speed_mm_s = speed_mm_s;
+        CHECK(controller.step(once).state == CutState::entry);
+        CHECK(repeat(controller, in_contact(), 240).state == CutState::entry);
+        CHECK(repeat(controller, in_contact(), 20).state == CutState::in_cut);
+    }
+}
+
 TEST(CutStates, counts_revolutions_only_by_new_tooth_periods) {
     Parameters p;
     p.entry_travel_mm = 0.0F;
@@ -256,4 +268,13 @@ TEST(CutStates, a_hold_of_the_operator_lasts_however_long_spindle_and_axes_stand
     held.path_speed_mm_s = 0.0F;
     held.feed_hold = true;
     CHECK(repeat(controller, held, 5000).state == CutState::hold);
+}
+
+TEST(CutStates, a_cut_whose_force_is_known_is_not_over_though_spindle_and_axes_stand) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input standing = in_contact();
+    standing.cut.spindle_turning = false;
+    standing.path_speed_mm_s = 0.0F;
+    CHECK(repeat(controller, standing, 5000).state == CutState::in_cut);
 }

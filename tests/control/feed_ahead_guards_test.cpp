@@ -110,13 +110,17 @@ TEST(FeedAheadGuards, an_estimate_without_a_window_expects_the_force_of_its_plac
 }
 
 TEST(FeedAheadGuards, in_mapped_air_no_direction_is_expected) {
-    Ahead ahead = with(wall);
-    Ahead::Step now = estimate_at(10.0F, 100.0F);
+    Ahead ahead = with({cut_from(0.0F), air_from(20.0F), air_from(60.0F)});
+    Ahead::Step now = estimate_at(10.0F, 1000.0F);
+    now.travel_mm = 1.0F;
+    now.window_mm = 1.0F;
+    (void)ahead.step(now);
+    (void)ahead.step(now);  // a third that disagrees would refute the map
+    now.position_mm = 30.0F;
+    now.tangential_N = 100.0F;
     now.tangential_sd_N = 50.0F;
     now.feed_force_N = 90.0F;
     now.feed_force_sd_N = 1.0F;
-    now.travel_mm = 1.0F;
-    now.window_mm = 1.0F;
     (void)ahead.step(now);
     CHECK_FALSE(ahead.is_refuted());
 }
@@ -229,4 +233,118 @@ TEST(FeedAheadGuards, refuses_a_first_stretch_that_begins_nowhere) {
         Ahead ahead = with({});
         CHECK_FALSE(ahead.add(cut_from(begin_mm)));
     }
+}
+
+TEST(FeedAheadGuards, refuses_a_stretch_whose_least_force_is_none_of_its_force) {
+    Ahead ahead = with({cut_from(0.0F)});
+    for (const float share : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN()}) {
+        Stretch<float> stretch = cut_from(1.0F);
+        stretch.least_share = share;
+        CHECK_FALSE(ahead.add(stretch));
+    }
+}
+
+TEST(FeedAheadGuards, an_estimate_whose_window_is_not_known_confirms_nothing) {
+    for (const float window_mm : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+        Ahead::Step now = estimate_at(10.0F, 300.0F);
+        now.window_mm = window_mm;
+        now.travel_mm = 3.0F;
+        CHECK_FALSE(ahead.step(now).known);
+    }
+}
+
+TEST(FeedAheadGuards, an_estimate_confirms_no_more_than_its_window) {
+    Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
+    for (float s_mm = 1.0F; s_mm < 10.0F; s_mm += step_mm) {
+        Ahead::Step old = estimate_at(s_mm, 300.0F);
+        old.fresh = false;
+        (void)ahead.step(old);
+    }
+    CHECK_FALSE(ahead.step(estimate_at(10.1F, 300.0F)).known);
+}
+
+TEST(FeedAheadGuards, two_estimates_that_disagree_over_a_long_way_refute_nothing_nor_many_over_a_short_one) {
+    Ahead::Step wrong = estimate_at(10.0F, 1000.0F);
+    wrong.window_mm = 1.0F;
+    wrong.travel_mm = 1.0F;
+    Ahead in_a_rapid = with({cut_from(0.0F), air_from(60.0F)});
+    (void)in_a_rapid.step(wrong);
+    (void)in_a_rapid.step(wrong);
+    CHECK_FALSE(in_a_rapid.is_refuted());
+    (void)in_a_rapid.step(wrong);
+    CHECK_TRUE(in_a_rapid.is_refuted());
+    wrong.travel_mm = 0.01F;
+    Ahead slow = with({cut_from(0.0F), air_from(60.0F)});
+    for (int k = 0; k < 40; ++k) {
+        (void)slow.step(wrong);
+    }
+    CHECK_FALSE(slow.is_refuted());
+}
+
+TEST(FeedAheadGuards, in_mapped_air_a_force_below_contact_refutes_nothing_however_well_it_is_known) {
+    Ahead ahead = with(wall);
+    for (float s_mm = 5.0F; s_mm < 15.0F; s_mm += step_mm) {
+        Ahead::Step now = estimate_at(s_mm, 15.0F);
+        now.tangential_sd_N = 0.1F;
+        (void)ahead.step(now);
+    }
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+// ---- Behind what the map does not know
+// ------------------------------------------------------------------------------
+
+namespace {
+
+Stretch<float> unknown_from(float begin_mm) {
+    Stretch<float> stretch = cut_from(begin_mm);
+    stretch.is_known = false;
+    return stretch;
+}
+
+Ahead with_a_cut_from_20_mm_behind(const Stretch<float>& first) {
+    return with({first, cut_from(20.0F), air_from(60.0F)});
+}
+
+}  // namespace
+
+TEST(FeedAheadGuards, a_cut_that_the_map_does_not_know_teaches_nothing_of_the_material) {
+    Ahead ahead = with_a_cut_from_20_mm_behind(unknown_from(0.0F));
+    (void)cut(ahead, 1.0F, 19.0F, 300.0F);
+    DOUBLES_EQUAL(0.0, static_cast<double>(ahead.hardness()), 0.0);
+}
+
+TEST(FeedAheadGuards, where_the_window_reaches_into_what_is_not_known_any_force_agrees) {
+    Ahead ahead = with_a_cut_from_20_mm_behind(unknown_from(0.0F));
+    for (int k = 0; k < 10; ++k) {
+        (void)ahead.step(estimate_at(20.2F, 900.0F));
+    }
+    CHECK_FALSE(ahead.is_refuted());
+}
+
+TEST(FeedAheadGuards, where_the_window_reaches_into_an_entry_neither_direction_nor_tooth_are_known) {
+    Stretch<float> entry = cut_from(0.0F);
+    entry.least_share = 0.0F;
+    Ahead ahead = with_a_cut_from_20_mm_behind(entry);
+    Ahead::Step sideways = estimate_at(20.2F, 250.0F);
+    sideways.feed_force_N = -250.0F;
+    WayAhead<float> way;
+    for (int k = 0; k < 10; ++k) {
+        way = ahead.step(sideways);
+    }
+    CHECK_FALSE(ahead.is_refuted());
+    DOUBLES_EQUAL(0.0, static_cast<double>(way.tooth_per_tangential), 0.0);
+    CHECK_COMPARE(ahead.step(estimate_at(20.6F, 300.0F)).tooth_per_tangential, >, 0.0F);
+}
+
+TEST(FeedAheadGuards, is_not_known_as_near_to_what_is_not_known_as_the_map_may_be_off) {
+    FeedAheadSettings<float> settings = exact();
+    settings.farthest_off_mm = 2.0F;
+    Ahead ahead = with({cut_from(0.0F), unknown_from(10.0F), cut_from(20.0F), air_from(60.0F)}, settings);
+    CHECK_TRUE(cut(ahead, 1.0F, 7.9F, 300.0F).known);
+    for (const float position_mm : {8.1F, 15.0F, 21.9F}) {
+        CHECK_FALSE(ahead.step(at(position_mm)).known);
+    }
+    CHECK_TRUE(ahead.step(at(22.1F)).known);
 }

@@ -69,6 +69,10 @@ TEST(CarriedImmersion, forgets_the_split_where_drops_were_not_valid) {
     carried.follow_section(12.0F);
     carried.take(unknown, immersion(0.6F));
     DOUBLES_EQUAL(1.0 + 0.1 * 0.5, carried_by_a_tenth(carried, 0.6F, 12.0F), 1e-5);
+    carried = after_a_growth_to(12.0F, 0.6F);
+    carried.follow_section(14.4F);
+    carried.take(immersion(0.72F), {false, 0.6F, 0.0F});
+    DOUBLES_EQUAL(1.0 + 0.1 * 0.5, carried_by_a_tenth(carried, 0.72F, 14.4F), 1e-5);
 }
 
 TEST(CarriedImmersion, is_of_no_use_after_a_growth_by_half) {

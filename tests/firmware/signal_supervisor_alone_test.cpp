@@ -235,6 +235,17 @@ TEST(SignalSupervisorAlone, finds_a_force_that_vanishes_in_the_cut_alone) {
     CHECK(of_change(fallen_force(), 8, CutState::air) == Fault::none);
 }
 
+TEST(SignalSupervisorAlone, takes_no_force_for_sudden_while_a_cut_begins) {
+    Estimate jump = one_tooth();
+    jump.tooth_tangential_N = known_N(250.0F);
+    jump.tooth_change.tangential_N = known_N(0.0F);
+    jump.tooth_change.axis_N[0] = known_N(2000.0F);
+    for (const Estimate& change : {jump, fallen_force()}) {
+        CHECK(of_change(change, 8, CutState::in_cut) != Fault::none);
+        CHECK(of_change(change, 8, CutState::entry) == Fault::none);
+    }
+}
+
 TEST(SignalSupervisorAlone, does_not_judge_a_force_until_the_feed_was_steady_for_a_revolution_and_three_teeth) {
     CHECK(of_change(fallen_force(), 6) == Fault::none);
     CHECK(of_change(fallen_force(), 7) == Fault::force_vanished);
@@ -351,7 +362,7 @@ TEST(SignalSupervisorAlone, compares_a_jump_with_the_larger_of_the_torques_befor
         Estimate e = one_tooth();
         e.tooth_tangential_N = known_N(torque.now_N);
         e.tooth_change.tangential_N = known_N(torque.change_N);
-        e.tooth_change.axis_N[0] = known_N(200.0F);  // 0.45 · 2 · 250 N = 225 N may be
+        e.tooth_change.axis_N[0] = known_N(250.0F);  // 0.45 · 2 · 250 N may be, and 67 N of inertia
         CHECK(of_change(e) == Fault::none);
     }
 }

@@ -40,7 +40,8 @@ class FeedController {
     [[nodiscard]] CutState state() const { return states_.state(); }
     [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
-    /// Leaves a latched fault. Only at standstill: the caller has seen the spindle stop or the operator acknowledge.
+    /// Leaves a latched fault; parameters that are refused stay so. Only at standstill: the caller has seen the spindle
+    /// stop or the operator acknowledge.
     void reset();
 
     ControlOutput<Scalar> step(const ControlInput<Scalar>& input);

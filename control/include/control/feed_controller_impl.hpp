@@ -51,9 +51,7 @@ FeedController<Scalar>::FeedController(const Parameters& parameters)
 
 template <typename Scalar>
 void FeedController<Scalar>::reset() {
-    if (states_.fault() != Fault::bad_configuration) {
-        *this = FeedController(parameters_);
-    }
+    *this = FeedController(parameters_);  // refused parameters have been left with a range that is refused as well
 }
 
 template <typename Scalar>
