@@ -95,6 +95,21 @@ TEST(RevolutionHarmonic, less_than_five_samples_say_nothing) {
     CHECK_EQUAL(0, spindle.turn_for(harmonic, 50).revolutions);
 }
 
+TEST(RevolutionHarmonic, a_revolution_in_which_the_spindle_stood_does_not_count) {
+    Spindle spindle;
+    Harmonic harmonic(8192);
+    CHECK_COMPARE(spindle.turn_for(harmonic, 3).revolutions, >=, 3);
+    const double rev = spindle.last_rev - std::floor(spindle.last_rev);
+    for (int k = 0; k < 50; ++k) {
+        harmonic.add(1e-3F, 0.0F, static_cast<float>(rev), 5.0F);
+    }
+    while (spindle.last_rev - std::floor(spindle.last_rev) >= rev) {  // to the end of this revolution
+        spindle.sample(harmonic);
+    }
+    CHECK_EQUAL(0, harmonic.take().revolutions);
+    CHECK_COMPARE(spindle.turn_for(harmonic, 3).revolutions, >=, 3);
+}
+
 TEST(RevolutionHarmonic, states_how_far_an_encoder_of_whole_counts_is_off) {
     for (const double samples_per_rev : {7.31, 18.1}) {
         Spindle spindle{.samples_per_rev = samples_per_rev, .time = {}, .counts_per_rev = 512.0};

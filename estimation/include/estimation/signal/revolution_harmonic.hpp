@@ -18,7 +18,8 @@
 ///
 /// Current and angle are taken as linear in time between two samples, and what that takes from a sine is given back.
 ///
-/// Valid: five samples a revolution or more; a revolution with fewer does not count. Cost: a sine and a cosine a
+/// Valid: five samples a revolution or more, and a speed that varies by less than a tenth within it; a revolution
+/// without does not count. Cost: a sine and a cosine a
 /// sample, three divisions a revolution. No heap. Not thread-safe.
 
 namespace millforce::estimation {
@@ -77,6 +78,7 @@ class RevolutionHarmonic {
   private:
     static constexpr int longest = 1000;
     static constexpr Scalar fewest_samples{5};
+    static constexpr Scalar largest_time = literal<Scalar>(0.1L);
 
     struct Part {
         Scalar duration_s{0};
@@ -118,10 +120,14 @@ class RevolutionHarmonic {
         // A line between samples leaves sinc²(1/n) of a sine.
         constexpr Scalar third_of_pi2 = literal<Scalar>(3.28986813369645287L);
         const Scalar given_back = Scalar(2) + Scalar(2) * third_of_pi2 / square(samples);
+        const Phasor<Scalar> time = ended.time_s * (given_back / ended.duration_s);
+        if (squared_length(time) > square(largest_time)) {
+            return;
+        }
         mean_.revolutions = mean_.revolutions < longest ? mean_.revolutions + 1 : longest;
         const Scalar share = Scalar(1) / Scalar(mean_.revolutions);
         mean_.current_A += (ended.current_A * given_back - mean_.current_A) * share;
-        mean_.time += (ended.time_s * (given_back / ended.duration_s) - mean_.time) * share;
+        mean_.time += (time - mean_.time) * share;
         // A count's error has the variance 1/12, and each of two components half of the mean of n.
         constexpr Scalar sixth = literal<Scalar>(1.0L / 6.0L);
         mean_.time_sd = count_rad_ * sqrt(sixth / samples);
