@@ -115,7 +115,7 @@ PreparedPart prepare(const std::filesystem::path& folder, const BenchPart& part)
         prepared.on_machine[static_cast<std::size_t>(machine)] = read_bench_part(folder, part, machine);
     }
     const Scenario& scenario = drawn(prepared, BenchMachine::currents);
-    prepared.map = preview(scenario);
+    prepared.map = preview_within(scenario, largest_stock_offset_mm);
     prepared.safe_ratio = safe_constant_override(scenario);
     return prepared;
 }

@@ -8,13 +8,6 @@ namespace millforce::sim {
 
 namespace {
 
-void move_by(StockBox& box, const Disturbance& d) {
-    box.min_x_mm += d.offset_x_mm;
-    box.max_x_mm += d.offset_x_mm;
-    box.min_y_mm += d.offset_y_mm;
-    box.max_y_mm += d.offset_y_mm;
-}
-
 void raise(double& top_mm, double deepest_mm, double oversize) {
     if (top_mm > -deepest_mm + 1e-9) {
         top_mm += oversize * deepest_mm;
@@ -37,8 +30,8 @@ Disturbance drawn_disturbance(std::uint64_t seed) {
     d.runout_angle_rad = within(0.0, 2.0 * std::numbers::pi);
     d.current_noise_share = within(0.003, 0.03);
     d.override_latency_s = within(0.010, 0.100);
-    d.offset_x_mm = within(-1.0, 1.0);
-    d.offset_y_mm = within(-1.0, 1.0);
+    d.offset_x_mm = within(-largest_stock_offset_mm, largest_stock_offset_mm);
+    d.offset_y_mm = within(-largest_stock_offset_mm, largest_stock_offset_mm);
     d.oversize = within(0.0, 0.1);
     return d;
 }
@@ -53,17 +46,12 @@ Scenario disturbed(const Scenario& scenario, const Disturbance& d, double deepes
     result.cutter.runout_angle_rad = d.runout_angle_rad;
     result.parameters.machine.cnc.override_latency_s = static_cast<float>(d.override_latency_s);
     StockSettings& stock = result.stock;
-    move_by(stock.block, d);
+    stock.move_by(d.offset_x_mm, d.offset_y_mm);
     raise(stock.block.top_start_mm, deepest_mm, d.oversize);
     raise(stock.block.top_end_mm, deepest_mm, d.oversize);
     for (StockBox& box : stock.boxes) {
-        move_by(box, d);
         raise(box.top_start_mm, deepest_mm, d.oversize);
         raise(box.top_end_mm, deepest_mm, d.oversize);
-    }
-    for (StockCylinder& hole : stock.drilled) {
-        hole.x_mm += d.offset_x_mm;
-        hole.y_mm += d.offset_y_mm;
     }
     return result;
 }

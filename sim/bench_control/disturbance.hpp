@@ -7,6 +7,9 @@
 
 namespace millforce::sim {
 
+/// By which a blank may lie off, in x and in y. A map is told so much.
+inline constexpr double largest_stock_offset_mm = 1.0;
+
 /// How one workpiece on one machine differs from what was drawn and calibrated. A rival and our own tick are told none
 /// of it but the latency, which is measured when a machine is put into service.
 struct Disturbance {

@@ -23,6 +23,7 @@ struct PreviewOptions {
     std::string stock;
     std::string tool;
     std::string output;
+    double stock_tolerance_mm = 0.0;
     Interpreter interpreter = Interpreter::automatic;
 };
 
@@ -70,7 +71,7 @@ int write_preview(const PreviewOptions& options) {
     host::PartMapFile file;
     file.origin = host::origin_of(scenario.program_file, std::filesystem::path(scenario.tool_file).stem().string(),
                                   scenario.parameters.tool);
-    file.map = preview(scenario);
+    file.map = preview_within(scenario, options.stock_tolerance_mm);
     host::write_part_map(options.output, file);
     const Summary summary = summary_of(file.map);
     fmt::print("{}: {:.0f} mm of path, {:.0f} mm of it in the cut, at most {:.2f} R wide and {:.2f} mm deep\n",
@@ -97,6 +98,12 @@ void add_preview(host::Command& program) {
     command.option("--stock", options->stock, "TOML file with a table [stock]").value_name("STOCK.toml");
     command.option("--tool", options->tool, "Tool file").value_name("TOOL.toml");
     command.option("-o,--output", options->output, "Part map to write").required().value_name("PART.map");
+    command
+        .option("--stock-tolerance", options->stock_tolerance_mm,
+                "By how much the blank may lie off in x and in y, in mm; the map is for all places within")
+        .value_name("MM")
+        .within(0.0, 10.0)
+        .shows_default();
     command.choice<Interpreter>(
         "--interpreter", options->interpreter,
         "Reader of the part program: own, LinuxCNC's rs274, or auto (own, then rs274)",

@@ -27,6 +27,13 @@ StockBox read_box(Table& table) {
     return box;
 }
 
+void move_box(StockBox& box, double x_mm, double y_mm) {
+    box.min_x_mm += x_mm;
+    box.max_x_mm += x_mm;
+    box.min_y_mm += y_mm;
+    box.max_y_mm += y_mm;
+}
+
 void read_stock(Table& root, StockSettings& stock) {
     Table table = root.table("stock");
     stock.block = read_box(table);
@@ -180,6 +187,17 @@ void tilt(CuttingCoefficients& k, const PlantDeviation& deviation) {
 }
 
 }  // namespace
+
+void StockSettings::move_by(double x_mm, double y_mm) {
+    move_box(block, x_mm, y_mm);
+    for (StockBox& box : boxes) {
+        move_box(box, x_mm, y_mm);
+    }
+    for (StockCylinder& hole : drilled) {
+        hole.x_mm += x_mm;
+        hole.y_mm += y_mm;
+    }
+}
 
 Scenario read_scenario(const std::string& path) {
     host::TomlFile file = host::TomlFile::open(path);

@@ -37,6 +37,9 @@ struct StockSettings {
     double start_x_mm = 0.0;
     double start_y_mm = 0.0;
     double start_z_mm = 50.0;
+
+    /// The blank with all that is on it and in it lies elsewhere.
+    void move_by(double x_mm, double y_mm);
 };
 
 struct ProfilePoint {

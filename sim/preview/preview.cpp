@@ -21,7 +21,57 @@ std::vector<host::EngagedArc> arcs_in(const EngagementMap& engagement) {
     return arcs;
 }
 
+/// Across the feed, in units of the radius, times the depth.
+double section_of(const std::vector<host::EngagedArc>& cut) {
+    double section = 0.0;
+    for (const host::EngagedArc& arc : cut) {
+        section += arc.axial_depth_mm * (std::cos(arc.entry_rad) - std::cos(arc.exit_rad));
+    }
+    return section;
+}
+
+/// What the controller takes for the same cut in another steel.
+bool is_alike(const std::vector<host::EngagedArc>& drawn, const std::vector<host::EngagedArc>& shifted) {
+    constexpr double alike_rad = 0.3;
+    constexpr double smallest_share = 0.6;
+    constexpr double largest_share = 1.5;
+    const double share = section_of(shifted) / section_of(drawn);
+    return (drawn.empty() && shifted.empty()) ||
+           (share > smallest_share && share < largest_share &&
+            std::ranges::equal(drawn, shifted, [](const host::EngagedArc& a, const host::EngagedArc& b) {
+                return std::abs(a.entry_rad - b.entry_rad) < alike_rad && std::abs(a.exit_rad - b.exit_rad) < alike_rad;
+            }));
+}
+
+void take_in(host::PartMap& map, const host::PartMap& drawn, const host::PartMap& shifted) {
+    for (std::size_t k = 0; k < map.size(); ++k) {
+        if (is_alike(drawn[k].cut, shifted[k].cut)) {
+            continue;
+        }
+        map[k].known = host::Known::at_most;
+        if (section_of(shifted[k].cut) > section_of(map[k].cut)) {
+            map[k].cut = shifted[k].cut;
+        }
+    }
+}
+
 }  // namespace
+
+host::PartMap preview_within(const Scenario& scenario, double stock_tolerance_mm, double step_mm) {
+    const host::PartMap drawn = preview(scenario, step_mm);
+    host::PartMap map = drawn;
+    if (!(stock_tolerance_mm > 0.0) || !scenario.has_program()) {
+        return map;
+    }
+    for (const double x_sign : {-1.0, 1.0}) {
+        for (const double y_sign : {-1.0, 1.0}) {
+            Scenario shifted = scenario;
+            shifted.stock.move_by(x_sign * stock_tolerance_mm, y_sign * stock_tolerance_mm);
+            take_in(map, drawn, preview(shifted, step_mm));
+        }
+    }
+    return map;
+}
 
 host::PartMap preview(const Scenario& scenario, double step_mm) {
     return preview(scenario, step_mm, [](const host::MapPlace&, const EngagementMap&) {});

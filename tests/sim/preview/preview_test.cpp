@@ -17,6 +17,7 @@
 
 using namespace millforce::sim;
 using namespace millforce::test;
+using millforce::host::Known;
 using millforce::host::MapPlace;
 using millforce::host::PartMap;
 using millforce::host::stretches_of;
@@ -105,6 +106,39 @@ TEST(Preview, places_are_in_the_order_of_the_path_and_end_with_the_program_in_ai
     const PartMap map = preview(scenario_named("interrupted"));
     CHECK_TRUE(std::ranges::is_sorted(map, {}, &MapPlace::path_mm));
     CHECK_TRUE(map.back().cut.empty());
+}
+
+TEST(Preview, a_blank_that_may_lie_off_is_known_at_most_where_that_matters) {
+    const Scenario scenario = scenario_named("slot_entry");
+    const PartMap drawn = preview(scenario);
+    const PartMap map = preview_within(scenario, 1.0);
+    CHECK_EQUAL(drawn.size(), map.size());
+    const double block_mm = approach_mm + 8.0;
+    // It may begin a millimetre sooner; within, the slot is the slot.
+    CHECK_TRUE(place_at(drawn, block_mm - 5.3).cut.empty());
+    CHECK_FALSE(place_at(map, block_mm - 5.3).cut.empty());
+    CHECK_TRUE(place_at(map, block_mm - 5.3).known == Known::at_most);
+    CHECK_TRUE(place_at(map, block_mm - 6.3).cut.empty());
+    check_arc(0.0, pi, 5.0, place_at(map, block_mm + 30.0));
+    CHECK_TRUE(place_at(map, block_mm + 30.0).known == Known::cut);
+    CHECK_TRUE(std::ranges::equal(preview_within(scenario, 0.0), drawn, [](const MapPlace& a, const MapPlace& b) {
+        return a.known == b.known && a.cut == b.cut;
+    }));
+}
+
+TEST(Preview, a_blank_within_its_tolerance_does_not_refute_the_map) {
+    for (const char* name : {"slot_entry", "zigzag", "interrupted"}) {
+        const Scenario drawn = scenario_named(name);
+        const PartMap map = preview_within(drawn, 1.0);
+        for (const double y_mm : {-1.0, 1.0}) {
+            Scenario scenario = drawn;
+            scenario.stock.move_by(0.8, y_mm);
+            const Run run = with_map(scenario, map);
+            CHECK_FALSE(run.is_refuted);
+            CHECK_COMPARE(run.figures.peak_over_limit, <=, 1.05);
+            CHECK_COMPARE(run.figures.time_s, <, 1.05 * blind(scenario).time_s);
+        }
+    }
 }
 
 // ---- The map as the controller takes it
