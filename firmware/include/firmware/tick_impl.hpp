@@ -347,6 +347,7 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
         cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
     }
     cut.tooth_periods = Scalar(e.tooth_periods);
+    // Of the tooth that stands out: what runout adds to its chip does not fall with the feed.
     cut.cutting_share = e.cutting_share / e.runout_factor;
     cut.surge_ratio = e.surge.ratio;
     cut.surge_cutting_share = e.surge.cutting_share;

@@ -9,7 +9,7 @@ namespace millforce::estimation {
 /// The peak force of one tooth from the mean tangential force, with its deviation or its bound; what it would be at
 /// another immersion; and how it grows.
 ///
-///   F_tooth = F_at τ (1 + e/f_z)^m       τ: engagement_peaks.hpp, e: runout, F ∝ f^m
+///   F_tooth = F_at τ [1 − c + c (1 + e/f_z)^(1+p_s)]     τ: engagement_peaks.hpp, c: cutting share, e: runout
 ///
 /// Cost: three exponentials and two logarithms. Not thread-safe. Bodies: tooth_force_impl.hpp.
 template <typename Scalar>
@@ -33,7 +33,7 @@ class ToothForce {
 
     static Scalar follow_growth(CutEstimate<Scalar>& e);
     void estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const;
-    [[nodiscard]] Scalar runout_factor(Scalar runout_mm, Scalar feed_per_tooth_mm) const;
+    [[nodiscard]] Scalar runout_factor(const CutEstimate<Scalar>& e) const;
     [[nodiscard]] static typename CutEstimate<Scalar>::Change change_to(const typename Table::Forces& forces_then,
                                                                         Scalar factor, Scalar tooth_N_per_mm_now);
 

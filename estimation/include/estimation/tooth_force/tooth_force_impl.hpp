@@ -29,7 +29,7 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
         return;
     }
     const Scalar newest_N = follow_growth(e);
-    e.runout_factor = runout_factor(runout_mm, e.feed_per_tooth_mm);
+    e.runout_factor = runout_factor(e);
     estimate_tooth_force(e, peaks.factors(), newest_N);
     if (!has_model) {
         return;
@@ -102,16 +102,15 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
 
 /// The tooth with the largest radius takes (f_z + e) of chip where the mean takes f_z.
 template <typename Scalar>
-Scalar ToothForce<Scalar>::runout_factor(Scalar runout_mm, Scalar feed_per_tooth_mm) const {
+Scalar ToothForce<Scalar>::runout_factor(const CutEstimate<Scalar>& e) const {
     using elementary::exp;
     using elementary::log;
-    if (!(runout_mm > Scalar(0)) || !(feed_per_tooth_mm > Scalar(0))) {
+    if (!(e.runout_mm > Scalar(0)) || !(e.feed_per_tooth_mm > Scalar(0))) {
         return Scalar(1);
     }
     // One tooth cannot take more than the chips of all teeth together.
-    const Scalar chip = clamp(Scalar(1) + runout_mm / feed_per_tooth_mm, Scalar(1), teeth_);
-    const Scalar cutting_share = force_exponent_ / feed_exponent_;
-    return Scalar(1) + cutting_share * (exp(feed_exponent_ * log(chip)) - Scalar(1));
+    const Scalar chip = clamp(Scalar(1) + e.runout_mm / e.feed_per_tooth_mm, Scalar(1), teeth_);
+    return Scalar(1) + e.cutting_share * (exp(e.feed_exponent * log(chip)) - Scalar(1));
 }
 
 template <typename Scalar>
