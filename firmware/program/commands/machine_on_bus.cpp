@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "commands/can_interface.hpp"
 #include "daemon/can_daemon.hpp"
 #include "daemon/journal.hpp"
 #include "daemon/line_printer.hpp"
@@ -24,14 +25,6 @@ namespace millforce::host {
 namespace {
 
 using namespace std::chrono_literals;
-
-socketcan::CanSocketSettings settings_of(const std::string& interface) {
-    socketcan::CanSocketSettings settings;
-    if (!settings.set_interface(interface)) {
-        throw InputError(fmt::format("'{}': expected a CAN interface of at most 15 characters, e.g. can0", interface));
-    }
-    return settings;
-}
 
 /// Samples of the daemon's ticks, for the recorder.
 class Samples final : public firmware::TickListener {
@@ -101,11 +94,11 @@ class Ending {
 
 MachineOnInterface::MachineOnInterface(const std::string& interface, const BusPace& pace)
     : interface_(interface), pace_(pace) {
-    settings_of(interface);
+    static_cast<void>(socket_on(interface));  // throws
 }
 
 std::vector<FoundDrive> MachineOnInterface::find_drives() {
-    socketcan::CanSocket socket(settings_of(interface_));
+    socketcan::CanSocket socket(socket_on(interface_));
     socket.poll(socketcan::monotonic_us());
     if (!socket.is_up()) {
         throw InputError(fmt::format("{}: the interface is not there or not up; expected 'ip link set {} up'",
@@ -145,7 +138,7 @@ bool MachineOnInterface::record(const std::filesystem::path& machine, const std:
     const auto journal = std::make_unique<Journal>(JournalSettings{interface_, {}, {}, false, ToolForces(tools)});
     CanDaemonSettings settings;
     settings.time = time;
-    const auto daemon = std::make_unique<CanDaemon>(settings_of(interface_), *bus, tools, *journal, settings, &samples);
+    const auto daemon = std::make_unique<CanDaemon>(socket_on(interface_), *bus, tools, *journal, settings, &samples);
     {
         const Ending ending(samples, recorder, interrupted);
         if (!pace_.lock_step) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "commands/can_interface.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "daemon/service.hpp"
@@ -98,11 +99,7 @@ int show(const ShowOptions& options) {
 }
 
 socketcan::CanSocketSettings socket_of(const SendOptions& options, const WaySenderSettings& sender) {
-    socketcan::CanSocketSettings settings;
-    if (!settings.set_interface(options.interface)) {
-        throw InputError(
-            fmt::format("'{}': expected a CAN interface of at most 15 characters, e.g. can0", options.interface));
-    }
+    socketcan::CanSocketSettings settings = socket_on(options.interface);
     settings.filters[0].id = sender.position_id;
     settings.filters[1].id = way_window::way_answer_id(sender.node_id);
     settings.filter_count = 2;

@@ -9,6 +9,7 @@
 
 #include "check/start_check.hpp"
 #include "check/unseen_faults.hpp"
+#include "commands/can_interface.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "commands/map_options.hpp"
@@ -50,14 +51,6 @@ MachineBus bus_of(const std::string& machine_file) {
                         machine_file));
     }
     return *bus;
-}
-
-socketcan::CanSocketSettings socket_on(const std::string& interface) {
-    socketcan::CanSocketSettings settings;
-    if (!settings.set_interface(interface)) {
-        throw InputError(fmt::format("'{}': expected a CAN interface of at most 15 characters, e.g. can0", interface));
-    }
-    return settings;
 }
 
 void check_outputs(const RunOptions& options) {
