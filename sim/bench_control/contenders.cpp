@@ -97,6 +97,14 @@ BenchRun figures_of(const Contender& contender, const PreparedPart& part, std::u
     return run;
 }
 
+RunResult controlled_run(const Contender& contender, const PreparedPart& part, const Scenario& plant,
+                         const RuleSettings& settings) {
+    SimulationSettings simulation;
+    simulation.longest_run_s = part.longest_run_s;
+    const auto controller = controller_of(contender, part, plant, settings);
+    return simulate(plant, *controller, std::string(contender.name), simulation).result;
+}
+
 }  // namespace
 
 std::span<const Contender> contenders() {
@@ -131,15 +139,8 @@ void teach(PreparedPart& prepared, double feed_share) {
 BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
                        const RuleSettings& settings, const std::filesystem::path& traces) {
     const Scenario plant = disturbed(drawn(part, contender.machine), drawn_disturbance(seed), part.part.depth_mm, seed);
-    if (contender.kind == bound) {
-        RunResult result;
-        result.figures = clairvoyant_run(plant);
-        return figures_of(contender, part, seed, result);
-    }
-    SimulationSettings simulation;
-    simulation.longest_run_s = part.longest_run_s;
-    const auto controller = controller_of(contender, part, plant, settings);
-    const RunResult result = simulate(plant, *controller, std::string(contender.name), simulation).result;
+    const RunResult result =
+        contender.kind == bound ? clairvoyant_run(plant) : controlled_run(contender, part, plant, settings);
     if (!traces.empty()) {
         write_text_file(traces / fmt::format("{}_{}_{}.csv", part.part.name, contender.name, seed), trace_csv(result));
     }

@@ -159,7 +159,7 @@ std::unique_ptr<OverrideSource> controller_behind(const std::string& interface, 
 
 /// What is left to gain: the feed of one who knows the true force everywhere.
 void print_plan(const Scenario& scenario, const RunFigures& figures) {
-    const RunFigures plan = clairvoyant_run(scenario);
+    const RunFigures plan = clairvoyant_run(scenario).figures;
     fmt::print(
         "\nThe plan of one who knows the true force everywhere takes {:.1f} s (peak {:.0f} % of the limit): this run "
         "takes {:.2f} times as long.\n",

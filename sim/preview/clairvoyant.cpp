@@ -136,11 +136,11 @@ hal::FeedOverride ClairvoyantFeed::step(const hal::DriveSample&, const hal::Prog
     return output;
 }
 
-RunFigures clairvoyant_run(const Scenario& scenario) {
+RunResult clairvoyant_run(const Scenario& scenario) {
     Scenario prompt = scenario;
     prompt.parameters.machine.cnc.override_latency_s = 0.0F;
     ClairvoyantFeed plan(prompt);
-    return simulate(prompt, plan, "plan").result.figures;
+    return simulate(prompt, plan, "plan").result;
 }
 
 }  // namespace millforce::sim

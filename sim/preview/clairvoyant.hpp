@@ -38,6 +38,6 @@ class ClairvoyantFeed : public OverrideSource {
 };
 
 /// The scenario milled so, on a CNC that answers at once.
-[[nodiscard]] RunFigures clairvoyant_run(const Scenario& scenario);
+[[nodiscard]] RunResult clairvoyant_run(const Scenario& scenario);
 
 }  // namespace millforce::sim

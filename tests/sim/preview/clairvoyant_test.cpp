@@ -16,7 +16,7 @@ TEST_GROUP(ClairvoyantFeed){};
 TEST(ClairvoyantFeed, brings_the_highest_tooth_to_its_limit_and_hardly_beyond) {
     for (const char* name : {"slot_entry", "width_step", "interrupted", "face_mill"}) {
         for (const double hardness : {0.7, 1.3}) {
-            const RunFigures figures = clairvoyant_run(scenario_named(name, hardness));
+            const RunFigures figures = clairvoyant_run(scenario_named(name, hardness)).figures;
             CHECK_TRUE(figures.finished);
             CHECK_COMPARE(figures.peak_over_limit, >, 0.97);
             CHECK_COMPARE(figures.peak_over_limit, <, 1.05);
