@@ -126,9 +126,55 @@ void check_slices() {
     }
 }
 
+/// Estimates of a cut whose four teeth carry unequally, 0.6 to 1.4 of their mean, and of which each tooth carries
+/// `step` times as much from the eleventh revolution on.
+std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step) {
+    constexpr double revs_per_s = 20.0;
+    constexpr int samples_per_rev = 50;
+    constexpr std::array<double, 4> share{1.4, 1.1, 0.6, 0.9};
+    CutEstimator<float> estimator = fresh_estimator<float>();
+    std::vector<CutEstimate<float>> estimates;
+    for (int k = 1; k <= 12 * samples_per_rev; ++k) {
+        const double rev = revs_per_s * 1e-3 * k;
+        const auto tooth = static_cast<std::size_t>((k - 1) * 4 / samples_per_rev) % share.size();
+        DriveSignals<float> signals;
+        signals.values[0] = static_cast<float>(10.0 * share[tooth] * (k > 10 * samples_per_rev ? step : 1.0));
+        signals.values[DriveSignals<float>::first_velocity] = 5.0F;
+        signals.present = 0xFU;
+        estimator.add(1e-3F, static_cast<std::uint32_t>(rev * 65536.0), 0, 0, signals);
+        while (estimator.work_due()) {
+            if (estimator.work()) {
+                estimates.push_back(estimator.estimate());
+            }
+        }
+    }
+    return estimates;
+}
+
 }  // namespace
 
 TEST_GROUP(CutEstimator){};
+
+TEST(CutEstimator, takes_teeth_that_carry_unequally_for_no_growth) {
+    int estimates = 0;
+    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.0)) {
+        DOUBLES_EQUAL(e.tangential_N.valid ? 260.0 : 0.0, e.newest_tangential_N, 1.0);
+        DOUBLES_EQUAL(0.0, e.tangential_growth_N_per_s, 1e-3);
+        estimates += e.tangential_N.valid ? 1 : 0;
+    }
+    CHECK(estimates > 40);
+}
+
+/// 130 N more, a revolution lasts 50 ms.
+TEST(CutEstimator, sees_a_step_as_growth_with_each_tooth_of_its_revolution_and_no_longer) {
+    int growing = 0;
+    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.5)) {
+        const bool is_growing = e.tangential_growth_N_per_s > 1000.0F;
+        growing += is_growing ? 1 : 0;
+        CHECK(!is_growing || e.newest_tangential_N > 350.0F);
+    }
+    LONGS_EQUAL(4, growing);
+}
 
 TEST(CutEstimator, gives_the_same_bits_whatever_the_size_of_a_slice_in_float) {
     check_slices<float>();

@@ -87,7 +87,7 @@ struct CutEstimate {
     Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one
     Scalar worst_tooth_force_N{0};        ///< tooth force at the known immersion, or at the last or assumed one
     Scalar tangential_growth_N_per_s{0};  ///< growth of F_at over the last revolution, where it is significant; ≥ 0
-    Scalar newest_tangential_N{0};        ///< F_at of the window, or of the last tooth where that is clearly higher
+    Scalar newest_tangential_N{0};        ///< F_at of the window, or more where a tooth carries more than a turn before
     Scalar cutting_share{1};              ///< share of F_at that is not edge force
     Scalar feed_exponent{usual_feed_exponent<Scalar>};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     /// The force of a tooth at another immersion, at the same depth and feed.

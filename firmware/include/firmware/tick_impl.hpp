@@ -222,14 +222,14 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const estimation::Measurement<Scalar>& tooth = estimator_.estimate().tooth_force_N;
     const bool is_determined_by_forces = tooth.valid && !cut.tooth_force_is_bound;
     const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
-    const estimation::Measurement<Scalar>& now = newest_tangential(estimator_.estimate());
-    const Scalar sd_N = sqrt(now.variance);
+    const Scalar now_N = estimator_.estimate().newest_tangential_N;
+    const Scalar sd_N = sqrt(estimator_.estimate().tangential_N.variance);
     const Scalar caution_N = controller_.parameters().caution_sd * sd_N;
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
-    const Scalar tangential_N = input_.way.tangential_N > Scalar(0)
-                                    ? estimation::clamp(input_.way.tangential_N, now.value - sd_N, now.value + sd_N) +
-                                          estimation::halved(caution_N)
-                                    : now.value + caution_N;
+    const Scalar tangential_N =
+        input_.way.tangential_N > Scalar(0)
+            ? estimation::clamp(input_.way.tangential_N, now_N - sd_N, now_N + sd_N) + estimation::halved(caution_N)
+            : now_N + caution_N;
     const Scalar by_map_N = input_.way.tooth_per_tangential * tangential_N * estimator_.estimate().runout_factor;
     cut.tooth_force_valid = true;
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < least_N);

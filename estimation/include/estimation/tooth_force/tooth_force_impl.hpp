@@ -49,24 +49,25 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
 
 /// F_at, and how fast it grows. Taken are the revolutions in which the cut stayed the same; the window or the last
 /// tooth where these are higher, less what their noise may have added: else each of its peaks would lower the feed at
-/// once.
+/// once. A tooth has risen by what it carries more than a revolution ago: that some teeth carry more than others is
+/// runout, which has its own factor.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
     using std::sqrt;
-    constexpr Scalar clear_deviations{2};
+    constexpr Scalar clear_deviations{3};
     const Measurement<Scalar>& window = e.tangential_N;
     const Measurement<Scalar>& tooth = e.tooth_tangential_N;
+    const Measurement<Scalar>& change = e.tooth_change.tangential_N;
     const Scalar by_window_N = window.value - sqrt(window.noise);
     const Scalar steady_N = e.steady_tangential_N.value > by_window_N ? e.steady_tangential_N.value : by_window_N;
-    const Scalar rise_N = tooth.value - window.value;
-    const Scalar by_chance_N2 = square(clear_deviations) * tooth.variance;
-    const bool has_risen = tooth.valid && rise_N > Scalar(0) && square(rise_N) > by_chance_N2;
-    const Scalar by_tooth_N = has_risen ? tooth.value - by_chance_N2 / rise_N : steady_N;
-    e.newest_tangential_N = by_tooth_N > steady_N ? by_tooth_N : steady_N;
-    const Scalar half_window_s = halved(e.window_s);
-    if (has_risen && half_window_s > Scalar(0)) {
-        // The window's middle is half a window old, the last tooth's nearly now. A forecast multiplies the noise.
-        e.tangential_growth_N_per_s = (rise_N - sqrt(by_chance_N2)) / half_window_s;
+    const Scalar rise_N = change.value - clear_deviations * sqrt(change.variance);
+    const bool has_risen = tooth.valid && change.valid && rise_N > Scalar(0);
+    const Scalar above_window_N = tooth.value - window.value;
+    const Scalar by_tooth_N = window.value + (rise_N < above_window_N ? rise_N : above_window_N);
+    e.newest_tangential_N = has_risen && by_tooth_N > steady_N ? by_tooth_N : steady_N;
+    if (has_risen) {
+        // A forecast multiplies the noise.
+        e.tangential_growth_N_per_s = rise_N * turns_per_rad<Scalar> * e.spindle_speed_rad_s;
     }
     return e.newest_tangential_N;
 }
