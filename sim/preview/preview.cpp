@@ -43,32 +43,61 @@ bool is_alike(const std::vector<host::EngagedArc>& drawn, const std::vector<host
             }));
 }
 
-void take_in(host::PartMap& map, const host::PartMap& drawn, const host::PartMap& shifted) {
-    for (std::size_t k = 0; k < map.size(); ++k) {
-        if (is_alike(drawn[k].cut, shifted[k].cut)) {
-            continue;
-        }
-        map[k].known = host::Known::at_most;
-        if (section_of(shifted[k].cut) > section_of(map[k].cut)) {
-            map[k].cut = shifted[k].cut;
+/// The cuts of one place, for each blank that may be there.
+class PossibleCuts {
+  public:
+    explicit PossibleCuts(const host::MapPlace& drawn)
+        : drawn_(&drawn), largest_(drawn.cut), least_section_(section_of(drawn.cut)) {}
+
+    void add(const std::vector<host::EngagedArc>& cut) {
+        are_alike_ = are_alike_ && is_alike(drawn_->cut, cut);
+        least_section_ = std::min(least_section_, section_of(cut));
+        if (section_of(cut) > section_of(largest_)) {
+            largest_ = cut;
         }
     }
-}
+
+    [[nodiscard]] host::MapPlace place() const {
+        constexpr double steps = 10.0;  // or no two neighbours were alike
+        constexpr double most = 0.9;    // where the sections are equal, but not the arcs
+        host::MapPlace place = *drawn_;
+        if (!are_alike_) {
+            place.known = host::Known::at_most;
+            place.cut = largest_;
+            place.least_share = std::min(most, std::floor(steps * least_section_ / section_of(largest_)) / steps);
+        }
+        return place;
+    }
+
+  private:
+    const host::MapPlace* drawn_;
+    std::vector<host::EngagedArc> largest_;
+    double least_section_;
+    bool are_alike_ = true;
+};
 
 }  // namespace
 
 host::PartMap preview_within(const Scenario& scenario, double stock_tolerance_mm, double step_mm) {
     const host::PartMap drawn = preview(scenario, step_mm);
-    host::PartMap map = drawn;
     if (!(stock_tolerance_mm > 0.0) || !scenario.has_program()) {
-        return map;
+        return drawn;
     }
+    std::vector<PossibleCuts> cuts(drawn.begin(), drawn.end());
     for (const double x_sign : {-1.0, 1.0}) {
         for (const double y_sign : {-1.0, 1.0}) {
             Scenario shifted = scenario;
             shifted.stock.move_by(x_sign * stock_tolerance_mm, y_sign * stock_tolerance_mm);
-            take_in(map, drawn, preview(shifted, step_mm));
+            const host::PartMap off = preview(shifted, step_mm);
+            for (std::size_t k = 0; k < cuts.size(); ++k) {
+                cuts[k].add(off[k].cut);
+            }
         }
+    }
+    host::PartMap map;
+    map.reserve(cuts.size());
+    for (const PossibleCuts& possible : cuts) {
+        map.push_back(possible.place());
     }
     return map;
 }

@@ -17,8 +17,8 @@ namespace millforce::sim {
 /// The same for a blank that lies off by up to `stock_tolerance_mm` in x and in y: four more blanks are gone through,
 /// each off towards one corner. Where the cut of one of them has less than 0.6 or more than 1.5 of the drawn one's
 /// section, or an arc that ends 0.3 rad elsewhere, the place is known at most: its cut is the one with the largest
-/// section of all, and the true one lies between that and air. What differs less the controller takes for another
-/// steel. A surface that the program has cut itself lies where the program says. A part without a stock has no
+/// section of all, and its least share the smallest section over that. What differs less the controller takes for
+/// another steel. A surface that the program has cut itself lies where the program says. A part without a stock has no
 /// tolerance. Cost: five times that of one.
 [[nodiscard]] host::PartMap preview_within(const Scenario& scenario, double stock_tolerance_mm, double step_mm = 0.1);
 

@@ -103,7 +103,7 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     disagreed_mm_ = Scalar(0);
     disagreements_ = 0;
     if (is_in_contact && !expected.has_unknown && expected.tangential_N.low > Scalar(0)) {
-        agreed_mm_ += travel_mm;
+        agreed_mm_ += travel_mm * expected.tangential_N.low / expected.tangential_N.high;
         measure_hardness(now, expected.tangential_N);
     }
 }

@@ -126,7 +126,7 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
     if (place.cut.empty() || !(teeth_per_s > 0.0F)) {
         return stretch;
     }
-    stretch.least_share = place.known == Known::at_most ? 0.0F : 1.0F;
+    stretch.least_share = place.known == Known::at_most ? static_cast<float>(place.least_share) : 1.0F;
     const auto hardness = static_cast<float>(place.hardness);
     const CutAt cut(tool, place.cut);
     const float target_N = tool.control.setpoint_share * tool.tooth_force_limit_N / hardness;
@@ -160,8 +160,8 @@ bool may_join(const control::Stretch<float>& a, const control::Stretch<float>& b
 
 bool is_same_cut(const MapPlace& a, const MapPlace& b) {
     return a.rapid == b.rapid && a.programmed_feed_mm_s == b.programmed_feed_mm_s &&
-           a.spindle_speed_rad_s == b.spindle_speed_rad_s && a.known == b.known && a.hardness == b.hardness &&
-           std::ranges::equal(a.cut, b.cut, is_same_arc);
+           a.spindle_speed_rad_s == b.spindle_speed_rad_s && a.known == b.known && a.least_share == b.least_share &&
+           a.hardness == b.hardness && std::ranges::equal(a.cut, b.cut, is_same_arc);
 }
 
 double immersion_of(const MapPlace& place) {

@@ -22,7 +22,7 @@ struct EngagedArc {
 /// How well the cut at a place is known.
 enum class Known : std::uint8_t {
     nothing,  ///< not at all: the controller takes it as if there were no map
-    at_most,  ///< it is between air and this cut: the tool enters or leaves
+    at_most,  ///< it is between least_share of this cut and all of it
     cut,      ///< it is this cut, or air
 };
 
@@ -36,6 +36,7 @@ struct MapPlace {
     double spindle_speed_rad_s = 0.0;
     std::vector<EngagedArc> cut{};  ///< engaged arcs in the order of φ; empty: air
     Known known = Known::cut;
+    double least_share = 0.0;        ///< of its force, where it is known at most; 0: the tool may be in air
     double arc_sd_rad = 0.0;         ///< standard deviation of the arcs' ends; 0: as geometry has them
     double axial_depth_sd_mm = 0.0;  ///< of the depth, without what K_s leaves open; 0: as geometry has it
     double hardness = 1.0;           ///< K_s relative to the tool's file; measured, or 1

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -29,10 +30,11 @@ constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double rad_s_per_rpm = std::numbers::pi / 30.0;
 
 constexpr std::size_t columns_of_geometry = 9;
-constexpr std::array<std::string_view, 16> column_names{
+constexpr std::size_t columns_of_runs = 16;  // and least_share, which older maps do not have
+constexpr std::array<std::string_view, 17> column_names{
     "path_mm",   "block_end_mm", "line",           "rapid",    "feed_mm_min", "spindle_rpm",
     "entry_deg", "exit_deg",     "axial_depth_mm", "known",    "arc_sd_deg",  "axial_depth_sd_mm",
-    "hardness",  "hardness_sd",  "position_sd_mm", "contested"};
+    "hardness",  "hardness_sd",  "position_sd_mm", "contested", "least_share"};
 
 std::uint32_t checksum(std::string_view text) {
     return firmware::crc32(0, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
@@ -79,7 +81,7 @@ bool is_same(const MapPlace& a, const MapPlace& b) {
            a.programmed_feed_mm_s == b.programmed_feed_mm_s && a.spindle_speed_rad_s == b.spindle_speed_rad_s &&
            a.cut == b.cut && a.known == b.known && a.arc_sd_rad == b.arc_sd_rad &&
            a.axial_depth_sd_mm == b.axial_depth_sd_mm && a.hardness == b.hardness && a.hardness_sd == b.hardness_sd &&
-           a.position_sd_mm == b.position_sd_mm && a.is_contested == b.is_contested;
+           a.position_sd_mm == b.position_sd_mm && a.is_contested == b.is_contested && a.least_share == b.least_share;
 }
 
 /// Nothing in it comes from a run.
@@ -109,7 +111,8 @@ void write_place(CsvWriter& csv, const MapPlace& place, std::size_t columns) {
                                                 rounded(place.hardness),
                                                 rounded(place.hardness_sd),
                                                 rounded(place.position_sd_mm),
-                                                place.is_contested ? 1.0 : 0.0};
+                                                place.is_contested ? 1.0 : 0.0,
+                                                place.known == Known::at_most ? rounded(place.least_share) : 1.0};
     const std::span<const double> written = std::span<const double>(row).first(columns);
     if (place.cut.empty()) {
         csv.row(written);
@@ -132,9 +135,10 @@ class MapReader {
                 fmt::format("{}:1: expected '# {}' or '# {}', a part map of 'millforce preview' or --learn",
                             csv_.file_name(), format_line, format_line_of_runs));
         }
-        for (std::size_t k = 0; k < (has_doubt_ ? column_names.size() : columns_of_geometry); ++k) {
+        for (std::size_t k = 0; k < (has_doubt_ ? columns_of_runs : columns_of_geometry); ++k) {
             columns_[k] = csv_.require(column_names[k]);
         }
+        least_share_ = csv_.find(column_names[columns_of_runs]);
     }
 
     PartMapFile read() {
@@ -195,6 +199,9 @@ class MapReader {
         place.hardness_sd = number(13, 0.0, 10.0);
         place.position_sd_mm = number(14, 0.0, 1000.0);
         place.is_contested = csv_.required_number(columns_[15], 0.0, 1.0) != 0.0;
+        if (least_share_ && place.known == Known::at_most) {
+            place.least_share = rounded(csv_.required_number(*least_share_, 0.0, 1.0));
+        }
     }
 
     std::optional<EngagedArc> arc_of_row() {
@@ -222,6 +229,7 @@ class MapReader {
 
     CsvReader csv_;
     bool has_doubt_ = false;
+    std::optional<CsvColumn> least_share_;
     std::array<CsvColumn, column_names.size()> columns_{};
 };
 

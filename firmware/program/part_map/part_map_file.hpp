@@ -28,14 +28,16 @@
 ///
 /// A map that a run has written, and one that joins both, are "part map 2" and have further columns:
 ///
-///   known           0: nothing is known of this place; 1: the cut is between air and this one (the tool enters or
-///                   leaves); 2: it is this cut, or air
+///   known           0: nothing is known of this place; 1: the cut is between least_share of this one and all of it;
+///                   2: it is this cut, or air
 ///   arc_sd_deg      standard deviation of entry_deg and exit_deg; 0: as geometry has them
 ///   axial_depth_sd_mm   of the depth; 0: as geometry has it
 ///   hardness, hardness_sd   K_s relative to the tool's file, and its deviation; 1 and 0: not measured. A run alone
 ///                   cannot tell it from the depth
 ///   position_sd_mm  of the place along the path; 0: not measured
 ///   contested       1 where geometry and run disagree beyond their doubt
+///   least_share     of the cut's force that is surely there, where it is known at most; 0: it may be air. Without this
+///                   column, as older versions wrote it, 0
 ///
 /// The last row is the end of the program, or of the run, in air. The checksum of the program is that of its bytes
 /// without carriage returns; that of the tool covers what the arcs and depths depend on: teeth, diameter, helix and
