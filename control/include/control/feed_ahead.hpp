@@ -78,15 +78,15 @@ template <typename Scalar>
 struct FeedAheadSettings {
     Scalar acceleration_mm_s2{0};     ///< acceleration of the machine along the path; to be set, > 0
     Scalar reaction_s{0};             ///< time from an override to the first change of feed
-    Scalar position_tolerance_mm{1};  ///< tolerance of stock and path, each way: a map that is off by less agrees
-    Scalar farthest_off_mm{2};        ///< no map that is off by more goes on unrefuted
+    Scalar position_tolerance_mm{literal<Scalar>(0.3L)};  ///< tolerance of stock and path, each way: a map that is off by less agrees
+    Scalar farthest_off_mm{literal<Scalar>(1.5L)};        ///< no map that is off by more goes on unrefuted
     Scalar assumed_hardness = literal<Scalar>(1.3L);
     /// Softer than that it is taken for a shallower cut, whose teeth carry more for the same mean force.
     Scalar lowest_hardness = literal<Scalar>(0.6L);
     Scalar highest_hardness{2};
     Scalar hardness_band{Scalar(1.25F)};  ///< ratio by which a force may differ from the map's with the measured κ
     Scalar direction_band = literal<Scalar>(0.2L);  ///< share of F_ax/F_at that the law's r_1 leaves open
-    Scalar agreement_mm{2};
+    Scalar agreement_mm{1};
     Scalar disagreement_mm{Scalar(0.5F)};
 };
 

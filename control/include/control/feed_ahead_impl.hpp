@@ -243,19 +243,18 @@ Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, const Step& now) cons
     return of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
 }
 
-/// In squares of v + a T: one root for all.
+/// In squares of v + 2 a T: one root for all.
 template <typename Scalar, std::size_t Capacity>
 Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     using estimation::square;
     using std::sqrt;
     const Scalar margin_mm = settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
-    const Scalar lost_mm_s = settings_.acceleration_mm_s2 * settings_.reaction_s;
+    const Scalar lag_mm_s = twice_a * settings_.reaction_s;
     const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
-        const Scalar distance_mm = begin_mm - margin_mm - now.position_mm;
-        const Scalar there = square(feed_mm_s + lost_mm_s);
-        const Scalar braking = square(feed_mm_s) + twice_a * distance_mm;
-        return braking > there ? braking : there;
+        const Scalar spare_mm = begin_mm - margin_mm - now.position_mm - feed_mm_s * settings_.reaction_s;
+        const Scalar there = square(feed_mm_s + lag_mm_s);
+        return spare_mm > Scalar(0) ? there + twice_a * spare_mm : there;
     };
     const std::size_t last = count_ - 1;  // its begin is where the map ends
     Scalar fastest = square_before(now.blind_feed_mm_s, at(last).begin_mm);
@@ -266,7 +265,7 @@ Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
         const Scalar here = square_before(feed_at(i, now), at(i).begin_mm);
         fastest = here < fastest ? here : fastest;
     }
-    return sqrt(fastest) - lost_mm_s;
+    return sqrt(fastest) - lag_mm_s;
 }
 
 }  // namespace millforce::control
