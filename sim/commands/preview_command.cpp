@@ -23,7 +23,7 @@ struct PreviewOptions {
     std::string stock;
     std::string tool;
     std::string output;
-    double stock_tolerance_mm = 0.0;
+    double stock_tolerance_mm = 0.5;
     Interpreter interpreter = Interpreter::automatic;
 };
 

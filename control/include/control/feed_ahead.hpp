@@ -26,13 +26,14 @@
 /// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
 /// stands for it. In each cut that stays the same over the window of an estimate it is measured, κ = F_at/F(f)|κ=1, and
 /// averaged over some revolutions; not where e exceeds the feed per tooth, since teeth then miss the cut. At every
-/// place the feed may then be v_i. Now it may be the largest v from which the machine brakes to each of them, d_i
-/// ahead. On its way there the machine goes at √(v_i² + 2 a d), a: acceleration; what is asked for at d_i is done a
-/// reaction time T later, when the feed has fallen by a T more:
+/// place the feed may then be v_i. Now it may be the largest v from which the machine slows down to each of them, d_i
+/// ahead. a: its acceleration. What is asked for acts a reaction time T later, while the tool goes on at what was asked
+/// for before: a feed that falls by more than d/(e T) would pass the place too fast. So
 ///
-///   v = max(v_i, √(v_i² + 2 a d_i) − a T)    the lowest of all i
+///   (v − v_i) 2.4 T + (v² − v_i²)/(2 a) = d_i − 2 v_i T        v_i where d_i is less than 2 v_i T
+///   v = √((v_i + 2.4 a T)² + 2 a (d_i − 2 v_i T)) − 2.4 a T    the lowest of all i
 ///
-/// From a steady feed it therefore brakes a T²/2 earlier than necessary.
+/// and at d_i the machine has v_i, to 1 %.
 ///
 /// Each stretch counts from farthest_off_mm before its begin to as far behind its end.
 ///
@@ -44,9 +45,10 @@
 /// estimates in a row, refutes the map: `known` is false from then on, until restart(). So does contact, two estimates
 /// in a row, where the map has air.
 ///
-/// A stretch may be open: not known at all, or known to lie between air and its F_i (least_share 0). It neither
-/// confirms the map nor refutes it. Near a stretch that is not known at all `known` is false, and it is met at
-/// blind_feed_mm_s.
+/// A stretch may be known to lie between least_share of its F_i and F_i: then the least and the most bound the force,
+/// its direction is not asked for, and each millimetre counts as the share of the most that is sure. Where the tool
+/// enters that is 0. Near a stretch that is not known at all `known` is false, and it is met at blind_feed_mm_s; it
+/// neither confirms the map nor refutes it.
 ///
 /// Use: restart() with each program, add() stretches in the order of the path while room() lasts, step() at each tick.
 /// If the window runs empty, nothing is known of the path ahead: the feed has fallen to blind_feed_mm_s by then.
@@ -67,7 +69,7 @@ struct Stretch {
     Scalar feed_per_tangential{0};   ///< χ_i
     Scalar falling_share{1};         ///< h_i
     Scalar feed_per_softness{1};     ///< e_i; 1/(c q) for a force with the cutting share c and the exponent q
-    Scalar least_share{1};           ///< of F_i that is surely there; 0 where the tool enters or leaves
+    Scalar least_share{1};           ///< of F_i that is surely there; 0: the tool may be in air
     bool is_known = true;            ///< false: nothing is known of this stretch
 
     /// The arc, and with it the direction of the force, is not known.
@@ -76,10 +78,13 @@ struct Stretch {
 
 template <typename Scalar>
 struct FeedAheadSettings {
-    Scalar acceleration_mm_s2{0};     ///< acceleration of the machine along the path; to be set, > 0
-    Scalar reaction_s{0};             ///< time from an override to the first change of feed
-    Scalar position_tolerance_mm{literal<Scalar>(0.3L)};  ///< tolerance of stock and path, each way: a map that is off by less agrees
-    Scalar farthest_off_mm{literal<Scalar>(1.5L)};        ///< no map that is off by more goes on unrefuted
+    Scalar acceleration_mm_s2{0};  ///< acceleration of the machine along the path; to be set, > 0
+    Scalar reaction_s{0};          ///< time from an override to the first change of feed
+    /// Of the path, each way: what a controller may tell wrongly of the tool's place. By how much the blank may lie off
+    /// is for the map to say (preview).
+    Scalar position_tolerance_mm = literal<Scalar>(0.3L);
+    /// No map that is off by more goes on unrefuted: a light cut is seen some 1 mm behind its begin.
+    Scalar farthest_off_mm{Scalar(1.5F)};
     Scalar assumed_hardness = literal<Scalar>(1.3L);
     /// Softer than that it is taken for a shallower cut, whose teeth carry more for the same mean force.
     Scalar lowest_hardness = literal<Scalar>(0.6L);

@@ -243,16 +243,18 @@ Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, const Step& now) cons
     return of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
 }
 
-/// In squares of v + 2 a T: one root for all.
+/// In squares of v + 2.4 a T: one root for all.
 template <typename Scalar, std::size_t Capacity>
 Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     using estimation::square;
     using std::sqrt;
+    constexpr Scalar approach = literal<Scalar>(2.4L);
     const Scalar margin_mm = settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
-    const Scalar lag_mm_s = twice_a * settings_.reaction_s;
+    const Scalar twice_T = settings_.reaction_s + settings_.reaction_s;
+    const Scalar lag_mm_s = approach * settings_.acceleration_mm_s2 * settings_.reaction_s;
     const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
-        const Scalar spare_mm = begin_mm - margin_mm - now.position_mm - feed_mm_s * settings_.reaction_s;
+        const Scalar spare_mm = begin_mm - margin_mm - now.position_mm - feed_mm_s * twice_T;
         const Scalar there = square(feed_mm_s + lag_mm_s);
         return spare_mm > Scalar(0) ? there + twice_a * spare_mm : there;
     };

@@ -32,8 +32,8 @@ constexpr double rad_s_per_rpm = std::numbers::pi / 30.0;
 constexpr std::size_t columns_of_geometry = 9;
 constexpr std::size_t columns_of_runs = 16;  // and least_share, which older maps do not have
 constexpr std::array<std::string_view, 17> column_names{
-    "path_mm",   "block_end_mm", "line",           "rapid",    "feed_mm_min", "spindle_rpm",
-    "entry_deg", "exit_deg",     "axial_depth_mm", "known",    "arc_sd_deg",  "axial_depth_sd_mm",
+    "path_mm",   "block_end_mm", "line",           "rapid",     "feed_mm_min", "spindle_rpm",
+    "entry_deg", "exit_deg",     "axial_depth_mm", "known",     "arc_sd_deg",  "axial_depth_sd_mm",
     "hardness",  "hardness_sd",  "position_sd_mm", "contested", "least_share"};
 
 std::uint32_t checksum(std::string_view text) {

@@ -106,6 +106,7 @@ TEST(PartMapFile, what_a_run_says_of_its_doubt_is_read_as_it_was_written) {
     PartMapFile written = example();
     MapPlace& place = written.map[1];
     place.known = Known::at_most;
+    place.least_share = 0.4;
     place.arc_sd_rad = 5.0 * rad_per_deg;
     place.axial_depth_sd_mm = 0.25;
     place.hardness = 1.125;
@@ -118,6 +119,7 @@ TEST(PartMapFile, what_a_run_says_of_its_doubt_is_read_as_it_was_written) {
     CHECK_TRUE(folder.read("t.map").starts_with("# millforce part map 2\n"));
     const PartMap read = read_part_map(folder.path("t.map")).map;
     CHECK_TRUE(read[0].known == Known::cut && read[1].known == Known::at_most && read[2].known == Known::nothing);
+    DOUBLES_EQUAL(0.4, read[1].least_share, 1e-9);
     DOUBLES_EQUAL(place.arc_sd_rad, read[1].arc_sd_rad, 1e-5);
     DOUBLES_EQUAL(0.25, read[1].axial_depth_sd_mm, 1e-9);
     DOUBLES_EQUAL(1.125, read[1].hardness, 1e-9);
@@ -143,6 +145,21 @@ TEST(PartMapFile, a_doubt_that_cannot_be_is_refused_with_its_column) {
     STRCMP_CONTAINS(":5: column 'hardness_sd'", error("2,0,0,1,,0,0").c_str());
     STRCMP_CONTAINS(":5: column 'position_sd_mm'", error("2,0,0,1,0,-1,0").c_str());
     STRCMP_CONTAINS(":5: column 'contested'", error("2,0,0,1,0,0,2").c_str());
+}
+
+TEST(PartMapFile, the_least_share_of_a_cut_may_be_missing_but_not_be_wrong) {
+    std::string head_of_runs = head;
+    head_of_runs.replace(head_of_runs.find("map 1"), 5, "map 2");
+    head_of_runs.pop_back();
+    head_of_runs += ",known,arc_sd_deg,axial_depth_sd_mm,hardness,hardness_sd,position_sd_mm,contested,least_share\n";
+    const auto error = [&](const std::string& share) {
+        return error_of(head_of_runs + "5,9,1,0,60,1000,10,20,1,1,0,0,1,0,0,0," + share +
+                        "\n9,9,1,0,60,1000,,,,2,0,0,1,0,0,0,1\n");
+    };
+    STRCMP_EQUAL("", error("0.3").c_str());
+    for (const char* wrong : {"1.5", "-0.1", "", "nan"}) {
+        STRCMP_CONTAINS(":5: column 'least_share'", error(wrong).c_str());
+    }
 }
 
 TEST(PartMapFile, places_at_which_nothing_changes_are_not_written) {
