@@ -129,13 +129,11 @@ TEST(Preview, a_blank_that_may_lie_off_is_known_at_most_where_that_matters) {
 /// Passes of 3 mm, by a tool of 10 mm: along the face of a block that may be off by a millimetre, 2 to 4 mm.
 TEST(Preview, of_a_pass_along_the_blanks_face_half_is_sure) {
     const PartMap map = preview_within(scenario_named("zigzag"), 1.0);
-    const MapPlace* widest = &map.front();
-    for (const MapPlace& place : map) {
-        widest = place.least_share > 0.0 && immersion_of(place) > immersion_of(*widest) ? &place : widest;
-    }
-    DOUBLES_EQUAL(0.8, immersion_of(*widest), 0.02);
-    DOUBLES_EQUAL(0.5, widest->least_share, 0.101);  // in steps of a tenth, downwards
-    CHECK_TRUE(widest->known == Known::at_most);
+    const auto is_along_face = [](const MapPlace& place) {
+        return std::abs(immersion_of(place) - 0.8) < 0.02 && place.known == Known::at_most &&
+               std::abs(place.least_share - 0.45) < 0.06;  // in steps of a tenth, downwards
+    };
+    CHECK_COMPARE(std::ranges::count_if(map, is_along_face), >, 300);
 }
 
 TEST(Preview, a_blank_within_its_tolerance_does_not_refute_the_map) {
