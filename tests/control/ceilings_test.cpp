@@ -141,6 +141,24 @@ TEST(Ceilings, where_the_way_ahead_is_known_the_force_may_reach_its_set_point_th
                   static_cast<double>(force_at(output.ratio, in_contact())), 0.1);
 }
 
+TEST(Ceilings, a_step_of_the_depth_that_was_met_once_is_expected_from_then_on) {
+    Parameters p = immediate();
+    p.depth_step_ratio = 2.0F;
+    p.depth_step_share = 1.5F;
+    Input deep = in_contact();
+    deep.cut.tooth_force_N = 900.0F;
+    Input shallow = in_contact();
+    shallow.cut.tooth_force_N = 300.0F;
+    const auto force_of_deep_N = [&](const Output& in_shallow) { return force_at(in_shallow.ratio, deep); };
+    Controller controller(p);
+    CHECK_COMPARE(force_of_deep_N(repeat(controller, shallow, 2000)), >, 1.6F * p.tooth_force_limit_N);
+    repeat(controller, deep, 2000);
+    const Output again = repeat(controller, shallow, 2000);
+    CHECK(again.limit == Limit::depth_step);
+    CHECK_COMPARE(force_of_deep_N(again), <=, 1.501F * p.tooth_force_limit_N);
+    CHECK_COMPARE(force_of_deep_N(again), >, 1.2F * p.tooth_force_limit_N);
+}
+
 TEST(Ceilings, a_step_of_the_depth_that_the_set_point_survives_costs_nothing) {
     Parameters p = immediate();
     p.depth_step_ratio = 1.4F;

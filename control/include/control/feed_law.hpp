@@ -27,8 +27,9 @@
 ///
 /// The second one is for a step of the depth that nobody has announced: at its first tooth the force is
 /// depth_step_ratio times as large, and no reaction is faster than a tooth. It need not come, so it holds the demand no
-/// lower than the feed of an entry, at which the tool may meet anything. The demand is worked out at each fresh
-/// estimate and stands until the next.
+/// lower than the feed of an entry, at which the tool may meet anything. A larger step that the program has met once
+/// may come again: the demand also stays where the heaviest cut so far would reach depth_step_share of the limit at
+/// most (contact_feed.hpp). The demand is worked out at each fresh estimate and stands until the next.
 ///
 /// The override approaches what is wanted
 ///   downwards  at once, within slew_down_per_s
@@ -88,6 +89,8 @@ class FeedLaw {
     };
     [[nodiscard]] static Scalar not_below_safe_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
                                                     Scalar demand, SafeFeed safe);
+    [[nodiscard]] static Scalar override_before_heaviest(const Parameters& parameters,
+                                                         const ControlInput<Scalar>& input, Scalar contact_feed_mm);
     [[nodiscard]] static Scalar recovery_in(const Parameters& parameters, const ControlInput<Scalar>& input,
                                             const StepMotion<Scalar>& motion);
 

@@ -59,7 +59,23 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
             not_below_safe_feed(parameters, input, demand_, {parameters.proven_override, cut.least_tooth_force_N});
     } else if (guards_against_a_step(parameters, input)) {
         demand_ = not_below_safe_feed(parameters, input, demand_, {safe_entry(parameters, input), cut.tooth_force_N});
+        const Scalar of_heaviest = override_before_heaviest(parameters, input, contact_feed_mm);
+        demand_ = demand_ < of_heaviest ? demand_ : of_heaviest;
     }
+}
+
+/// At the contact feed a step from the heaviest cut of the program is survived, so at depth_step_ratio times that feed
+/// a step to the heaviest cut is: no force grows faster than the feed.
+template <typename Scalar>
+Scalar FeedLaw<Scalar>::override_before_heaviest(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                                 Scalar contact_feed_mm) {
+    if (!(contact_feed_mm > Scalar(0))) {
+        return parameters.override_max;
+    }
+    const Scalar of_heaviest =
+        parameters.depth_step_ratio * override_of_feed_per_tooth(contact_feed_mm, parameters.teeth, input);
+    const Scalar entry = safe_entry(parameters, input);
+    return of_heaviest > entry ? of_heaviest : entry;
 }
 
 template <typename Scalar>
