@@ -7,6 +7,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <climits>
@@ -44,9 +45,10 @@ class Cut {
 };
 
 template <typename Scalar>
-CutEstimator<Scalar> fresh_estimator(CutSide side = CutSide::down) {
+CutEstimator<Scalar> fresh_estimator(CutSide side = CutSide::down, float runout_mm = 0.0F) {
     CutEstimatorSettings<Scalar> settings = millforce::tests::estimator_of_four_flutes<Scalar>();
     settings.side = side;
+    settings.runout_mm = Scalar(runout_mm);
     settings.encoder_counts_per_rev = 65536;
     SpindleDriveParameters<Scalar> spindle;
     spindle.K_t1_Nm_per_A = literal<Scalar>(0.13L);
@@ -127,12 +129,12 @@ void check_slices() {
 }
 
 /// Estimates of a cut whose four teeth carry unequally, 0.6 to 1.4 of their mean, and of which each tooth carries
-/// `step` times as much from the eleventh revolution on.
-std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step) {
+/// `step` times as much from the eleventh revolution on; by a tool whose file states a runout.
+std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step, float runout_mm) {
     constexpr double revs_per_s = 20.0;
     constexpr int samples_per_rev = 50;
     constexpr std::array<double, 4> share{1.4, 1.1, 0.6, 0.9};
-    CutEstimator<float> estimator = fresh_estimator<float>();
+    CutEstimator<float> estimator = fresh_estimator<float>(CutSide::down, runout_mm);
     std::vector<CutEstimate<float>> estimates;
     for (int k = 1; k <= 12 * samples_per_rev; ++k) {
         const double rev = revs_per_s * 1e-3 * k;
@@ -151,13 +153,15 @@ std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step) {
     return estimates;
 }
 
+constexpr float much_runout_mm = 0.1F;
+
 }  // namespace
 
 TEST_GROUP(CutEstimator){};
 
 TEST(CutEstimator, takes_teeth_that_carry_unequally_for_no_growth) {
     int estimates = 0;
-    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.0)) {
+    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.0, much_runout_mm)) {
         DOUBLES_EQUAL(e.tangential_N.valid ? 260.0 : 0.0, e.newest_tangential_N, 1.0);
         DOUBLES_EQUAL(0.0, e.tangential_growth_N_per_s, 1e-3);
         estimates += e.tangential_N.valid ? 1 : 0;
@@ -165,10 +169,19 @@ TEST(CutEstimator, takes_teeth_that_carry_unequally_for_no_growth) {
     CHECK(estimates > 40);
 }
 
+TEST(CutEstimator, takes_what_the_known_runout_does_not_explain_for_a_larger_force) {
+    float highest_N = 0.0F;
+    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.0, 0.0F)) {
+        highest_N = std::max(highest_N, e.newest_tangential_N);
+        DOUBLES_EQUAL(0.0, e.tangential_growth_N_per_s, 1e-3);
+    }
+    DOUBLES_EQUAL(1.4 * 260.0, highest_N, 3.0);
+}
+
 /// 130 N more, a revolution lasts 50 ms.
 TEST(CutEstimator, sees_a_step_as_growth_with_each_tooth_of_its_revolution_and_no_longer) {
     int growing = 0;
-    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.5)) {
+    for (const CutEstimate<float>& e : cut_by_unequal_teeth(1.5, much_runout_mm)) {
         const bool is_growing = e.tangential_growth_N_per_s > 1000.0F;
         growing += is_growing ? 1 : 0;
         CHECK(!is_growing || e.newest_tangential_N > 350.0F);

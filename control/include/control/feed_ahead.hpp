@@ -24,8 +24,9 @@
 /// second; one tooth takes no more than the chips of all.
 ///
 /// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
-/// stands for it. In each cut that stays the same over the window of an estimate it is measured, κ = F_at/F(f)|κ=1, and
-/// averaged over some revolutions; not where e exceeds the feed per tooth, since teeth then miss the cut. At every
+/// stands for it. In each cut that stays the same over the window of an estimate, and farthest_off_mm before and behind
+/// it, κ = F_at/F(f)|κ=1 is measured and averaged over some revolutions; not where e exceeds the feed per tooth, since
+/// teeth then miss the cut. At every
 /// place the feed may then be v_i. Now it may be the largest v from which the machine slows down to each of them, d_i
 /// ahead. a: its acceleration. What is asked for acts a reaction time T later, while the tool goes on at what was asked
 /// for before: a feed that falls by more than d/(e T) would pass the place too fast. So
@@ -151,7 +152,7 @@ class FeedAhead {
             is_empty = false;
         }
     };
-    /// Of all stretches that an estimate's window and the tolerance touch.
+    /// Of all stretches that an estimate's window, and a tolerance before and behind it, touch.
     struct Expected {
         Range tangential_N;  // at κ = 1
         Range direction;     // χ, of those that cut
@@ -175,7 +176,7 @@ class FeedAhead {
     [[nodiscard]] bool force_agrees(const Step& now, const Expected& expected) const;
     [[nodiscard]] bool direction_agrees(const Step& now, const Expected& expected) const;
     void measure_hardness(const Step& now, const Range& expected_N);
-    [[nodiscard]] Expected expected_around(const Step& now) const;
+    [[nodiscard]] Expected expected_within(const Step& now, Scalar tolerance_mm) const;
     [[nodiscard]] Mapped mapped_within(const Step& now) const;
     template <typename Visit>
     void for_each_within(Scalar from_mm, Scalar to_mm, const Visit& visit) const;

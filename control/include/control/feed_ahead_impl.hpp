@@ -85,7 +85,7 @@ void FeedAhead<Scalar, Capacity>::drop_passed(Scalar behind_mm) {
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
-    const Expected expected = expected_around(now);
+    const Expected expected = expected_within(now, settings_.position_tolerance_mm);
     const Scalar travel_mm = since_estimate_mm_ < now.window_mm ? since_estimate_mm_ : now.window_mm;
     const bool is_in_contact = now.tangential_N > now.contact_level_N;
     const bool touches_in_air = is_in_contact && !expected.has_unknown && !(expected.tangential_N.high > Scalar(0));
@@ -104,7 +104,7 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     disagreements_ = 0;
     if (is_in_contact && !expected.has_unknown && expected.tangential_N.low > Scalar(0)) {
         agreed_mm_ += travel_mm * expected.tangential_N.low / expected.tangential_N.high;
-        measure_hardness(now, expected.tangential_N);
+        measure_hardness(now, expected_within(now, settings_.farthest_off_mm).tangential_N);
     }
 }
 
@@ -137,7 +137,8 @@ bool FeedAhead<Scalar, Capacity>::direction_agrees(const Step& now, const Expect
     return now.feed_force_N >= least_N && now.feed_force_N <= most_N;
 }
 
-/// Only where the cut stays the same: elsewhere the force depends on the exact place more than on the material.
+/// Only where the cut stays the same as far as the map may be off: elsewhere the force depends on the exact place more
+/// than on the material.
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range& expected_N) {
     constexpr Scalar steady = literal<Scalar>(0.9L);
@@ -155,8 +156,7 @@ void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range&
 }
 
 template <typename Scalar, std::size_t Capacity>
-auto FeedAhead<Scalar, Capacity>::expected_around(const Step& now) const -> Expected {
-    const Scalar tolerance_mm = settings_.position_tolerance_mm;
+auto FeedAhead<Scalar, Capacity>::expected_within(const Step& now, Scalar tolerance_mm) const -> Expected {
     Expected expected;
     for_each_within(now.position_mm - now.window_mm - tolerance_mm, now.position_mm + tolerance_mm, [&](std::size_t i) {
         const Scalar force_N = force_at(i, now.mean_feed_mm_s);

@@ -28,8 +28,8 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
     if (!e.tangential_N.valid) {
         return;
     }
-    const Scalar newest_N = follow_growth(e);
     e.runout_factor = runout_factor(e);
+    const Scalar newest_N = follow_growth(e);
     estimate_tooth_force(e, peaks.factors(), newest_N);
     if (!has_model) {
         return;
@@ -49,23 +49,27 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
 
 /// F_at, and how fast it grows. Taken are the revolutions in which the cut stayed the same; the window or the last
 /// tooth where these are higher, less what their noise may have added: else each of its peaks would lower the feed at
-/// once. A tooth has risen by what it carries more than a revolution ago: that some teeth carry more than others is
-/// runout, which has its own factor.
+/// once. A tooth has risen by what it carries more than a revolution ago. That some teeth carry more than others is
+/// runout, which has its own factor: only what a tooth carries beyond that counts.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
     using std::sqrt;
     constexpr Scalar clear_deviations{3};
+    const auto higher = [](Scalar a, Scalar b) { return a > b ? a : b; };
     const Measurement<Scalar>& window = e.tangential_N;
     const Measurement<Scalar>& tooth = e.tooth_tangential_N;
     const Measurement<Scalar>& change = e.tooth_change.tangential_N;
-    const Scalar by_window_N = window.value - sqrt(window.noise);
-    const Scalar steady_N = e.steady_tangential_N.value > by_window_N ? e.steady_tangential_N.value : by_window_N;
+    e.newest_tangential_N = higher(e.steady_tangential_N.value, window.value - sqrt(window.noise));
+    if (!tooth.valid) {
+        return e.newest_tangential_N;
+    }
+    const Scalar beyond_runout_N = (tooth.value - clear_deviations * sqrt(tooth.noise)) / e.runout_factor;
+    e.newest_tangential_N = higher(e.newest_tangential_N, beyond_runout_N);
     const Scalar rise_N = change.value - clear_deviations * sqrt(change.variance);
-    const bool has_risen = tooth.valid && change.valid && rise_N > Scalar(0);
-    const Scalar above_window_N = tooth.value - window.value;
-    const Scalar by_tooth_N = window.value + (rise_N < above_window_N ? rise_N : above_window_N);
-    e.newest_tangential_N = has_risen && by_tooth_N > steady_N ? by_tooth_N : steady_N;
-    if (has_risen) {
+    if (change.valid && rise_N > Scalar(0)) {
+        const Scalar above_window_N = tooth.value - window.value;
+        e.newest_tangential_N =
+            higher(e.newest_tangential_N, window.value + (rise_N < above_window_N ? rise_N : above_window_N));
         // A forecast multiplies the noise.
         e.tangential_growth_N_per_s = rise_N * turns_per_rad<Scalar> * e.spindle_speed_rad_s;
     }
