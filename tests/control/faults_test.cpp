@@ -34,6 +34,17 @@ TEST(Faults, overload_latches_after_more_than_the_stated_revolutions) {
     DOUBLES_EQUAL(0.1, static_cast<double>(later.ratio), 1e-6);
 }
 
+TEST(Faults, an_overload_that_is_only_forecast_is_none) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input growing = in_contact();
+    growing.cut.tooth_force_N = 1500.0F;
+    growing.cut.forecast = 1.2F;
+    CHECK(repeat(controller, growing, 100).fault == Fault::none);
+    growing.cut.forecast = 1.1F;
+    CHECK(repeat(controller, growing, 100).fault == Fault::overload);
+}
+
 TEST(Faults, overload_is_forgotten_by_one_tooth_below_it_and_does_not_count_old_estimates) {
     Controller controller;
     bring_into_cut(controller);

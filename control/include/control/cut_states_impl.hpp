@@ -171,7 +171,8 @@ void CutStates<Scalar>::watch_overload(const Parameters& parameters, const Estim
         return;
     }
     const bool is_estimate = cut.force_valid && cut.tooth_force_valid && !cut.tooth_force_is_bound;
-    const bool over = is_estimate && cut.tooth_force_N > parameters.overload_share * parameters.tooth_force_limit_N;
+    const Scalar most_N = parameters.overload_share * parameters.tooth_force_limit_N;
+    const bool over = is_estimate && cut.tooth_force_N > most_N * cut.forecast;  // what is only forecast is none
     // An estimate is that of one revolution, however long ago the last one was.
     const Scalar seen = cut.tooth_periods < parameters.teeth ? cut.tooth_periods : parameters.teeth;
     overload_tooth_periods_ = over ? overload_tooth_periods_ + seen : Scalar(0);

@@ -70,6 +70,7 @@ struct CutEstimateForControl {
     bool tooth_force_valid = false;     ///< the immersion behind tooth_force_N is an estimate, not a guess
     bool tooth_force_is_bound = false;  ///< tooth_force_N is an upper bound: no sign of an overload
     Scalar tooth_force_N{0};            ///< peak force of one tooth; without an immersion, the worst it can be
+    Scalar forecast{1};                 ///< tooth_force_N over the force that is there now, of a cut that grows; ≥ 1
     Scalar least_tooth_force_N{0};      ///< smallest peak force of one tooth, whatever the immersion
     bool law_is_refuted = false;        ///< no cut by the law has these forces: a signal may be wrong
     Scalar surge_ratio{1};              ///< tooth force after a surge to surge_radial_immersion, per tooth force now

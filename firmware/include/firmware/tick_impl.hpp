@@ -234,6 +234,7 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     cut.tooth_force_valid = true;
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < least_N);
     cut.tooth_force_N = by_map_N > least_N ? by_map_N : least_N;
+    cut.forecast = Scalar(1);
 }
 
 template <typename Scalar, typename WideBand>
@@ -306,7 +307,8 @@ bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<S
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
-    const bool in_air = controller_.state() == control::CutState::air;
+    const bool is_mapped_cut = input_.way.known && input_.way.tangential_N > Scalar(0);
+    const bool in_air = controller_.state() == control::CutState::air && !is_mapped_cut;
     const bool looks_idle = estimator_.axes_rest() || (was_rezeroed_ && is_idle(estimate));
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
@@ -342,9 +344,11 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     allow_for_drift();
     // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
+    cut.forecast = Scalar(1);
     if (e.newest_tangential_N > Scalar(0)) {
         const Scalar lead_s = reaction_s_ + estimation::halved(e.window_s);
-        cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
+        cut.forecast += e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
+        cut.tooth_force_N *= cut.forecast;
     }
     cut.tooth_periods = Scalar(e.tooth_periods);
     // Of the tooth that stands out: what runout adds to its chip does not fall with the feed.

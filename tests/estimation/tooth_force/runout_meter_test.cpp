@@ -136,6 +136,15 @@ void mill(RunoutMeter<float>& meter, Spindle& spindle, const Milling& cut, int r
     }
 }
 
+void mill_by_spindle_alone(RunoutMeter<float>& meter, Spindle& spindle, const Milling& cut, int revolutions) {
+    const auto cutting_N = static_cast<float>(mean_cutting_N(cut));
+    for (int r = 0; r < revolutions; ++r) {
+        meter.learn({.turning = spindle.turn_once(&cut),
+                     .feed_per_tooth_mm = static_cast<float>(cut.feed_per_tooth_mm),
+                     .cutting_N = cutting_N});
+    }
+}
+
 void turn_in_air(RunoutMeter<float>& meter, Spindle& spindle, int revolutions = 100) {
     for (int r = 0; r < revolutions; ++r) {
         meter.learn_air(spindle.turn_once(nullptr));
@@ -240,6 +249,22 @@ TEST(RunoutMeter, without_air_at_this_speed_or_an_arc_it_says_what_the_file_says
                   .cutting_N = 600.0F,
                   .engagement = unknown});
     DOUBLES_EQUAL(6.0, excess_um(no_arc), 1e-3);
+}
+
+TEST(RunoutMeter, by_the_spindle_alone_it_finds_what_the_thickest_chip_has_of_it) {
+    for (const double immersion : {0.3, 1.0, 2.0}) {
+        for (const double direction_rad : {0.0, 1.1, -2.4}) {
+            Milling cut{.radial_immersion = immersion};
+            cut.feed_direction_rad = direction_rad;
+            Spindle spindle;
+            RunoutMeter<float> meter(stated_mm, cut.teeth, true);
+            turn_in_air(meter, spindle);
+            mill_by_spindle_alone(meter, spindle, cut, 50);
+            const double of_chip_um = mean_largest_excess_um(cut) / std::sqrt(0.5 * immersion);
+            CHECK_COMPARE(excess_um(meter), >, 0.95 * of_chip_um);
+            CHECK_COMPARE(excess_um(meter), <, 1.3 * of_chip_um);
+        }
+    }
 }
 
 TEST(RunoutMeter, half_of_what_the_file_says_always_stays) {

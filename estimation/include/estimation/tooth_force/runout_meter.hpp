@@ -26,18 +26,25 @@
 /// Until there is a measurement, and beside it as its doubt, e is what the tool's file states. Half of that always
 /// stays: teeth may stand unequal in themselves, which this does not see.
 ///
-/// Valid: N ≥ 2, a known arc, a steady speed, air at this speed before the cut; else nothing is learnt. Where |E| is
-/// larger than the chip at the arc's middle, f_z sin φ_m, teeth miss the cut, their edge force with them, and e is some
-/// 40 % off. Cost: a revolution some 40 operations, three roots and three divisions. No heap. Not thread-safe.
+/// A machine that knows the spindle's current alone never knows the arc. There the size of F_1 is averaged as if φ_m
+/// were 90°: E/sin φ_m, which is what the thickest chip of a narrow arc has of it.
+///
+/// Valid: N ≥ 2, a known arc or the spindle alone, a steady speed, air at this speed before the cut; else nothing is
+/// learnt. Where |E| is larger than the chip at the arc's middle, f_z sin φ_m, teeth miss the cut, their edge force
+/// with them, and e is some 40 % off. Cost: a revolution some 40 operations, three roots and three divisions. No heap.
+/// Not thread-safe.
 
 namespace millforce::estimation {
 
 template <typename Scalar>
 class RunoutMeter {
   public:
-    /// `stated_mm`: largest difference of two teeth's radii.
-    RunoutMeter(Scalar stated_mm, int teeth)
-        : stated_um_(stated_mm * um_per_mm), can_measure_(teeth > 1), variance_um2_(square(stated_um_)) {
+    /// `stated_mm`: largest difference of two teeth's radii. `is_spindle_alone`: no arc will ever be known.
+    RunoutMeter(Scalar stated_mm, int teeth, bool is_spindle_alone = false)
+        : stated_um_(stated_mm * um_per_mm),
+          can_measure_(teeth > 1),
+          is_spindle_alone_(is_spindle_alone),
+          variance_um2_(square(stated_um_)) {
         using elementary::sin;
         if (teeth > 2) {
             const Scalar half_pitch_rad = pi<Scalar> / Scalar(teeth);
@@ -75,16 +82,18 @@ class RunoutMeter {
         const bool knows_air =
             air_revolutions_ > Scalar(0) && is_near(cut.turning.speed_rad_s, air_.speed_rad_s, nearly_same_speed);
         const bool knows_arc = arc.immersion_valid && arc.side != CutSide::unknown && arc.radial_immersion > Scalar(0);
-        if (!can_measure_ || !is_usable(cut.turning) || !knows_air || !knows_arc ||
+        if (!can_measure_ || !is_usable(cut.turning) || !knows_air || !(knows_arc || is_spindle_alone_) ||
             !(cut.cutting_N > least_cutting_N)) {
             return;
         }
-        const Scalar half_immersion = halved(arc.radial_immersion);  // sin² φ_m
+        const Scalar half_immersion = knows_arc ? halved(arc.radial_immersion) : Scalar(1);  // sin² φ_m
         const Scalar sine = sqrt(half_immersion);
         const Scalar cosine = half_immersion < Scalar(1) ? sqrt(Scalar(1) - half_immersion) : Scalar(0);
         const Phasor<Scalar> middle{arc.side == CutSide::down ? -cosine : cosine, sine};
         const Scalar um_per_N = um_per_mm * cut.feed_per_tooth_mm * sine / cut.cutting_N;
-        const Phasor<Scalar> in_tool_N = (cut.turning.force_N - air_.force_N) * conjugate(cut.feed_direction) * middle;
+        const Phasor<Scalar> of_tool_N = cut.turning.force_N - air_.force_N;
+        const Phasor<Scalar> in_tool_N = knows_arc ? of_tool_N * conjugate(cut.feed_direction) * middle
+                                                   : Phasor<Scalar>{sqrt(squared_length(of_tool_N)), Scalar(0)};
         const Scalar noise_um2 = cut.turning.variance_N2 * square(um_per_N);
         variance_um2_ += square(walk_share * stated_um_) * Scalar(cut.turning.revolutions);
         const Scalar gain = variance_um2_ / (variance_um2_ + noise_um2);
@@ -130,7 +139,8 @@ class RunoutMeter {
     [[nodiscard]] static bool is_usable(const TurningForce<Scalar>& seen) { return seen.revolutions > 0; }
 
     Scalar stated_um_;
-    bool can_measure_;                  // a single tooth takes all there is
+    bool can_measure_;  // a single tooth takes all there is
+    bool is_spindle_alone_;
     Scalar share_ = halved(Scalar(1));  // e/|E|
     TurningForce<Scalar> air_{};
     Scalar air_revolutions_{0};

@@ -9,7 +9,9 @@ namespace millforce::estimation {
 /// The peak force of one tooth from the mean tangential force, with its deviation or its bound; what it would be at
 /// another immersion; and how it grows.
 ///
-///   F_tooth = F_at τ [1 − c + c (1 + e/f_z)^(1+p_s)]     τ: engagement_peaks.hpp, c: cutting share, e: runout
+///   F_tooth = F_at τ [1 − c + c (1 + e/(f_z sin φ))^(1+p_s)]     τ: engagement_peaks.hpp, c: cutting share
+///
+/// e: runout (runout_meter.hpp), φ: where the mean chip is thickest; 90° where the arc is not known.
 ///
 /// Cost: three exponentials and two logarithms. Not thread-safe. Bodies: tooth_force_impl.hpp.
 template <typename Scalar>

@@ -105,16 +105,20 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
     }
 }
 
-/// The tooth with the largest radius takes (f_z + e) of chip where the mean takes f_z.
+/// Where the chip of a mean tooth is thickest, f_z sin φ, the tooth with the largest radius takes e more.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::runout_factor(const CutEstimate<Scalar>& e) const {
     using elementary::exp;
     using elementary::log;
+    using std::sqrt;
     if (!(e.runout_mm > Scalar(0)) || !(e.feed_per_tooth_mm > Scalar(0))) {
         return Scalar(1);
     }
+    const Scalar immersion = e.engagement.radial_immersion;
+    const bool is_below_middle = e.engagement.immersion_valid && immersion < Scalar(1);
+    const Scalar sine = is_below_middle ? sqrt(immersion * (Scalar(2) - immersion)) : Scalar(1);
     // One tooth cannot take more than the chips of all teeth together.
-    const Scalar chip = clamp(Scalar(1) + e.runout_mm / e.feed_per_tooth_mm, Scalar(1), teeth_);
+    const Scalar chip = clamp(Scalar(1) + e.runout_mm / (e.feed_per_tooth_mm * sine), Scalar(1), teeth_);
     return Scalar(1) + e.cutting_share * (exp(e.feed_exponent * log(chip)) - Scalar(1));
 }
 
