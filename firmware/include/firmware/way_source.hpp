@@ -15,6 +15,9 @@ class WaySource {
     /// Called once for each sample, between the tick's estimate and its answer; it calls tick.set_way_ahead().
     virtual void look_ahead(ForceControlTick<Scalar>& tick, const hal::ProgramStatus& program) = 0;
 
+    /// What it knew of the way did not fit the cut: nothing more is taken from it.
+    [[nodiscard]] virtual bool is_refuted() const { return false; }
+
     /// One that has its map over the controller's CAN bus: the id of the frames that it hears; 0: none.
     [[nodiscard]] virtual std::uint32_t frame_id() const { return 0; }
     virtual void on_frame(const hal::CanFrame&) {}

@@ -61,7 +61,7 @@ firmware::WaySource<float>* LiveMaps::begin() {
 }
 
 bool LiveMaps::was_dropped() {
-    const bool is_dropped = follower_ != nullptr && follower_->ahead().is_refuted();
+    const bool is_dropped = is_refuted();
     const bool is_news = is_dropped && !is_dropped_;
     is_dropped_ = is_dropped;
     return is_news;

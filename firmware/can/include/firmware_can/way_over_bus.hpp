@@ -91,7 +91,7 @@ class WayOverBus final : public WaySource<Scalar> {
     [[nodiscard]] std::size_t room() const;
     /// Where the tool is along the path; nothing where it is not known.
     [[nodiscard]] std::optional<Scalar> position_mm() const;
-    [[nodiscard]] bool is_refuted() const { return was_refuted_ || ahead_.is_refuted(); }
+    [[nodiscard]] bool is_refuted() const override { return was_refuted_ || ahead_.is_refuted(); }
 
   private:
     void go_to(const hal::ProgramStatus& program);
