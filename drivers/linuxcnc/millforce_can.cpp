@@ -66,15 +66,15 @@ int export_pins(Pins& p, int component) {
     const auto bit = [&](hal_pin_dir_t direction, hal_bit_t** pin, const char* name) {
         return hal_pin_bit_newf(direction, pin, component, "%s.%s", component_name, name);
     };
-    const int failed =
-        f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") | bit(HAL_OUT, &p.hold, "hold") |
-        bit(HAL_OUT, &p.connected, "connected") | u32(&p.state, "state") | u32(&p.fault, "fault") |
-        u32(&p.refused, "refused") | u32(&p.dropped, "dropped") |
-        f32(HAL_IN, &p.requested_velocity, "requested-velocity") | f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
-        f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
-        s32(&p.tool_number, "tool-number") | s32(&p.program_line, "program-line") |
-        f32(HAL_IN, &p.distance_to_go, "distance-to-go") | bit(HAL_IN, &p.feed_hold, "feed-hold") |
-        bit(HAL_IN, &p.reset, "reset");
+    const int failed = f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") |
+                       bit(HAL_OUT, &p.hold, "hold") | bit(HAL_OUT, &p.connected, "connected") |
+                       u32(&p.state, "state") | u32(&p.fault, "fault") | u32(&p.refused, "refused") |
+                       u32(&p.dropped, "dropped") | f32(HAL_IN, &p.requested_velocity, "requested-velocity") |
+                       f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
+                       f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
+                       s32(&p.tool_number, "tool-number") | s32(&p.program_line, "program-line") |
+                       f32(HAL_IN, &p.distance_to_go, "distance-to-go") | bit(HAL_IN, &p.feed_hold, "feed-hold") |
+                       bit(HAL_IN, &p.reset, "reset");
     if (failed == 0) {
         *p.hold = true;
         *p.mm_per_unit = 1.0;
@@ -201,8 +201,8 @@ class Bridge {
         std::uint32_t line = number_of(*pins_.program_line);
         for (int attempt = 0; attempt < 3 && position.line == 0; ++attempt) {
             const real_t distance = *pins_.distance_to_go * *pins_.mm_per_unit * micrometres_per_mm;
-            position.distance = distance >= 0.0 ? whole(distance, MILLFORCE_DISTANCE_NOT_KNOWN)
-                                                : MILLFORCE_DISTANCE_NOT_KNOWN;
+            position.distance =
+                distance >= 0.0 ? whole(distance, MILLFORCE_DISTANCE_NOT_KNOWN) : MILLFORCE_DISTANCE_NOT_KNOWN;
             const std::uint32_t line_before = line;
             line = number_of(*pins_.program_line);
             position.line = line == line_before ? line : 0;
