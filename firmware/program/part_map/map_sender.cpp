@@ -30,19 +30,20 @@ std::uint32_t number_of_map(const std::string& map_file, const MapOrigin& origin
             of_geometry.push_back(tool.number);
         }
     }
-    const auto named = std::find_if(of_geometry.begin(), of_geometry.end(), [&](std::uint32_t number) {
-        return origin.tool == fmt::format("T{}", number);
-    });
+    const auto named = std::find_if(of_geometry.begin(), of_geometry.end(),
+                                    [&](std::uint32_t number) { return origin.tool == fmt::format("T{}", number); });
     if (named != of_geometry.end()) {
         return *named;
     }
     if (of_geometry.empty()) {
-        throw InputError(fmt::format("{}: made for another tool ('{}') than those of {}", map_file, origin.tool, folder));
+        throw InputError(
+            fmt::format("{}: made for another tool ('{}') than those of {}", map_file, origin.tool, folder));
     }
     if (of_geometry.size() > 1) {
-        throw InputError(fmt::format("{}: made for '{}', which may be {} of {}; make it again with 'millforce preview' "
-                                     "and the tool's file of that folder",
-                                     map_file, origin.tool, names_of(of_geometry), folder));
+        throw InputError(
+            fmt::format("{}: made for '{}', which may be {} of {}; make it again with 'millforce preview' "
+                        "and the tool's file of that folder",
+                        map_file, origin.tool, names_of(of_geometry), folder));
     }
     return of_geometry.front();
 }
