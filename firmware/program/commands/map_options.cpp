@@ -83,7 +83,7 @@ bool LiveMaps::finish() {
         print_line(stderr, fmt::format("millforce: {}", error.what()));
         return false;
     }
-    print_line(stderr, fmt::format("millforce: {}: {:.0f} mm of path learnt", options_.learn, map.back().path_mm));
+    print_line(stderr, fmt::format("millforce: {}: {}", options_.learn, about_memory(map)));
     return true;
 }
 
