@@ -46,6 +46,7 @@ PartMap air(std::size_t blocks) {
 
 std::vector<firmware::NumberedTool> tools_of(const std::vector<std::uint32_t>& numbers, std::uint8_t teeth = 4) {
     std::vector<firmware::NumberedTool> tools;
+    tools.reserve(numbers.size());
     for (const std::uint32_t number : numbers) {
         tools.push_back({number, parameters_with(700.0F).tool});
         tools.back().parameters.teeth = teeth;
