@@ -25,6 +25,7 @@ namespace {
 constexpr const char* component_name = "millforce-can";
 constexpr long wait_ns = 1'000'000;
 constexpr real_t mm_min_per_mm_s = 60.0;
+constexpr real_t micrometres_per_mm = 1000.0;
 
 /// Wraps after 71.6 minutes.
 std::uint32_t now_us() {
@@ -46,6 +47,8 @@ struct Pins {
     hal_float_t* operator_override;
     hal_s32_t* motion_type;
     hal_s32_t* tool_number;
+    hal_s32_t* program_line;
+    hal_float_t* distance_to_go;
     hal_bit_t* feed_hold;
     hal_bit_t* reset;
 };
@@ -63,13 +66,15 @@ int export_pins(Pins& p, int component) {
     const auto bit = [&](hal_pin_dir_t direction, hal_bit_t** pin, const char* name) {
         return hal_pin_bit_newf(direction, pin, component, "%s.%s", component_name, name);
     };
-    const int failed =
-        f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") | bit(HAL_OUT, &p.hold, "hold") |
-        bit(HAL_OUT, &p.connected, "connected") | u32(&p.state, "state") | u32(&p.fault, "fault") |
-        u32(&p.refused, "refused") | u32(&p.dropped, "dropped") |
-        f32(HAL_IN, &p.requested_velocity, "requested-velocity") | f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
-        f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
-        s32(&p.tool_number, "tool-number") | bit(HAL_IN, &p.feed_hold, "feed-hold") | bit(HAL_IN, &p.reset, "reset");
+    const int failed = f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") |
+                       bit(HAL_OUT, &p.hold, "hold") | bit(HAL_OUT, &p.connected, "connected") |
+                       u32(&p.state, "state") | u32(&p.fault, "fault") | u32(&p.refused, "refused") |
+                       u32(&p.dropped, "dropped") | f32(HAL_IN, &p.requested_velocity, "requested-velocity") |
+                       f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
+                       f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
+                       s32(&p.tool_number, "tool-number") | s32(&p.program_line, "program-line") |
+                       f32(HAL_IN, &p.distance_to_go, "distance-to-go") | bit(HAL_IN, &p.feed_hold, "feed-hold") |
+                       bit(HAL_IN, &p.reset, "reset");
     if (failed == 0) {
         *p.hold = true;
         *p.mm_per_unit = 1.0;
@@ -111,12 +116,17 @@ std::uint32_t whole(real_t value, real_t largest) {
     return value > 0.0 ? static_cast<std::uint32_t>(std::min(value, largest) + 0.5) : 0U;
 }
 
+std::uint32_t number_of(std::int32_t pin) {
+    return pin > 0 ? static_cast<std::uint32_t>(pin) : 0U;
+}
+
 class Bridge {
   public:
     Bridge(int can, const Pins& pins) : can_(can), pins_(pins) {
         millforce_receiver_start(&receiver_, millforce_default_settings());
         millforce_status_start(&status_sender_);
         millforce_tool_start(&tool_sender_);
+        millforce_position_start(&position_sender_);
     }
 
     void step() {
@@ -165,15 +175,39 @@ class Bridge {
         status.is_rapid = *pins_.motion_type == 1;
         status.is_feed_held = *pins_.feed_hold;
         status.resets_fault = *pins_.reset;
-        const std::int32_t number = *pins_.tool_number;
-        const std::uint32_t tool = number > 0 ? static_cast<std::uint32_t>(number) : 0U;
         millforce_can_frame frame{};
         if (millforce_status_due(&status_sender_, &status, now_us(), &frame)) {
             send(frame);
         }
-        if (millforce_tool_due(&tool_sender_, tool, now_us(), &frame)) {
+        if (millforce_tool_due(&tool_sender_, number_of(*pins_.tool_number), now_us(), &frame)) {
             send(frame);
         }
+        report_position();
+    }
+
+    /// A machine that does not wire the line spares the bus these frames.
+    void report_position() {
+        const millforce_position position = read_position();
+        millforce_can_frame frame{};
+        knows_lines_ = knows_lines_ || position.line != 0;
+        if (knows_lines_ && millforce_position_due(&position_sender_, &position, now_us(), &frame)) {
+            send(frame);
+        }
+    }
+
+    /// The servo thread may come between two pins: a distance counts with the line that it was read with.
+    millforce_position read_position() const {
+        millforce_position position{};
+        std::uint32_t line = number_of(*pins_.program_line);
+        for (int attempt = 0; attempt < 3 && position.line == 0; ++attempt) {
+            const real_t distance = *pins_.distance_to_go * *pins_.mm_per_unit * micrometres_per_mm;
+            position.distance =
+                distance >= 0.0 ? whole(distance, MILLFORCE_DISTANCE_NOT_KNOWN) : MILLFORCE_DISTANCE_NOT_KNOWN;
+            const std::uint32_t line_before = line;
+            line = number_of(*pins_.program_line);
+            position.line = line == line_before ? line : 0;
+        }
+        return position;
     }
 
     /// What cannot be sent is dropped: the next one is newer.
@@ -192,6 +226,8 @@ class Bridge {
     millforce_receiver receiver_{};
     millforce_status_sender status_sender_{};
     millforce_tool_sender tool_sender_{};
+    millforce_position_sender position_sender_{};
+    bool knows_lines_ = false;
     std::uint32_t heartbeat_ = 0;
 };
 

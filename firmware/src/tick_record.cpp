@@ -8,6 +8,8 @@ namespace millforce::firmware {
 
 namespace {
 
+constexpr float um_per_mm = 1000.0F;
+
 template <typename Scalar>
 float value_or_none(const estimation::Measurement<Scalar>& measurement) {
     return measurement.valid ? static_cast<float>(measurement.value) : TickRecord::no_estimate;
@@ -31,6 +33,9 @@ TickRecord tick_record(const Tick& tick, const hal::FeedOverride& output, std::u
     record.limit = static_cast<std::uint8_t>(control.limit);
     record.tangential_force_N = value_or_none(estimate.tangential_N);
     record.feed_force_N = value_or_none(estimate.feed_N);
+    if (estimate.tooth_periods > 0) {
+        record.runout_um = um_per_mm * static_cast<float>(estimate.runout_mm);
+    }
     if (control.state == control::CutState::air || control.state == control::CutState::exit) {
         return record;
     }

@@ -23,7 +23,7 @@ namespace {
 
 }  // namespace
 
-std::uint32_t tool_checksum(const ToolParameters<float>& tool) {
+[[gnu::cold]] std::uint32_t tool_checksum(const ToolParameters<float>& tool) {
     std::uint32_t crc = 0;
     const auto add = [&crc](const ParameterName& /*name*/, const auto& field, float /*minimum*/, float /*maximum*/) {
         crc = crc_with(crc, static_cast<float>(field));

@@ -121,8 +121,10 @@ RunResult run_with_map(const SimulateOptions& options, const Scenario& scenario,
     }
     if (learner) {
         const std::string tool = std::filesystem::path(scenario.tool_file).stem().string();
+        const host::PartMap map = learner->map();
         host::write_part_map(options.learn,
-                             {host::origin_of(scenario.program_file, tool, scenario.parameters.tool), learner->map()});
+                             {host::origin_of(scenario.program_file, tool, scenario.parameters.tool), map});
+        host::print_line(stderr, fmt::format("millforce: {}: {}", options.learn, host::about_memory(map)));
     }
     return result;
 }

@@ -30,6 +30,7 @@ void describe(const firmware::TickRecord& tick, TracePoint& point) {
     point.axial_depth_mm = in_double(tick.axial_depth_mm);
     point.axial_depth_sd_mm = in_double(tick.axial_depth_sd_mm);
     point.tooth_force_N = in_double(tick.tooth_force_N);
+    point.runout_um = in_double(tick.runout_um);
 }
 
 template <typename Scalar>

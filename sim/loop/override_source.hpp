@@ -80,7 +80,7 @@ class MappedController : public MillforceController {
     MappedController(const firmware::Parameters<float>& parameters, const std::optional<host::PartMap>& map,
                      host::MapLearner* learner = nullptr);
 
-    [[nodiscard]] bool is_refuted() const { return follower_ && follower_->ahead().is_refuted(); }
+    [[nodiscard]] bool is_refuted() const { return follower_ && follower_->is_refuted(); }
     /// With a map.
     [[nodiscard]] const control::FeedAhead<float>& ahead() const { return follower_->ahead(); }
 

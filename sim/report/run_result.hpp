@@ -47,6 +47,7 @@ struct TracePoint {
     double tooth_force_N = host::no_estimate;
     double peak_force_N = host::no_estimate;
     double force_limit_N = host::no_estimate;  ///< the threshold on the total force, F_tooth,max · g
+    double runout_um = host::no_estimate;
 };
 
 /// The figures of one run.

@@ -78,6 +78,7 @@ constexpr TraceColumn simulation[] = {
     number<&TracePoint::true_feed_force_N>("true_feed_force_N"),
     number<&TracePoint::true_radial_immersion>("true_radial_immersion"),
     number<&TracePoint::true_axial_depth_mm>("true_axial_depth_mm"),
+    number<&TracePoint::runout_um>("runout_um"),
 };
 
 void append_cell(std::string& line, const TraceColumn& column, const TracePoint& point) {

@@ -6,6 +6,7 @@
 #include "override_frame/override_frame.hpp"
 #include "parameters/parameter_files.hpp"
 #include "part_map/part_map_file.hpp"
+#include "program_status/tool_frame.hpp"
 #include "socketcan/can_socket.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -74,6 +75,14 @@ void write_map(const LiveFolder& folder, const firmware::ToolParameters<float>& 
     host::write_part_map(folder.file("part.map"), {host::origin_of({}, "tool", tool), map});
 }
 
+std::string hex_of(const hal::CanFrame& frame) {
+    std::string hex;
+    for (const std::uint8_t byte : frame.data) {
+        hex += fmt::format("{:02X}", byte);
+    }
+    return hex;
+}
+
 std::vector<std::string> send_words(const LiveFolder& folder) {
     return {"map",       "send",
             "vcan0",     folder.file("part.map"),
@@ -104,6 +113,28 @@ TEST(MapSentOnVcan, a_chip_takes_the_whole_of_a_short_map) {
     STRCMP_EQUAL("", sender.error().c_str());
     LONGS_EQUAL(0, sender.exit_code());
     UNSIGNED_LONGS_EQUAL(61, chip.room());  // of three stretches, and two blocks
+}
+
+TEST(MapSentOnVcan, with_tools_by_number_the_map_of_the_tool_that_the_cnc_tells_is_sent) {
+    std::filesystem::create_directories(folder.file("tools"));
+    folder.write("tools/T7.toml",
+                 test::with(folder.text("tool.toml"), "tooth_force_limit_N = 700", "tooth_force_limit_N = 500"));
+    folder.write("tools/T12.toml", folder.text("tool.toml"));
+    host::write_part_map(folder.file("T12.map"), {host::origin_of({}, "T12", parameters.tool),
+                                                  host::read_part_map(folder.file("part.map")).map});
+    Chip chip(parameters);
+    const Child cnc("cangen vcan0 -g 20 -I 2FD -L 8 -D " + hex_of(program_status::encode_tool(12, 0x2FD)));
+    test::Program sender({"map", "send", "vcan0", folder.file("T12.map"), "--machine", folder.file("machine.toml"),
+                          "--tools", folder.file("tools")});
+    CHECK(sender.prints("5 records, 20.0 mm, to node 126, with T12", std::chrono::seconds(20)));
+    CHECK(sender.prints("vcan0: T12\n", std::chrono::seconds(20)));
+    CHECK(sender.prints("the controller takes the map", std::chrono::seconds(20)));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    sender.interrupt(SIGINT);
+    sender.wait();
+    chip.end();
+    LONGS_EQUAL(0, sender.exit_code());
+    UNSIGNED_LONGS_EQUAL(61, chip.room());
 }
 
 TEST(MapSentOnVcan, another_tool_and_silence_are_told_and_give_exit_code_1) {

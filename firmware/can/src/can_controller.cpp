@@ -225,10 +225,12 @@ void CanController::tick_on_sample() {
     program_ = program_at(sync_time_us_);
     reset_fault_where_asked();
     finish_work(tick_);  // what was not done in time: a replay does the same work
-    tick_.follow_tool(tool_receiver_.number(sync_time_us_), is_at_rest());
+    if (tick_.follow_tool(tool_receiver_.number(sync_time_us_), is_at_rest()) && way_ != nullptr) {
+        way_->set_tool(tick_.tool());
+    }
     tick_.take(sample_);
     finish_estimate(tick_);
-    if (way_ != nullptr) {
+    if (way_ != nullptr && tick_.is_tool_known()) {
         way_->look_ahead(tick_.of_tool(), program_);
     }
     finish(tick_.answer(program_), sync_time_us_);

@@ -52,10 +52,15 @@ WayOverBus<Scalar>::WayOverBus(const Parameters<Scalar>& parameters, std::uint32
       ahead_(settings_) {}
 
 template <typename Scalar>
-void WayOverBus<Scalar>::set_tool(const Parameters<Scalar>& parameters, std::uint32_t checksum) {
+void WayOverBus<Scalar>::change_tool(const AlongPath<Scalar>& along, std::uint32_t checksum) {
     receiver_.set_tool(checksum);
-    along_ = AlongPath<Scalar>(parameters);
+    along_ = along;
     begin_again();
+}
+
+template <typename Scalar>
+void WayOverBus<Scalar>::look_ahead(ForceControlTick<Scalar>& tick, const hal::ProgramStatus& program) {
+    look_ahead_of(tick, program);
 }
 
 template <typename Scalar>

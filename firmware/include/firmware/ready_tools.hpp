@@ -6,7 +6,9 @@
 #include <optional>
 #include <span>
 
+#include "firmware/along_path.hpp"
 #include "firmware/parameter_block.hpp"
+#include "firmware/tool_checksum.hpp"
 #include "firmware/tool_source.hpp"
 
 namespace millforce::firmware {
@@ -15,6 +17,8 @@ namespace millforce::firmware {
 struct ReadyTool {
     std::uint32_t number = 0;
     std::optional<ForceControlTick<float>> tick{};
+    std::optional<AlongPath<float>> along{};  ///< this and the checksum: for its part map
+    std::uint32_t checksum = 0;               ///< tool_checksum()
 };
 
 /// Tools whose ticks are built at the start, so that a change copies one. No heap.
@@ -24,8 +28,11 @@ class ReadyTools final : public ToolSource {
     explicit ReadyTools(std::span<ReadyTool> memory) : memory_(memory) {}
 
     void add(std::uint32_t number, const Parameters<float>& parameters) {
-        memory_[count_].number = number;
-        memory_[count_].tick.emplace(parameters);
+        ReadyTool& tool = memory_[count_];
+        tool.number = number;
+        tool.tick.emplace(parameters);
+        tool.along.emplace(parameters);
+        tool.checksum = tool_checksum(parameters.tool);
         ++count_;
     }
 
@@ -42,6 +49,12 @@ class ReadyTools final : public ToolSource {
     void set_up(std::uint32_t number, ForceControlTick<float>& tick) const override {
         const std::size_t place = place_of(number);
         tick = *memory_[place < count_ ? place : 0].tick;
+    }
+
+    /// Null where there is no such tool.
+    [[nodiscard]] const ReadyTool* tool(std::uint32_t number) const {
+        const std::size_t place = place_of(number);
+        return place < count_ ? &memory_[place] : nullptr;
     }
 
   private:

@@ -24,6 +24,7 @@ struct TickRecord {
 
     float tangential_force_N = no_estimate;
     float feed_force_N = no_estimate;
+    float runout_um = no_estimate;         ///< by how much the chip of one tooth is thicker than the mean one, at most
     float radial_immersion = no_estimate;  ///< this and all below: in contact only
     float radial_immersion_sd = no_estimate;
     float axial_depth_mm = no_estimate;

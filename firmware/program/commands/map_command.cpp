@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "commands/can_interface.hpp"
 #include "commands/command_line.hpp"
@@ -18,9 +21,10 @@
 #include "files/overwriting.hpp"
 #include "map_page/map_page.hpp"
 #include "parameters/parameter_files.hpp"
+#include "parameters/tool_set.hpp"
 #include "part_map/map_join.hpp"
+#include "part_map/map_sender.hpp"
 #include "part_map/part_map_file.hpp"
-#include "part_map/way_sender.hpp"
 #include "socketcan/can_socket.hpp"
 
 namespace millforce::host {
@@ -42,8 +46,8 @@ struct ShowOptions {
 
 struct SendOptions {
     std::string interface;
-    std::string map;
-    std::string tool;
+    std::vector<std::string> maps;
+    ToolChoice tools;
     std::string machine;
 };
 
@@ -98,11 +102,13 @@ int show(const ShowOptions& options) {
     return 0;
 }
 
-socketcan::CanSocketSettings socket_of(const SendOptions& options, const WaySenderSettings& sender) {
+socketcan::CanSocketSettings socket_of(const SendOptions& options, const WaySenderSettings& sender,
+                                       std::uint32_t program_status_id) {
     socketcan::CanSocketSettings settings = socket_on(options.interface);
     settings.filters[0].id = sender.position_id;
     settings.filters[1].id = way_window::way_answer_id(sender.node_id);
-    settings.filter_count = 2;
+    settings.filters[2].id = program_status::tool_frame_id(program_status_id);
+    settings.filter_count = 3;
     return settings;
 }
 
@@ -143,18 +149,85 @@ bool is_news(std::optional<way_window::WayState> last, std::optional<way_window:
     return now != last && now != way_window::WayState::waits;
 }
 
+/// How long the path of a map is, and of how many records it is made.
+void print_map(const std::string& name, const PartMapFile& file, const firmware::Parameters<float>& parameters,
+               std::uint32_t tool, std::uint8_t node_id) {
+    fmt::print("{}: {} records, {:.1f} mm, to node {}{}\n", name, way_records(file.map, parameters).size(),
+               file.map.back().path_mm, node_id, tool == 0 ? "" : fmt::format(", with T{}", tool));
+}
+
+void add_map_of_tool(MapSender& sender, const SendOptions& options, const firmware::MachineParameters<float>& machine,
+                     std::uint8_t node_id) {
+    if (options.maps.size() > 1) {
+        throw InputError(fmt::format("--tool: {} maps, expected one, or --tools", options.maps.size()));
+    }
+    const std::string& name = options.maps.front();
+    const PartMapFile file = read_part_map(name);
+    const firmware::Parameters<float> parameters{machine, tool_of(options.tools.file, name, file.origin)};
+    sender.add(file.map, parameters);
+    print_map(name, file, parameters, 0, node_id);
+}
+
+void add_maps_by_number(MapSender& sender, const SendOptions& options,
+                        const firmware::MachineParameters<float>& machine, std::uint8_t node_id) {
+    const std::vector<NumberedTool> tools = read_tool_folder(options.tools.folder);
+    for (const std::string& name : options.maps) {
+        const PartMapFile file = read_part_map(name);
+        const std::uint32_t number = number_of_map(name, file.origin, options.tools.folder, tools);
+        const auto tool = std::find_if(tools.begin(), tools.end(),
+                                       [number](const NumberedTool& other) { return other.number == number; });
+        const firmware::Parameters<float> parameters{machine, tool->parameters};
+        if (!sender.add(number, file.map, parameters)) {
+            throw InputError(fmt::format("{}: a second map for T{}, expected one for each tool", name, number));
+        }
+        print_map(name, file, parameters, number, node_id);
+    }
+}
+
+/// What the controller says of the map, and which tool has none, each where it changes.
+class SendReporter {
+  public:
+    explicit SendReporter(std::string interface) : interface_(std::move(interface)) {}
+
+    void follow(const MapSender& sender, std::uint64_t now_us) {
+        const bool has_map = sender.sender() != nullptr;
+        if (has_map != had_map_ || sender.tool() != tool_) {
+            had_map_ = has_map;
+            tool_ = sender.tool();
+            last_.reset();
+            print(tool_ == 0 ? std::string("the CNC tells no tool")
+                             : fmt::format("T{}{}", tool_, has_map ? "" : ": there is no map for it"));
+        }
+        const auto state = has_map ? sender.sender()->controller_state(now_us) : std::nullopt;
+        if (is_news(last_, state)) {
+            print(text_of(state));
+            last_ = state;
+        }
+    }
+    [[nodiscard]] std::optional<way_window::WayState> last() const { return last_; }
+
+  private:
+    void print(const std::string& text) const {
+        fmt::print("{}: {}\n", interface_, text);
+        std::fflush(stdout);
+    }
+
+    std::string interface_;
+    bool had_map_ = true;
+    std::uint32_t tool_ = 0;
+    std::optional<way_window::WayState> last_{};
+};
+
 int send(const SendOptions& options) {
-    const PartMapFile file = read_part_map(options.map);
-    const auto tool = tool_of(options.tool, options.map, file.origin);
-    const firmware::Parameters<float> parameters{read_machine_parameters(options.machine), tool};
-    const WaySenderSettings settings = sender_settings(options, parameters.machine.bus);
-    socketcan::CanSocket socket(socket_of(options, settings));
-    WaySender sender(settings, file.map, parameters);
+    options.tools.require_one();
+    const firmware::MachineParameters<float> machine = read_machine_parameters(options.machine);
+    const WaySenderSettings settings = sender_settings(options, machine.bus);
+    MapSender sender(settings, machine.bus.program_status_id);
     const std::atomic<bool>& stop = stop_on_signal();
-    fmt::print("{}: {} records, {:.1f} mm, to node {}\n", options.map, sender.record_count(), file.map.back().path_mm,
-               settings.node_id);
+    (options.tools.is_folder() ? add_maps_by_number : add_map_of_tool)(sender, options, machine, settings.node_id);
     std::fflush(stdout);
-    std::optional<way_window::WayState> last;
+    socketcan::CanSocket socket(socket_of(options, settings, machine.bus.program_status_id));
+    SendReporter reporter(options.interface);
     while (!stop.load(std::memory_order_relaxed)) {
         socket.wait(settings.frame_period_us);
         const std::uint64_t now_us = socketcan::monotonic_us();
@@ -168,15 +241,11 @@ int send(const SendOptions& options) {
         while (sender.take_frame(frame)) {
             socket.send(frame);
         }
-        const auto state = sender.controller_state(now_us);
-        if (is_news(last, state)) {
-            fmt::print("{}: {}\n", options.interface, text_of(state));
-            std::fflush(stdout);
-            last = state;
-        }
+        reporter.follow(sender, now_us);
     }
     fmt::print("{}: {} frames sent, {} not sent; the map was begun {} times\n", options.interface, socket.health().sent,
                socket.health().send_failures, sender.sessions());
+    const auto last = reporter.last();
     return last && *last == way_window::WayState::takes ? 0 : 1;
 }
 
@@ -187,12 +256,13 @@ void add_send(Command& map) {
         "For a controller on a chip ('millforce run' takes --map). Runs beside it until SIGINT, SIGTERM or SIGHUP. It\n"
         "hands over 64 stretches and 64 blocks ahead of the tool, and begins where the tool is. The CNC must send its\n"
         "position frame. What the controller says of the map is printed when it changes.\n"
+        "With --tools there is a map for each tool, and the CNC's tool frame says whose is handed over. A map belongs "
+        "to\n"
+        "the tool of its name (T7), else to the only one of the folder that has its geometry.\n"
         "Exit code 1: at the end the controller was silent, or did not use the map.");
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
-    command.option("map", options->map, "Part map").required().value_name("PART.map");
-    command.option("--tool", options->tool, "Tool file of the map, as the controller has it")
-        .required()
-        .value_name("TOOL.toml");
+    command.option("maps", options->maps, "Part map; with --tools one for each tool").required().value_name("PART.map");
+    add_tools(command, options->tools);
     command.option("--machine", options->machine, "Machine parameters, as the controller has them")
         .required()
         .value_name("M.toml");

@@ -61,7 +61,7 @@ firmware::WaySource<float>* LiveMaps::begin() {
 }
 
 bool LiveMaps::was_dropped() {
-    const bool is_dropped = follower_ != nullptr && follower_->ahead().is_refuted();
+    const bool is_dropped = is_refuted();
     const bool is_news = is_dropped && !is_dropped_;
     is_dropped_ = is_dropped;
     return is_news;
@@ -83,7 +83,7 @@ bool LiveMaps::finish() {
         print_line(stderr, fmt::format("millforce: {}", error.what()));
         return false;
     }
-    print_line(stderr, fmt::format("millforce: {}: {:.0f} mm of path learnt", options_.learn, map.back().path_mm));
+    print_line(stderr, fmt::format("millforce: {}: {}", options_.learn, about_memory(map)));
     return true;
 }
 

@@ -32,6 +32,8 @@ class LiveMaps {
 
     /// A machine connects: nothing has agreed with the map yet. Null where there is nothing to do.
     [[nodiscard]] firmware::WaySource<float>* begin();
+    /// The map does not fit the cut, and is not looked ahead in.
+    [[nodiscard]] bool is_refuted() const { return follower_ != nullptr && follower_->is_refuted(); }
     /// Since the last call the map was dropped, because it does not fit the cut.
     [[nodiscard]] bool was_dropped();
     /// Writes what was learnt, if anything was. False, with a line on standard error, where that failed.

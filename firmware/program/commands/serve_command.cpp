@@ -134,7 +134,7 @@ class TickWatcher {
   public:
     explicit TickWatcher(TelemetryFeed* feed) : feed_(feed) {}
 
-    void follow(const firmware::LinkController& controller, bool was_stopped) {
+    void follow(const firmware::LinkController& controller, bool was_stopped, bool is_map_refuted) {
         if (feed_ == nullptr) {
             return;
         }
@@ -151,6 +151,7 @@ class TickWatcher {
         sample.conditions.set(firmware::Condition::tool_unknown, !controller.is_tool_known());
         sample.conditions.set(firmware::Condition::tool_change_due, controller.is_tool_change_due());
         sample.conditions.set(firmware::Condition::process_paused, was_stopped);
+        sample.conditions.set(firmware::Condition::map_refuted, is_map_refuted);
         feed_->put(sample);
     }
 
@@ -182,7 +183,7 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
             return;
         }
         server.send(answer);
-        watcher.follow(controller, turns.is_held());
+        watcher.follow(controller, turns.is_held(), maps.is_refuted());
         firmware::finish_work(controller);
         faults.follow(controller.output(), printer);
         tools.follow(controller, printer);

@@ -21,7 +21,7 @@
 
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   const unitless = (field) => {
-    const unit = `_${field.unit.replace("/", "_")}`;
+    const unit = `_${field.unit.replace("/", "_").replace("µ", "u")}`;
     return inWords(field.name.endsWith(unit) ? field.name.slice(0, -unit.length) : field.name);
   };
 

@@ -21,6 +21,7 @@ class MapFollower final : public firmware::WaySource<float> {
 
     void look_ahead(firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) override;
 
+    [[nodiscard]] bool is_refuted() const override { return ahead_.is_refuted(); }
     [[nodiscard]] const control::FeedAhead<float>& ahead() const { return ahead_; }
 
   private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "part_map/map_learner.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -337,6 +339,22 @@ PartMap MapLearner::map_of(const Run& run) const {
         map.push_back(end);
     }
     return map;
+}
+
+std::string about_memory(const PartMap& map) {
+    if (map.empty()) {
+        return "nothing learnt";
+    }
+    double unknown_mm = 0.0;
+    for (std::size_t k = 0; k + 1 < map.size(); ++k) {
+        unknown_mm += map[k].known == Known::nothing ? map[k + 1].path_mm - map[k].path_mm : 0.0;
+    }
+    std::string text = fmt::format("{:.0f} mm of path learnt", map.back().path_mm);
+    text += unknown_mm > 0.0 ? fmt::format(", {:.0f} mm of it not known", unknown_mm) : "";
+    const bool has_cut = std::any_of(map.begin(), map.end(), is_seen_cut);
+    return text + (has_cut || !(unknown_mm > 0.0)
+                       ? ""
+                       : "; it holds air alone: without currents of the axes a run does not know how wide it cuts");
 }
 
 }  // namespace millforce::host

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "firmware/parameters.hpp"
@@ -86,5 +87,8 @@ class MapLearner {
     double to_go_mm_ = 0.0;
     std::optional<double> last_middle_mm_;
 };
+
+/// In words: how long the path of a run's memory is, how much of it is not known, and where no cut is known, why.
+[[nodiscard]] std::string about_memory(const PartMap& map);
 
 }  // namespace millforce::host

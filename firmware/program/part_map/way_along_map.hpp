@@ -21,6 +21,8 @@ class WayAlongMap final : public firmware::WaySource<float> {
         }
     }
 
+    [[nodiscard]] bool is_refuted() const override { return follower_ != nullptr && follower_->is_refuted(); }
+
   private:
     MapFollower* follower_;
     MapLearner* learner_;

@@ -135,6 +135,14 @@ void WaySender::go_back() {
     valid_from_ask_ = asks_ + 1;
 }
 
+void WaySender::begin_again(std::uint64_t now_us) {
+    ++run_;
+    position_mm_.reset();
+    reached_mm_ = 0.0;
+    answer_.reset();
+    begin(now_us);
+}
+
 void WaySender::begin(std::uint64_t now_us) {
     session_ = static_cast<std::uint8_t>(session_ % way_window::last_session + 1);
     ++sessions_;

@@ -39,6 +39,8 @@ class WaySender {
     void on_frame(const hal::CanFrame& frame, std::uint64_t time_us);
     void poll(std::uint64_t now_us);
     [[nodiscard]] bool take_frame(hal::CanFrame& frame);
+    /// Another tool was in the spindle meanwhile: a new run of the program, wherever it is.
+    void begin_again(std::uint64_t now_us);
 
     /// What the controller says; nothing where it has been silent for half a second.
     [[nodiscard]] std::optional<way_window::WayState> controller_state(std::uint64_t now_us) const;

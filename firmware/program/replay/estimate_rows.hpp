@@ -52,6 +52,15 @@ class ToolCells {
     std::size_t without_ = 0;
 };
 
+/// The last column: by how much the chip of one tooth is thicker than the mean one, at most.
+class RunoutCells {
+  public:
+    static void write_header(std::ostream& out) { out << ",runout_um"; }
+    static void write(std::ostream& out, const firmware::TickRecord& tick) {
+        out << ',' << CsvWriter::cell(tick.runout_um);
+    }
+};
+
 /// The columns of the roughness, where the tool has a model of it: value, 95 % interval, and 1 within the range of the
 /// model's tests or 0 outside.
 class RoughnessCells {

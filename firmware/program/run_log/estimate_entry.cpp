@@ -27,7 +27,7 @@ bool TickEntries::add(const firmware::TickRecord& tick, std::uint32_t tool, Esti
     mix(bits(tick.axial_depth_mm), bits(tick.axial_depth_sd_mm));
     mix(bits(tick.tooth_force_N), bits(tick.total_force.tooth_force_N));
     mix(bits(tick.total_force.radial_immersion), bits(tick.total_force.axial_depth_mm));
-    mix(0, static_cast<std::uint32_t>(tick.total_force.side));
+    mix(bits(tick.runout_um), static_cast<std::uint32_t>(tick.total_force.side));
     if (tick.time_us < next_us_) {
         return false;
     }

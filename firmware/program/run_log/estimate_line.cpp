@@ -32,7 +32,7 @@ std::string estimate_members(const EstimateEntry& entry, const ToolForces& force
           std::pair{"radial_immersion", tick.radial_immersion},
           std::pair{"radial_immersion_sd", tick.radial_immersion_sd}, std::pair{"axial_depth_mm", tick.axial_depth_mm},
           std::pair{"axial_depth_sd_mm", tick.axial_depth_sd_mm}, std::pair{"peak_force_N", shown.peak_N},
-          std::pair{"force_limit_N", shown.limit_N}}) {
+          std::pair{"force_limit_N", shown.limit_N}, std::pair{"runout_um", tick.runout_um}}) {
         text += fmt::format(R"(,"{}":{})", key, number_or_null(value));
     }
     text += forces.has_numbers() ? fmt::format(R"(,"tool":{})", entry.tool) : "";

@@ -74,9 +74,11 @@ control::Limit RunBin::limit() const {
 RunHistory::RunHistory(const ToolSet& tools) : has_numbers_(!tools.tools().empty()) {
     if (!has_numbers_) {
         tooth_force_limits_N_.emplace(0, tools.parameters().tool.tooth_force_limit_N);
+        runouts_[0].stated_um = tools.parameters().tool.runout_um;
     }
     for (const NumberedTool& tool : tools.tools()) {
         tooth_force_limits_N_.emplace(tool.number, tool.parameters.tooth_force_limit_N);
+        runouts_[tool.number].stated_um = tool.parameters.runout_um;
     }
     bins_.reserve(bin_capacity);
     events_.reserve(event_capacity);
@@ -92,6 +94,9 @@ void RunHistory::add(double time_s, const firmware::TickRecord& tick, std::uint3
     const float limit_N = tooth_force_limit_N(tool);
     add_to_totals(step_s, tick, limit_N);
     add_to_bin(step_s, tick, limit_N);
+    if (const auto runout = runouts_.find(tool); runout != runouts_.end()) {
+        runout->second.add(tick.runout_um);
+    }
     find_events(time_s, tick, tool);
 }
 

@@ -74,6 +74,20 @@ struct RunMean {
     [[nodiscard]] double mean() const { return integral / known_s; }
 };
 
+/// By how much the chip of one tooth is thicker than the mean one, at most.
+struct RunRunout {
+    float stated_um = 0.0F;                                    ///< runout_um of the tool's file
+    float shown_um = std::numeric_limits<float>::quiet_NaN();  ///< newest that a cut has shown; NaN: none has
+
+    /// The controller takes what is stated for it until a cut shows another; where 0 is stated it does not look.
+    void add(float runout_um) {
+        constexpr float same_um = 0.05F;
+        shown_um = stated_um > 0.0F && std::fabs(runout_um - stated_um) > same_um ? runout_um
+                                                                                  : shown_um;  // a NaN changes nothing
+    }
+    [[nodiscard]] bool is_shown() const { return !std::isnan(shown_um); }
+};
+
 /// Figures of the whole run.
 struct RunTotals {
     std::uint64_t ticks = 0;
@@ -114,6 +128,8 @@ class RunHistory {
 
     [[nodiscard]] bool is_empty() const { return totals_.ticks == 0; }
     [[nodiscard]] const RunTotals& totals() const { return totals_; }
+    /// By the tool's number; 0: the one tool.
+    [[nodiscard]] const std::map<std::uint32_t, RunRunout>& runouts() const { return runouts_; }
     [[nodiscard]] double bin_width_s() const { return bin_width_s_; }
     [[nodiscard]] const std::vector<RunBin>& bins() const { return bins_; }
     /// In the order of their times. Of too many: the first ones and the last.
@@ -138,6 +154,7 @@ class RunHistory {
     void keep(double time_s, bool is_fault, std::string text);
 
     std::map<std::uint32_t, float> tooth_force_limits_N_{};
+    std::map<std::uint32_t, RunRunout> runouts_{};
     bool has_numbers_;
     RunTotals totals_{};
     double bin_width_s_ = 0.02;

@@ -109,12 +109,34 @@ std::string stats_html(const RunTotals& totals, const RunOrigin& origin) {
            stat_html("", readable_time(totals.ceilings.cut_s), "in the cut");
 }
 
+std::string runout_words(const RunRunout& runout) {
+    const std::string stated = fmt::format("{:.0f} µm by its file", runout.stated_um);
+    if (runout.is_shown()) {
+        return fmt::format("{:.0f} µm at most, as the cut showed; {}", runout.shown_um, stated);
+    }
+    return stated + (runout.stated_um > 0.0F ? "; no cut showed it" : ", and so not measured");
+}
+
+/// Of one tool, or of those of a folder whose runout a cut has shown.
+std::string runout_fact(const RunHistory& history) {
+    std::string words;
+    for (const auto& [number, runout] : history.runouts()) {
+        if (number == 0) {
+            words = runout_words(runout);
+        } else if (runout.is_shown()) {
+            words += fmt::format("{}T{}: {}", words.empty() ? "" : "; ", number, runout_words(runout));
+        }
+    }
+    return words;
+}
+
 std::string facts_html(const RunHistory& history, const RunOrigin& origin) {
     const RunTotals& totals = history.totals();
     std::string out;
     for (const auto& [name, value] : origin.facts) {
         out += fact_html(name, value);
     }
+    out += fact_html("Runout of the tool (runout_um)", runout_fact(history));
     out += fact_html("Length", readable_time(totals.length_s));
     out += fact_html("Feed held for", readable_time(totals.hold_s));
     out += fact_html("Samples", fmt::to_string(totals.ticks));

@@ -64,6 +64,7 @@ const char* meaning_of(firmware::Condition condition) {
         "the override does not reach an output of this computer, and the feed is held",
         "another node sends the override, too, and the feed is held",
         "this program was stopped for a while, and the feed is held until a newer sample comes",
+        "the part map does not fit this cut, and the controller goes on without it",
     };
     static_assert(sizeof meanings / sizeof meanings[0] == firmware::condition_count);
     return meanings[static_cast<std::size_t>(condition) % firmware::condition_count];

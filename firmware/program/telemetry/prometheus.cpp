@@ -25,6 +25,7 @@ constexpr std::array unit_words{
     UnitWord{"s", "_s", "seconds"},        UnitWord{"1", "", "ratio"},
     UnitWord{"N", "_N", "newtons"},        UnitWord{"A", "_A", "amperes"},
     UnitWord{"mm", "_mm", "meters", 1e-3}, UnitWord{"mm/s", "_mm_s", "meters_per_second", 1e-3},
+    UnitWord{"µm", "_um", "meters", 1e-6},
 };
 
 /// Null: a field without a unit.

@@ -100,6 +100,10 @@ constexpr std::array fields{
                    [](Of t) { return number(t.sample.tick.tooth_force_N); }},
     TelemetryField{"tooth_force_limit_N", "N", "Largest force that one tooth may carry, of the tool's file",
                    Kind::number, [](Of t) { return number(t.tooth_force_limit_N); }},
+    TelemetryField{"runout_um", "µm",
+                   "By how much the chip of the tooth that stands out furthest is thicker than the mean one, at most; "
+                   "runout_um of the tool's file until a cut shows it",
+                   Kind::number, [](Of t) { return number(t.sample.tick.runout_um); }},
     TelemetryField{"tool", "", "Number of the tool that the override is for; 0: one tool, or not known", Kind::count,
                    [](Of t) { return count(t.sample.tool); }},
     TelemetryField{"ticks", "", "Ticks of the controller since the run began", Kind::counter,

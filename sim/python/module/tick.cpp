@@ -63,7 +63,7 @@ class Tick {
         add_columns(out, made.points, sim::estimate_columns());
         for (const sim::TraceColumn& column : sim::simulation_columns()) {
             if (const std::string_view name = column.name;
-                name == "limit" || name == "fault" || name == "tooth_force_N") {
+                name == "limit" || name == "fault" || name == "tooth_force_N" || name == "runout_um") {
                 add_columns(out, made.points, std::span(&column, 1));
             }
         }

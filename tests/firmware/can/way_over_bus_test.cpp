@@ -256,7 +256,7 @@ TEST(WayOverBus, another_tool_is_refused_and_a_change_of_the_tool_forgets_all) {
     CHECK(chip.asked().state == WayState::other_tool);
     chip.mill(0.0F, 8.0F);
     CHECK_FALSE(chip.tick.way.known);
-    chip.window.set_tool(parameters(), tool + 1);
+    chip.window.change_tool(firmware::AlongPath(parameters()), tool + 1);
     CHECK(chip.asked().state == WayState::waits);
     chip.begin(0, tool + 1);
     chip.give_cut();

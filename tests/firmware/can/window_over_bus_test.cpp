@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "way_sender_on_loopback.hpp"
 
+#include "firmware_can/way_of_tools.hpp"
 #include "loop/bounds.hpp"
 #include "loop/simulation.hpp"
 #include "part_map/map_follower.hpp"
+#include "part_map/map_sender.hpp"
 #include "preview/preview.hpp"
 
 #include <CppUTest/TestHarness.h>
 
+#include <array>
 #include <random>
 
 using namespace millforce;
@@ -109,6 +112,40 @@ TEST(WindowOverBus, a_chip_mills_as_fast_as_with_the_whole_map) {
         CHECK(chip.figures.time_s < 0.9 * blind.time_s);
         CHECK(chip.sessions <= 2);  // the first may come before the controller hears
     }
+}
+
+/// Two tools out of which the CNC tells 7, and the sender of both maps.
+TEST(WindowOverBus, a_chip_with_tools_by_number_mills_as_fast_with_the_map_of_the_tool_in_the_spindle) {
+    const sim::Scenario scenario = scenario_of("slot_entry");
+    firmware::Parameters<float> other = scenario.parameters;
+    other.tool.tooth_force_limit_N *= 0.5F;
+    const host::PartMap map = sim::preview(scenario);
+    const Run of_one_tool = with_window(scenario, map);
+    std::array<firmware::ReadyTool, 2> memory;
+    firmware::ReadyTools tools(memory);
+    tools.add(7, scenario.parameters);
+    tools.add(8, other);
+    firmware::WayOfTools way(other, override_frame::default_node_id, &tools);
+    ControllerOnLoopback bench(scenario, &tools, &way);
+    bench.keeps_log = false;
+    bench.ticks.is_kept = false;
+    host::MapSender sender(way_sender_settings(), program_status::default_id);
+    CHECK(sender.add(8, map, other));
+    CHECK(sender.add(7, map, scenario.parameters));
+    const int place = bench.wire.attach(
+        [&sender](const hal::CanFrame& frame, std::uint64_t time_us) { sender.on_frame(frame, time_us); });
+    bench.beside = [&](std::uint64_t now_us) {
+        sender.poll(now_us);
+        hal::CanFrame frame;
+        while (sender.take_frame(frame)) {
+            bench.wire.send(place, frame, now_us);
+        }
+    };
+    bench.cnc.set_tool(7, bench.now_us);
+    const sim::RunFigures figures = sim::simulate(scenario, bench, "millforce").result.figures;
+    CHECK(sim::bounds_hold(figures));
+    CHECK_FALSE(way.is_refuted());
+    DOUBLES_EQUAL(of_one_tool.figures.time_s, figures.time_s, 0.03 * figures.time_s);
 }
 
 /// Its map has 344 records: a window holds a part of it.

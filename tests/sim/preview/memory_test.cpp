@@ -65,6 +65,21 @@ TEST(Memory, a_second_part_is_done_sooner_and_keeps_the_limit_in_any_batch) {
     }
 }
 
+TEST(Memory, without_currents_of_the_axes_holds_air_alone_and_says_so) {
+    Scenario alone = scenario_named("slot_entry");
+    for (auto& axis : alone.parameters.machine.axes) {
+        axis.K_x4_N_per_A = 0.0F;
+    }
+    const PartMap memory = memory_of(alone);
+    CHECK_TRUE(std::ranges::all_of(memory, [](const MapPlace& place) { return place.cut.empty(); }));
+    CHECK_TRUE(place_holding_at(memory, contact_of(preview(alone)) + 20.0).known == Known::nothing);
+    STRCMP_CONTAINS(" mm of it not known; it holds air alone: without currents of the axes",
+                    millforce::host::about_memory(memory).c_str());
+    const std::string of_all_currents = millforce::host::about_memory(memory_of(scenario_named("slot_entry")));
+    STRCMP_CONTAINS(" mm of path learnt", of_all_currents.c_str());
+    CHECK_TRUE(of_all_currents.find("air alone") == std::string::npos);
+}
+
 TEST(Memory, of_a_run_that_was_aborted_ends_where_it_ended) {
     const Scenario scenario = scenario_named("slot_entry");
     millforce::host::MapLearner learner(scenario.parameters);

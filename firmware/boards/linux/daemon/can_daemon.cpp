@@ -36,6 +36,7 @@ CanDaemon::CanDaemon(const socketcan::CanSocketSettings& interface, const Machin
     : journal_(journal),
       watcher_(watcher),
       telemetry_(settings.telemetry),
+      way_(settings.way),
       override_id_(bus.feed_override.id),
       entries_(run_log_interval_us),
       controller_(controller_settings(bus), tools.parameters(), this, tools.source(), settings.way),
@@ -215,6 +216,7 @@ firmware::Conditions CanDaemon::conditions(std::uint64_t now_us) {
     found.set(Condition::local_input_failed, local_drives_.health().is_failed);
     found.set(Condition::local_output_failed, local_outputs_.health().is_failed);
     found.set(Condition::process_paused, is_paused_);
+    found.set(Condition::map_refuted, way_ != nullptr && way_->is_refuted());
     if (const std::uint32_t lost = link.overruns + link.controller_overflows; lost != frames_lost_) {
         frames_lost_ = lost;
         frames_lost_us_ = now_us;

@@ -63,6 +63,7 @@ class CanDaemon final : private firmware::TickListener {
     Journal& journal_;
     firmware::TickListener* watcher_;
     TelemetryFeed* telemetry_;
+    firmware::WaySource<float>* way_;
     std::uint32_t override_id_;
     TickEntries entries_;
     std::array<TelemetrySample, 16> unrecorded_{};  ///< ticks whose override is not out yet

@@ -174,7 +174,7 @@ hal::ProgramStatus AnalogueController::program_at(std::uint64_t now_us) const {
 void AnalogueController::follow_tool(std::uint64_t now_us) {
     was_tool_changed_ = tick_->follow_tool(tool_.number(now_us), is_at_rest());
     if (was_tool_changed_ && way_) {
-        way_->set_tool(*parameters_, firmware::tool_checksum(parameters_->tool));
+        way_->change_tool(firmware::AlongPath(*parameters_), firmware::tool_checksum(parameters_->tool));
     }
 }
 

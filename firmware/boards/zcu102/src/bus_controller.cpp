@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zcu102/bus_controller.hpp"
 
-#include "firmware/tool_checksum.hpp"
 #include "hal/tick_watch.hpp"
 
 namespace millforce::zcu102 {
@@ -12,19 +11,18 @@ namespace {
 constexpr std::uint64_t off_the_bus_us = 100'000;
 constexpr std::uint64_t still_us = 5'000;
 
-firmware::WaySource<float>* way_of(std::optional<firmware::WayOverBus<float>>& way,
+firmware::WaySource<float>* way_of(std::optional<firmware::WayOfTools>& way,
                                    const firmware::CanControllerSettings& settings,
-                                   const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools) {
-    if (tools != nullptr || program_status::position_frame_id(settings.program.id) == 0) {
-        return nullptr;
-    }
-    return &way.emplace(parameters, firmware::tool_checksum(parameters.tool), settings.feed_override.node_id);
+                                   const firmware::Parameters<float>& parameters, const firmware::ReadyTools* tools) {
+    return program_status::position_frame_id(settings.program.id) != 0
+               ? &way.emplace(parameters, settings.feed_override.node_id, tools)
+               : nullptr;
 }
 
 }  // namespace
 
 BusController::BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
-                             const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools)
+                             const firmware::Parameters<float>& parameters, const firmware::ReadyTools* tools)
     : can_(peripherals.can),
       watchdog_(peripherals.watchdog, peripherals.errors),
       emergencies_(settings.feed_override.node_id),

@@ -34,8 +34,9 @@ enum class Condition : std::uint8_t {
     local_output_failed,  ///< the override does not reach this computer's converter or lines: it says hold everywhere
     override_foreign,     ///< another node sends this controller's override or heartbeat: the feed is held
     process_paused,       ///< this process was stopped for longer than `stale_s`: the feed is held until a newer sample
+    map_refuted,          ///< the part map does not fit the cut: the controller goes on without it
 };
-inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::process_paused) + 1;
+inline constexpr std::size_t condition_count = static_cast<std::size_t>(Condition::map_refuted) + 1;
 
 constexpr const char* name(Condition condition) {
     constexpr const char* names[] = {
@@ -43,7 +44,8 @@ constexpr const char* name(Condition condition) {
         "send_queue_full",  "frames_lost",        "sync_lost",           "sync_foreign",     "drive_preparing",
         "drive_refused",    "drive_lost",         "drive_not_enabled",   "drive_emergency",  "drive_units_disagree",
         "input_incomplete", "input_stale",        "program_unknown",     "program_silent",   "tool_unknown",
-        "tool_change_due",  "local_input_failed", "local_output_failed", "override_foreign", "process_paused"};
+        "tool_change_due",  "local_input_failed", "local_output_failed", "override_foreign", "process_paused",
+        "map_refuted"};
     static_assert(sizeof names / sizeof names[0] == condition_count);
     return names[static_cast<std::size_t>(condition) % condition_count];
 }

@@ -69,16 +69,14 @@ class WayOverBus final : public WaySource<Scalar> {
     /// `checksum`: tool_checksum() of the parameters' tool. `node_id`: of the controller on the bus.
     WayOverBus(const Parameters<Scalar>& parameters, std::uint32_t checksum, std::uint8_t node_id);
     /// Another tool is in the spindle: its map is another.
-    void set_tool(const Parameters<Scalar>& parameters, std::uint32_t checksum);
+    void change_tool(const AlongPath<Scalar>& along, std::uint32_t checksum);
 
     [[nodiscard]] std::uint32_t frame_id() const override { return way_window::way_frame_id(node_id_); }
     void on_frame(const hal::CanFrame& frame) override;
     void begin_again() override;
     [[nodiscard]] bool take_frame(hal::CanFrame& frame) override;
 
-    void look_ahead(ForceControlTick<Scalar>& tick, const hal::ProgramStatus& program) override {
-        look_ahead_of(tick, program);
-    }
+    void look_ahead(ForceControlTick<Scalar>& tick, const hal::ProgramStatus& program) override;
     /// For a tick of any kind.
     template <typename Tick>
     void look_ahead_of(Tick& tick, const hal::ProgramStatus& program) {
@@ -91,7 +89,7 @@ class WayOverBus final : public WaySource<Scalar> {
     [[nodiscard]] std::size_t room() const;
     /// Where the tool is along the path; nothing where it is not known.
     [[nodiscard]] std::optional<Scalar> position_mm() const;
-    [[nodiscard]] bool is_refuted() const { return was_refuted_ || ahead_.is_refuted(); }
+    [[nodiscard]] bool is_refuted() const override { return was_refuted_ || ahead_.is_refuted(); }
 
   private:
     void go_to(const hal::ProgramStatus& program);

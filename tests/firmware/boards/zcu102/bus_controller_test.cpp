@@ -73,7 +73,7 @@ TEST_GROUP(Zcu102Guard) {
     std::array<std::optional<hal::CanFrame>, emergency::reason_count> emergencies;
     int feeds = 0;
 
-    void start(hal::ResetCause cause, const firmware::ToolSource* tools = nullptr) {
+    void start(hal::ResetCause cause, const firmware::ReadyTools* tools = nullptr) {
         controller.emplace(zcu102::Peripherals{chip.registers, watchdog, errors},
                            firmware::can_controller_settings(parameters.machine, zcu102::bus_objects), parameters,
                            tools);
@@ -145,7 +145,11 @@ TEST_GROUP(Zcu102Guard) {
         tell(way_window::encode(frame, way_window::way_frame_id(override_frame::default_node_id)));
     }
     void begin_a_map_and_ask() {
-        tell(way_window::begin_frame(1, 0, firmware::tool_checksum(parameters.tool)));
+        begin_a_map_and_ask(parameters.tool);
+    }
+    void begin_a_map_and_ask(const firmware::ToolParameters<float>& tool) {
+        newest_answer.reset();
+        tell(way_window::begin_frame(1, 0, firmware::tool_checksum(tool)));
         tell(way_window::WayFrame{9, static_cast<std::uint8_t>(way_window::WayFrameKind::ask), 1, {}});
         run_ms(1);
     }
@@ -269,6 +273,31 @@ TEST(Zcu102Guard, a_map_over_the_bus_is_taken_for_one_tool) {
     CHECK_TRUE(newest_answer.has_value());
     CHECK_TRUE(newest_answer->state == way_window::WayState::takes);
     UNSIGNED_LONGS_EQUAL(9, newest_answer->ask);
+}
+
+TEST(Zcu102Guard, a_map_over_the_bus_is_taken_for_the_tool_in_the_spindle) {
+    firmware::Parameters<float> other = parameters;
+    other.tool.tooth_force_limit_N *= 0.5F;
+    std::array<firmware::ReadyTool, 2> memory;
+    firmware::ReadyTools tools(memory);
+    tools.add(7, parameters);
+    tools.add(12, other);
+    start(hal::ResetCause::power_on, &tools);
+    const auto state_for = [this](const firmware::ToolParameters<float>& tool) {
+        begin_a_map_and_ask(tool);
+        CHECK_TRUE(newest_answer.has_value());
+        return newest_answer->state;
+    };
+    for (int k = 0; k < 2; ++k) {
+        tell_tool(7);
+        run_ms(20);
+        CHECK_TRUE(state_for(other.tool) == way_window::WayState::other_tool);
+        CHECK_TRUE(state_for(parameters.tool) == way_window::WayState::takes);
+        tell_tool(12);
+        run_ms(20);
+        CHECK_TRUE(state_for(parameters.tool) == way_window::WayState::other_tool);
+        CHECK_TRUE(state_for(other.tool) == way_window::WayState::takes);
+    }
 }
 
 TEST(Zcu102Bus, the_usual_mapping_and_the_table_s_numbers_make_settings_that_pass) {

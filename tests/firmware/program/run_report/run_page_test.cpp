@@ -65,6 +65,18 @@ TEST(RunPage, says_in_words_how_long_the_tool_cut_how_high_the_load_was_and_what
     CHECK(has(html, "In this run it was known in 75 % of the cut, and was 4.00 mm on average."));
 }
 
+TEST(RunPage, says_how_much_the_tool_runs_out_by_the_cut_beside_what_its_file_states) {
+    mill();
+    CHECK(has(page(), "Runout of the tool"));
+    CHECK(has(page(), "6 µm by its file; no cut showed it"));
+    firmware::TickRecord tick = in_cut(0.9F);
+    tick.runout_um = 23.6F;
+    history.add(6.0, tick, 0);
+    tick.runout_um = 6.0F;  // the zero of the encoder is lost
+    history.add(6.1, tick, 0);
+    CHECK(has(page(), "24 µm at most, as the cut showed; 6 µm by its file"));
+}
+
 TEST(RunPage, lists_the_ceilings_that_held_by_their_keys_and_no_other) {
     mill();
     const std::string html = page();

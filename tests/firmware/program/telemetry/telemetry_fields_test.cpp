@@ -22,7 +22,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// The unit as the end of a name has it.
 std::string suffix_of(std::string_view unit) {
-    return unit == "mm/s" ? "_mm_s" : "_" + std::string(unit);
+    return unit == "mm/s" ? "_mm_s" : unit == "µm" ? "_um" : "_" + std::string(unit);
 }
 
 }  // namespace
@@ -61,6 +61,7 @@ TEST(TelemetryFields, show_what_the_tick_answered_and_what_went_in) {
     sample.tick.feed_override = {0.75F, false, static_cast<std::uint8_t>(control::CutState::in_cut), 0, 42};
     sample.tick.limit = static_cast<std::uint8_t>(control::Limit::force);
     sample.tick.radial_immersion = 0.5F;
+    sample.tick.runout_um = 24.0F;
     sample.is_held = false;
     sample.drives.spindle_current_A = 8.5F;
     hal::set_present(sample.drives, hal::Present::spindle_current);
@@ -71,7 +72,7 @@ TEST(TelemetryFields, show_what_the_tick_answered_and_what_went_in) {
     for (const char* member :
          {R"("time_s":1.250000)", R"("state":"in_cut")", R"("limit":"force")", R"("fault":"none")", R"("hold":false)",
           R"("override":0.75)", R"("ticks":42)", R"("radial_immersion":0.5)", R"("spindle_current_A":8.5)",
-          R"("y_velocity_mm_s":-12.5)", R"("conditions":["drive_lost"])"}) {
+          R"("runout_um":24)", R"("y_velocity_mm_s":-12.5)", R"("conditions":["drive_lost"])"}) {
         CHECK_TEXT(contains(text, member), (std::string(member) + " in " + text).c_str());
     }
     CHECK(!contains(text, "y_current_A"));

@@ -8,7 +8,7 @@
 #include "emergency/emergencies.hpp"
 #include "firmware_can/bus_settings.hpp"
 #include "firmware_can/can_controller.hpp"
-#include "firmware_can/way_over_bus.hpp"
+#include "firmware_can/way_of_tools.hpp"
 #include "hal/reset_cause.hpp"
 #include "zynqmp/can_controller.hpp"
 #include "zynqmp/watchdog.hpp"
@@ -71,10 +71,10 @@ inline constexpr std::uint32_t watchdog_clock_MHz = 100;
 /// | fault of the processor, a tick that hangs or answers nonsense | silence, reset, EMCY 0x6010 after it |
 class BusController {
   public:
-    /// With `tools`, which outlive this, the CNC tells which of them is in the spindle. Without, a sender on the bus
-    /// may hand over the part map of the one tool (way_over_bus.hpp).
+    /// With `tools`, which outlive this, the CNC tells which of them is in the spindle. A sender on the bus may hand
+    /// over the part map of the tool in the spindle (way_over_bus.hpp).
     BusController(const Peripherals& peripherals, const firmware::CanControllerSettings& settings,
-                  const firmware::Parameters<float>& parameters, const firmware::ToolSource* tools = nullptr);
+                  const firmware::Parameters<float>& parameters, const firmware::ReadyTools* tools = nullptr);
 
     void start(const zynqmp::CanBitTiming& timing, hal::ResetCause cause);
     void poll(std::uint64_t now_us);
@@ -93,7 +93,7 @@ class BusController {
     zynqmp::Watchdog watchdog_;
     emergency::Emergencies emergencies_;
     zynqmp::CanBitTiming timing_{};
-    std::optional<firmware::WayOverBus<float>> way_{};
+    std::optional<firmware::WayOfTools> way_{};
     firmware::CanController controller_;
     float largest_ratio_;
     std::uint64_t on_bus_us_ = 0;  ///< last time that the controller was not off the bus
