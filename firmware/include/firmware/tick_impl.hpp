@@ -224,7 +224,8 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
     const estimation::Measurement<Scalar>& now = newest_tangential(estimator_.estimate());
     const Scalar sd_N = sqrt(now.variance);
-    const Scalar caution_N = controller_.parameters().caution_sd * sd_N;
+    const Scalar doubt_N = estimator_.estimate().tangential_gain_doubt * now.value;
+    const Scalar caution_N = controller_.parameters().caution_sd * sqrt(now.variance + estimation::square(doubt_N));
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
     const Scalar tangential_N = input_.way.tangential_N > Scalar(0)
                                     ? estimation::clamp(input_.way.tangential_N, now.value - sd_N, now.value + sd_N) +
@@ -337,7 +338,7 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_valid = tooth.valid;
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
-    cut.law_is_refuted = estimation::is_refuted(e.engagement);
+    cut.law_is_refuted = estimation::is_refuted(e.engagement) || e.engagement.declared_depth_is_refuted;
     cut.tooth_force_N =
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     allow_for_drift();

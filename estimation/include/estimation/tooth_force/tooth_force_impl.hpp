@@ -74,7 +74,7 @@ Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
 template <typename Scalar>
 void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const {
     const EngagementEstimate<Scalar>& cut = e.engagement;
-    const Scalar force_variance = e.steady_tangential_N.variance;
+    const Scalar force_variance = e.steady_tangential_N.variance + square(e.tangential_gain_doubt * newest_N);
     const Scalar runout = e.runout_factor;
     e.worst_tooth_force_N = newest_N * factors.now * runout;
     e.least_tooth_force_N = newest_N * factors.slot;
