@@ -12,6 +12,7 @@ namespace millforce::judging {
 namespace {
 
 constexpr double detection_revolutions = 2.0;
+constexpr double misfit_of_the_right_model = 3.84;  // in 95 of 100 windows
 
 void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, Verdict& verdict) {
     const estimation::EngagementEstimate<float> e = tick.engagement();
@@ -24,9 +25,13 @@ void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, 
     const auto sd_mm = static_cast<double>(e.axial_depth_sd_mm);
     ++verdict.looks;
     verdict.last_has_immersion = e.immersion_valid;
+    const auto misfit = static_cast<double>(e.misfit);
+    verdict.largest_misfit = std::max(verdict.largest_misfit, misfit);
     if (e.immersion_valid) {
         ++verdict.immersions;
-        verdict.immersions_beyond += within(immersion, estimate, 3.0 * sd) ? 0 : 1;
+        const bool is_beyond = !within(immersion, estimate, 3.0 * sd);
+        verdict.immersions_beyond += is_beyond ? 1 : 0;
+        verdict.beyond_explained += is_beyond && misfit < misfit_of_the_right_model ? 1 : 0;
         verdict.last_immersion_covers = immersion >= static_cast<double>(e.radial_immersion_low) &&
                                         immersion <= static_cast<double>(e.radial_immersion_high);
     }
@@ -87,11 +92,13 @@ void Tally::add(const Verdict& v) {
     depths_cover += v.last_has_depth && v.last_depth_covers ? 1 : 0;
     immersions += v.immersions;
     immersions_beyond += v.immersions_beyond;
+    beyond_explained += v.beyond_explained;
     depths += v.depths;
     depths_beyond += v.depths_beyond;
     depths_beyond_flute += v.depths_beyond_flute;
     const bool is_too_fast = v.revolutions_above > detection_revolutions;
     cuts_too_fast += is_too_fast ? 1 : 0;
+    too_fast_explained += is_too_fast && v.largest_misfit < misfit_of_the_right_model ? 1 : 0;
     largest_excess = is_too_fast ? std::max(largest_excess, v.largest_excess) : largest_excess;
     faults += v.has_fault ? 1 : 0;
 }

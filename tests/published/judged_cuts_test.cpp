@@ -49,3 +49,12 @@ TEST(JudgedCuts, let_no_tooth_meet_more_than_its_limit_where_the_side_is_wrong_o
         LONGS_EQUAL(0, t.cuts_too_fast);
     }
 }
+
+TEST(JudgedCuts,
+     let_no_tooth_meet_more_than_its_limit_where_the_spindle_is_weak_or_friction_or_edge_forces_are_others) {
+    for (const Wrong wrong : {Wrong::spindle_weak, Wrong::x_friction, Wrong::edge_forces}) {
+        const Tally t = tally_of(wrong, 40);
+        LONGS_EQUAL(0, t.depths_beyond_flute);
+        LONGS_EQUAL(0, t.cuts_too_fast);
+    }
+}

@@ -87,9 +87,10 @@ enum class Limit : std::uint8_t {
     operator_limit = 7,
     no_estimate = 8,  ///< there is no estimate: held where it was, out of the cut at its minimum
     feed_per_tooth = 9,
-    roughness = 10,      ///< the upper bound of the predicted R_a is at its limit
-    law_misfit = 11,     ///< held where it was: the forces contradict each other, or the law of the cut
-    way_ahead = 12,      ///< the part map knows a place ahead that the machine must be slow enough for
+    roughness = 10,  ///< the upper bound of the predicted R_a is at its limit
+    law_misfit =
+        11,          ///< held where it was: the forces contradict each other, the law of the cut, or the declared depth
+    way_ahead = 12,  ///< the part map knows a place ahead that the machine must be slow enough for
     feed_mismatch = 13,  ///< held where it was: the axes are faster than programmed feed and largest override allow
     depth_step = 14,     ///< as `surge`, of the depth: by depth_step_ratio
 };

@@ -72,11 +72,12 @@ struct CutEstimateForControl {
     Scalar tooth_force_N{0};            ///< peak force of one tooth; without an immersion, the worst it can be
     Scalar forecast{1};                 ///< tooth_force_N over the force that is there now, of a cut that grows; ≥ 1
     Scalar least_tooth_force_N{0};      ///< smallest peak force of one tooth, whatever the immersion
-    bool law_is_refuted = false;        ///< no cut by the law has these forces: a signal may be wrong
-    Scalar surge_ratio{1};              ///< tooth force after a surge to surge_radial_immersion, per tooth force now
-    Scalar cutting_share{1};            ///< c: share of the force that is not edge force
-    Scalar surge_cutting_share{1};      ///< cutting_share after a surge
-    Scalar turn_ratio{1};               ///< as surge_ratio, to turn_radial_immersion
+    bool law_is_refuted =
+        false;                ///< no cut by the law, or of the declared depth, has these forces: a signal may be wrong
+    Scalar surge_ratio{1};    ///< tooth force after a surge to surge_radial_immersion, per tooth force now
+    Scalar cutting_share{1};  ///< c: share of the force that is not edge force
+    Scalar surge_cutting_share{1};  ///< cutting_share after a surge
+    Scalar turn_ratio{1};           ///< as surge_ratio, to turn_radial_immersion
     Scalar turn_cutting_share{1};
     Scalar feed_exponent{estimation::usual_feed_exponent<Scalar>};  ///< 1 + p_s
     Scalar section_mm2{0};        ///< width × depth of the cut: its trend is watched, not its size; 0: not known

@@ -73,7 +73,8 @@ struct CutEstimate {
     /// F_at averaged over as many revolutions as the cut stays the same (force_memory.hpp); tangential_N where the
     /// load is held.
     Measurement<Scalar> steady_tangential_N{};
-    Measurement<Scalar> x_N{};  ///< mean force on the workpiece along the machine's axes, over the window
+    Scalar tangential_gain_doubt{0};  ///< relative deviation of F_at, beyond its variance (SpindleDrive::gain_doubt)
+    Measurement<Scalar> x_N{};        ///< mean force on the workpiece along the machine's axes, over the window
     Measurement<Scalar> y_N{};
     Measurement<Scalar> z_N{};
     Measurement<Scalar> feed_N{};      ///< F_ax, along the feed; not valid if a needed axis is at rest

@@ -231,6 +231,7 @@ void CutEstimator<Scalar>::estimate_forces() {
         e.tangential_N = drives_.spindle.force_N(spindle_average(window_), per_Nm_);
         e.tooth_tangential_N = drives_.spindle.force_N(spindle_average_of_tooth(window_), per_Nm_);
     }
+    e.tangential_gain_doubt = drives_.spindle.gain_doubt();
     e.x_N = drives_.axes[0].force_N(axis_average(window_, 0));
     e.y_N = drives_.axes[1].force_N(axis_average(window_, 1));
     e.z_N = drives_.axes[2].force_N(axis_average(window_, 2));
@@ -308,6 +309,7 @@ void CutEstimator<Scalar>::begin_engagement(Scalar passed_s) {
     periods_since_memory_ = is_new_revolution ? 0 : periods_since_memory_;
     memory_.blend(forces, in_work_.feed_mm_s, tooth_force_.force_exponent(), is_new_revolution);
     in_work_.steady_tangential_N = settings_.load_is_held ? in_work_.tangential_N : forces.tangential_N;
+    forces.tangential_N.variance += square(in_work_.tangential_gain_doubt * forces.tangential_N.value);
     forces.radial_immersion = other_;
     depth_.follow(in_work_.feed_mm_s * passed_s, in_work_.axial_speed_mm_s * passed_s);
     solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side, depth_.depth());

@@ -214,6 +214,7 @@ bool ForceControlTick<Scalar, WideBand>::belongs_to_this_feed() const {
 /// the forces' band remains the least that the tooth is assumed to carry.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
+    using estimation::square;
     using std::sqrt;
     control::CutEstimateForControl<Scalar>& cut = input_.cut;
     if (!input_.way.known || !(input_.way.tooth_per_tangential > Scalar(0)) || !has_new_estimate_ || !cut.force_valid) {
@@ -224,7 +225,9 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
     const Scalar now_N = estimator_.estimate().newest_tangential_N;
     const Scalar sd_N = sqrt(estimator_.estimate().tangential_N.variance);
-    const Scalar caution_N = controller_.parameters().caution_sd * sd_N;
+    const Scalar doubt_N = estimator_.estimate().tangential_gain_doubt * now_N;
+    const Scalar caution_N =
+        controller_.parameters().caution_sd * sqrt(square(sd_N) + square(doubt_N));
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
     const Scalar tangential_N =
         input_.way.tangential_N > Scalar(0)
@@ -339,7 +342,7 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_valid = tooth.valid;
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
-    cut.law_is_refuted = estimation::is_refuted(e.engagement);
+    cut.law_is_refuted = estimation::is_refuted(e.engagement) || e.engagement.declared_depth_is_refuted;
     cut.tooth_force_N =
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     allow_for_drift();

@@ -304,6 +304,20 @@ UnitQuestions ask_about_milled_feed(double median_feed_mm_rev, double median_dia
                     median_feed_mm_rev, median_diameter_mm, usual * median_diameter_mm)};
 }
 
+/// So small a tool turns fast: at the speed of a large one it would hardly cut.
+UnitQuestions ask_about_milled_diameter(double median_diameter_mm, double median_rpm) {
+    constexpr double small_mm = 2.0;
+    constexpr double usual_m_per_min = 40.0;
+    const double cutting_m_per_min = 1e-3 * std::numbers::pi * median_diameter_mm * median_rpm;
+    if (median_diameter_mm > small_mm || cutting_m_per_min > usual_m_per_min) {
+        return {};
+    }
+    return {
+        fmt::format("column 'tool_diameter_mm': Ø{:g} at {:g} 1/min (medians) cuts at {:.3g} m/min; so small a tool "
+                    "usually at more than {:g}; is it in cm?",
+                    median_diameter_mm, median_rpm, cutting_m_per_min, usual_m_per_min)};
+}
+
 UnitQuestions ask_about_milled_speeds(const std::vector<double>& speeds) {
     constexpr double rpm = 30.0 / std::numbers::pi;  // in 1 rad/s
     constexpr double s_per_min = 60.0;
@@ -338,6 +352,7 @@ UnitQuestions look_at_roughness_tests(const std::vector<RoughnessUnits>& tests, 
     }
     UnitQuestions questions = look_at_roughness(tests.front().place, median_of(roughness), measure);
     append(questions, ask_about_milled_feed(median_of(feeds), median_of(diameters)));
+    append(questions, ask_about_milled_diameter(median_of(diameters), median_of(speeds)));
     append(questions, ask_about_milled_speeds(speeds));
     return questions;
 }

@@ -94,12 +94,32 @@ bool is_dead(const SpindleParameters& spindle, const MotionWindow& window) {
     return std::abs(window.spindle_current_A) < noise_A && std::abs(expected_idle_A(spindle, window)) > 2.0 * noise_A;
 }
 
+/// An idle torque so far below the file's that the controller doubts the gain (SpindleDrive::gain_doubt).
+Findings doubted_gain(const firmware::MachineParameters<float>& machine, const MotionWindow& window) {
+    estimation::SpindleDrive<float> drive(machine.spindle);
+    drive.rezero(average_of(window));
+    if (!(drive.gain_doubt() > 0.0F)) {
+        return {};
+    }
+    return {{Severity::warning,
+             fmt::format(
+                 "spindle: {:.4g} A in air, and {:.4g} A by the file: if the gain is off by as much, the cut "
+                 "carries {:.2g} times the force shown, and the controller counts on it; calibrate the gain, or "
+                 "the idle torque",
+                 window.spindle_current_A, expected_cold_idle_A(machine.spindle, window), 1.0F + drive.gain_doubt()),
+             "spindle.K_t1_Nm_per_A"}};
+}
+
 Findings check_current_in_air(std::vector<MotionWindow> air, const firmware::MachineParameters<float>& machine) {
     const MotionWindow window = typical(std::move(air));
     if (is_dead(machine.spindle, window)) {
         return {{Severity::error, "spindle: no current while it turns in air: is it connected?", "spindle_current_A"}};
     }
     if (is_plausible_idle(machine.spindle, window)) {
+        Findings doubted = doubted_gain(machine, window);
+        if (!doubted.empty()) {
+            return doubted;
+        }
         const MotionWindow peak = with_spindle_current_times(window, std::numbers::sqrt2);
         if (is_plausible_idle(machine.spindle, peak)) {
             return {{Severity::note,

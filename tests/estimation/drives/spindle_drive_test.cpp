@@ -85,6 +85,37 @@ TEST(SpindleDrive, does_not_learn_a_dead_current_as_idle_torque) {
     CHECK(drive.tangential_force_N(at_current(15.0), 4.0).valid);
 }
 
+TEST(SpindleDrive, doubts_its_gain_where_much_of_the_idle_torque_is_missing) {
+    auto p = paper_spindle();  // idles at 9.72 A
+    p.idle_torque_sd_Nm = 2.0;
+    SpindleDrive<double> sound(p);
+    sound.rezero(at_current(9.72 - 2.0));
+    DOUBLES_EQUAL(0.0, sound.gain_doubt(), 0.0);
+    SpindleDrive<double> weak(p);
+    weak.rezero(at_current(0.3 * 9.72));
+    DOUBLES_EQUAL(1.0 / 0.3 - 1.0, weak.gain_doubt(), 0.05);
+}
+
+TEST(SpindleDrive, does_not_doubt_its_gain_where_the_idle_torque_is_too_high) {
+    auto p = paper_spindle();
+    p.idle_torque_sd_Nm = 2.0;
+    SpindleDrive<double> drive(p);
+    drive.rezero(at_current(15.0));
+    DOUBLES_EQUAL(0.0, drive.gain_doubt(), 0.0);
+}
+
+TEST(SpindleDrive, keeps_its_doubt_of_the_gain_where_it_then_learns_a_hidden_cut_as_idle_torque) {
+    auto p = paper_spindle();
+    p.idle_torque_sd_Nm = 2.0;
+    SpindleDrive<double> weak(p);
+    weak.rezero(at_current(0.4 * 9.72));
+    const double doubt = weak.gain_doubt();
+    for (int k = 0; k < 20; ++k) {
+        weak.rezero(at_current(8.0));
+    }
+    DOUBLES_EQUAL(doubt, weak.gain_doubt(), 0.0);
+}
+
 TEST(SpindleDrive, has_no_estimate_without_current_or_rotation) {
     const SpindleDrive<double> drive(paper_spindle());
     auto absent = at_current(12.0);

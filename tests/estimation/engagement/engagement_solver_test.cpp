@@ -348,6 +348,25 @@ TEST(EngagementSolver, needs_no_memory_where_the_forces_tell_the_depth) {
     CHECK_FALSE(e.depth_is_remembered);
 }
 
+TEST(EngagementSolver, leaves_a_declared_depth_that_the_forces_refute_and_says_so) {
+    auto law = carbide_in_SM45C<double>();
+    law.K_s_relative_sd = 0.1;
+    auto settings = millforce::tests::solver_of_four_flutes<double>();
+    settings.declared_depth_mm = 6.0;
+    const EngagementSolver<double> declared(law, settings);
+    const auto forces_of = [](double depth_mm) { return measured({.immersion = 0.6, .depth_mm = depth_mm}, 2.0); };
+    const auto right = declared.solve(forces_of(6.0), 0.05, CutSide::down);
+    CHECK_FALSE(right.declared_depth_is_refuted);
+    // Twice the force: a material twice as hard as the tool's.
+    const auto hard = declared.solve(forces_of(12.0), 0.05, CutSide::down);
+    CHECK(hard.declared_depth_is_refuted);
+    CHECK(hard.immersion_valid);
+    DOUBLES_EQUAL(0.6, hard.radial_immersion, 0.03);
+    CHECK(hard.misfit < 1.0);
+    const auto somewhat_hard = declared.solve(forces_of(7.0), 0.05, CutSide::down);
+    CHECK_FALSE(somewhat_hard.declared_depth_is_refuted);
+}
+
 TEST(EngagementSolver, states_a_deviation_that_reaches_to_the_farther_end_of_a_lopsided_interval) {
     // Up milling along x: narrow and deep, or wide and shallow; the forces fit both.
     const auto e = solver(0.02).solve(measured({.side = CutSide::up, .immersion = 0.25}, 8.0), 0.05, CutSide::up);

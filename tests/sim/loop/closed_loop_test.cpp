@@ -8,6 +8,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <string>
 
 using namespace millforce::sim;
@@ -158,6 +159,17 @@ TEST(ClosedLoop, holds_the_limit_by_a_converters_load_that_comes_seldom_and_late
 
 TEST(ClosedLoop, holds_the_limit_in_a_pocket_of_harder_steel) {
     CHECK(bounds_hold(controlled(scenario_named("pocket", {1.3, 0.8, 2}))));
+}
+
+TEST(ClosedLoop, says_law_misfit_where_the_declared_depth_shows_steel_twice_as_hard_as_the_tools) {
+    const Scenario scenario = scenario_named("width_step", {.cutting_force_scale = 2.0});
+    MillforceController controller(scenario.parameters);
+    const auto run = simulate(scenario, controller, "millforce");
+    LONGS_EQUAL(0, run.result.figures.teeth_broken);
+    const auto is_held = [](const TracePoint& point) {
+        return point.limit == static_cast<std::uint8_t>(millforce::control::Limit::law_misfit);
+    };
+    CHECK(std::ranges::any_of(run.result.trace, is_held));
 }
 
 TEST(ClosedLoop, holds_the_limit_in_a_round_pocket_that_is_stepped_over_head_on) {

@@ -85,6 +85,7 @@ class WarmUpTracker {
         const Scalar sum = P_bb_ + Scalar(2) * P_bw_ + P_ww_;
         return sum > Scalar(0) ? sum : Scalar(0);
     }
+    [[nodiscard]] Scalar offset() const { return b_; }
     [[nodiscard]] Scalar excess() const { return w_; }
 
   private:

@@ -45,8 +45,9 @@ struct EngagementEstimate {
     Scalar axial_depth_sd_mm{0};
     Scalar axial_depth_force_sd_mm{0};  ///< the part due to the forces, without that due to K_s
     bool depth_is_remembered = false;  ///< the forces alone did not determine immersion and depth: see depth_memory.hpp
-    Scalar depth_at_low_mm{0};         ///< the depth that goes with radial_immersion_low: both err together
-    Scalar depth_at_high_mm{0};        ///< the depth that goes with radial_immersion_high
+    bool declared_depth_is_refuted = false;  ///< depth or K_s is not as declared: the forces alone give the estimate
+    Scalar depth_at_low_mm{0};               ///< the depth that goes with radial_immersion_low: both err together
+    Scalar depth_at_high_mm{0};              ///< the depth that goes with radial_immersion_high
 
     CutSide side = CutSide::unknown;
     Scalar misfit{0};  ///< J at the estimate; above 16 the law does not describe these forces: no estimate

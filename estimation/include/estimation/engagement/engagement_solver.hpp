@@ -65,6 +65,9 @@ class EngagementSolver {
     /// give the same immersion. Forces that refute both sides give no estimate, and as the interval all immersions at
     /// which the flutes are long enough for F_at.
     ///
+    /// If no side fits well with the declared depth (J > 9), the better one is searched once more without it. The depth
+    /// is refuted if J is smaller by as much.
+    ///
     /// If a side explains the forces, but they determine the depth less than half as well as the `remembered` one is
     /// known, the immersion is searched once more with it. A depth that these forces contradict is not used.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm, CutSide side,
@@ -93,7 +96,9 @@ class EngagementSolver {
     void begin_side(Search& search, CutSide side) const;
     void end_side(Search& search) const;
     void end_sides(Search& search) const;
+    void end_without_declared_depth(Search& search) const;
     void end_with_memory(Search& search) const;
+    void search_again(Search& search, const KnownDepth<Scalar>& depth) const;
     void withdraw(Search& search) const;
     void step(Search& search) const;
 
@@ -131,6 +136,7 @@ class EngagementSolver<Scalar, Nodes>::Search {
   private:
     friend class EngagementSolver;
     enum class Phase : unsigned char { scan, valleys, probe, candidate, interval, depth, done };
+    enum class With : unsigned char { declared_depth, forces_alone, remembered_depth };
 
     [[nodiscard]] bool memory_knows_more() const;
     [[nodiscard]] bool is_inside(std::size_t node) const;
@@ -140,9 +146,9 @@ class EngagementSolver<Scalar, Nodes>::Search {
 
     Profile profile_{};
     EngagementEstimate<Scalar> estimate_{};
-    EngagementEstimate<Scalar> first_{};  // of the side that was tried first; then of the forces alone
+    EngagementEstimate<Scalar> first_{};  // of the side that was tried first; then of the search before
     KnownDepth<Scalar> remembered_{};
-    bool is_with_memory_ = false;
+    With with_ = With::declared_depth;
     CutSide asked_ = CutSide::unknown;
     CutSide side_ = CutSide::down;
     Phase phase_ = Phase::done;

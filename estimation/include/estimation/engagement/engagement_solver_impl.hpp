@@ -58,7 +58,7 @@ void EngagementSolver<Scalar, Nodes>::begin(Search& search, const AverageForceMe
                                             const KnownDepth<Scalar>& remembered) const {
     search.asked_ = side;
     search.remembered_ = remembered;
-    search.is_with_memory_ = false;
+    search.with_ = Search::With::declared_depth;
     begin_side(search, first_side(side));
     if (is_solvable(forces, feed_per_tooth_mm)) {
         search.profile_ =
@@ -100,8 +100,12 @@ void EngagementSolver<Scalar, Nodes>::begin_side(Search& s, CutSide side) const 
 
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
-    if (s.is_with_memory_) {
+    if (s.with_ == Search::With::remembered_depth) {
         end_with_memory(s);
+        return;
+    }
+    if (s.with_ == Search::With::forces_alone) {
+        end_without_declared_depth(s);
         return;
     }
     const CutSide first = first_side(s.asked_);
@@ -117,20 +121,41 @@ void EngagementSolver<Scalar, Nodes>::end_side(Search& s) const {
         s.estimate_ = s.asked_ == CutSide::unknown ? better_of_sides(s.first_, s.estimate_)
                                                    : declared_or_other_side(s.first_, s.estimate_);
     }
+    if (settings_.declared_depth_mm > Scalar(0) && s.estimate_.side != CutSide::unknown &&
+        s.estimate_.misfit > misfit_of_another_depth<Scalar>) {
+        s.with_ = Search::With::forces_alone;
+        search_again(s, {});
+        return;
+    }
     end_sides(s);
 }
 
-/// The forces alone have said what they can.
+template <typename Scalar, int Nodes>
+void EngagementSolver<Scalar, Nodes>::search_again(Search& s, const KnownDepth<Scalar>& depth) const {
+    s.first_ = s.estimate_;
+    s.profile_.set_known_depth(depth);
+    begin_side(s, s.first_.side);
+}
+
+template <typename Scalar, int Nodes>
+void EngagementSolver<Scalar, Nodes>::end_without_declared_depth(Search& s) const {
+    if (s.first_.misfit - s.estimate_.misfit > misfit_of_another_depth<Scalar>) {
+        s.estimate_.declared_depth_is_refuted = true;
+    } else {
+        s.estimate_ = s.first_;
+    }
+    end_sides(s);
+}
+
+/// The forces, with the declared depth if there is one, have said what they can.
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::end_sides(Search& s) const {
     const EngagementEstimate<Scalar>& e = s.estimate_;
     if (is_refuted(e)) {
         withdraw(s);
     } else if (e.side != CutSide::unknown && s.memory_knows_more()) {
-        s.first_ = e;
-        s.is_with_memory_ = true;
-        s.profile_.set_known_depth(s.remembered_);
-        begin_side(s, s.first_.side);
+        s.with_ = Search::With::remembered_depth;
+        search_again(s, s.remembered_);
         return;
     }
     s.phase_ = Search::Phase::done;
@@ -150,6 +175,7 @@ void EngagementSolver<Scalar, Nodes>::end_with_memory(Search& s) const {
     const bool fits = s.estimate_.misfit - s.first_.misfit < misfit_of_another_depth<Scalar>;
     if (s.estimate_.immersion_valid && fits) {
         s.estimate_.depth_is_remembered = true;
+        s.estimate_.declared_depth_is_refuted = s.first_.declared_depth_is_refuted;
     } else {
         s.estimate_ = s.first_;
     }

@@ -34,7 +34,8 @@ template <typename Scalar>
 template <typename Scalar>
 inline constexpr Scalar misfit_of_a_wrong_model{16};
 
-/// The most by which J may rise when a remembered depth that still holds is added: three standard deviations, squared.
+/// The most by which J may rise when a remembered or declared depth that holds is added: three standard deviations,
+/// squared.
 template <typename Scalar>
 inline constexpr Scalar misfit_of_another_depth{9};
 

@@ -79,7 +79,7 @@ Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
 template <typename Scalar>
 void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const {
     const EngagementEstimate<Scalar>& cut = e.engagement;
-    const Scalar force_variance = e.steady_tangential_N.variance;
+    const Scalar force_variance = e.steady_tangential_N.variance + square(e.tangential_gain_doubt * newest_N);
     const Scalar runout = e.runout_factor;
     e.worst_tooth_force_N = newest_N * factors.now * runout;
     e.least_tooth_force_N = newest_N * factors.slot;
@@ -98,7 +98,7 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
         const Scalar by_factor = square(newest_N) * (square(factor_sd) + square(factors.by_K_s));
         e.tooth_force_N = {true, e.worst_tooth_force_N,
                            square(runout) * (square(factors.now) * force_variance + by_factor), Scalar(0)};
-    } else if (cut.solved || (!e.x_N.valid && !e.y_N.valid)) {
+    } else if (cut.solved || (!e.x_N.valid && !e.y_N.valid) || e.tangential_gain_doubt > Scalar(0)) {
         // No estimate of the immersion, but a bound. Where even that is far from the limit, the force is known well
         // enough.
         bound_by(factors.bound);

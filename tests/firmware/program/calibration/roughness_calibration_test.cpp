@@ -233,6 +233,7 @@ TEST(RoughnessCalibration, asks_about_speeds_that_are_round_only_in_another_unit
     CHECK(contains(asked("Ra_um", 100.0), "grades of roughness go from 0.025 to 50 µm; is it in nm or µinch?"));
     CHECK(contains(asked("Rz_um", 1e-3, "Rz"), "grades of roughness go from 0.1 to 200 µm; is it in mm?"));
     CHECK(contains(asked("feed_mm_rev", 100.0), "usual is less than 1.8; is it in mm/s?"));
+    CHECK(contains(asked("tool_diameter_mm", 0.1), "Ø0.6 at 10000 1/min (medians) cuts at 18.8 m/min"));
 }
 
 TEST(RoughnessCalibration, ends_with_1_where_left_out_tests_fall_outside_their_intervals) {

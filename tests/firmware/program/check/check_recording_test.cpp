@@ -111,6 +111,12 @@ TEST(RecordingCheck, finds_the_idle_torque_of_another_spindle) {
     check_says(lines_for(wrong, parameters), "the idle torque of another machine");
 }
 
+TEST(RecordingCheck, warns_of_an_idle_torque_so_low_that_the_controller_doubts_the_gain) {
+    const auto weak = changed(right, [](hal::DriveSample& drives) { drives.spindle_current_A *= 0.35F; });
+    check_says(lines_for(weak, parameters), "the controller counts on it; calibrate the gain, or the idle torque");
+    check_says(lines_for(weak, parameters), "[spindle.K_t1_Nm_per_A]");
+}
+
 TEST(RecordingCheck, finds_peak_for_rms_where_both_axes_show_the_factor) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         MadeRecording wrong = made_recording({.seed = seed});
