@@ -38,6 +38,7 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
                  estimator_law(parameters.tool)),
       wide_band_(parameters),
       slow_fall_(drift_N_per_s(parameters)),
+      load_answer_(parameters),
       surface_(parameters.tool),
       supervisor_(parameters),
       controller_(controller_parameters(parameters)),
@@ -78,6 +79,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     } else {
         forget_estimate();
     }
+    load_answer_.take(signals.values[Signals::spindle_current]);
     set_motion(signals.velocity());
     input_.motion_is_unseen = false;
     input_.height_is_known = hal::knows_velocity(sample, 2);
@@ -272,8 +274,22 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     surface_.update(estimator_.estimate());
     supervisor_.judge(estimator_.estimate(), program_, control_.state, feed_is_settled());
     supervisor_.judge_idle(estimator_.spindle_is_implausible(), estimator_.estimate().tooth_periods);
+    ask_load();
     set_cut();
     has_new_estimate_ = true;
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::ask_load() {
+    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
+    if (control_.state == control::CutState::in_cut && e.tangential_N.valid && teeth_rad_s > Scalar(0)) {
+        load_answer_.follow(e, estimation::turn_rad<Scalar> / teeth_rad_s, feed_is_settled());
+    } else {
+        load_answer_.restart();
+    }
+    input_.cut.answered_feed_mm_s = load_answer_.bound_mm_s();
+    supervisor_.judge_load(load_answer_.is_dead());
 }
 
 template <typename Scalar, typename WideBand>
