@@ -170,7 +170,25 @@ TEST(LoadAnswer, goes_by_the_smallest_step_up_or_down) {
 
 TEST(LoadAnswer, is_not_expected_without_a_force_to_change) {
     learn_step();
-    follow(cut_at(10.0F, -300.0F));
+    for (const float tangential_N : {-300.0F, 0.0F, 1.0F}) {
+        follow(cut_at(10.0F, tangential_N));
+        is_bound_to(0.0F);
+    }
+}
+
+TEST(LoadAnswer, is_asked_as_soon_as_a_reading_that_stands_has_a_force_to_show) {
+    learn_step();
+    follow(cut_at(10.0F, -300.0F), 3 * in_a_second);
+    follow(cut_at(12.0F, -300.0F), in_a_second);
+    follow(cut_at(12.0F));
+    is_bound_to(12.0F);
+}
+
+TEST(LoadAnswer, is_not_expected_of_a_tool_without_a_diameter) {
+    Parameters p = machine_with_a_seldom_load();
+    p.tool.diameter_mm = 0.0F;
+    answer = LoadAnswer(p);
+    learn_step();
     is_bound_to(0.0F);
 }
 

@@ -53,7 +53,7 @@ class LoadAnswer {
         if (!comes_seldom_) {
             return;
         }
-        since_s_ = since_s_ < longest_s ? since_s_ + period_s * Scalar(e.tooth_periods) : longest_s;
+        since_s_ += period_s * Scalar(e.tooth_periods);
         take_reading();
         answer_ = answer_share(e);
         if (feed_is_settled && !(feed_mm_s_ > Scalar(0))) {
@@ -83,7 +83,6 @@ class LoadAnswer {
 
   private:
     static constexpr Scalar patience_s = Scalar(2);
-    static constexpr Scalar longest_s = Scalar(10);
 
     void take_reading() {
         const Scalar step_A = told_A_ < known_A_ ? known_A_ - told_A_ : told_A_ - known_A_;
