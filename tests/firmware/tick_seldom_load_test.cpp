@@ -37,6 +37,7 @@ class Machine {
 
     firmware::ForceControlTick<float> tick{spindle_with_a_seldom_load()};
     bool load_stands_still = false;
+    float heavier = 1.0F;
 
   private:
     hal::DriveSample sample() {
@@ -44,7 +45,7 @@ class Machine {
         constexpr float idle_A = 0.95F / 0.7F;
         hal::DriveSample sample = sample_of(index_);
         sample.axis_velocity_mm_s = {feed_, 0.0F, 0.0F};
-        const float load_A = index_ < 500 ? 0.0F : 3.0F * (0.2F + 0.8F * feed_ / feed_mm_s);
+        const float load_A = index_ < 500 ? 0.0F : 3.0F * heavier * (0.2F + 0.8F * feed_ / feed_mm_s);
         if (index_ % period == 0 && !load_stands_still) {
             told_A_ = measured_A_;
             measured_A_ = std::round((idle_A + load_A) * 10.0F) / 10.0F;
@@ -90,4 +91,15 @@ TEST(TickOnSeldomLoad, asks_a_load_that_stands_still_in_the_cut_and_finds_it) {
     CHECK(output.hold);
     UNSIGNED_LONGS_EQUAL(static_cast<unsigned>(control::Fault::signal_stuck), output.fault);
     CHECK(highest < 1.25F * before);
+}
+
+TEST(TickOnSeldomLoad, changes_the_feed_once_for_a_cut_that_becomes_heavier_and_not_for_each_sample_of_a_late_load) {
+    machine.run(6000);
+    machine.heavier = 1.8F;
+    float lowest = 10.0F;
+    for (int k = 0; k < 1000; ++k) {
+        lowest = std::fmin(lowest, machine.run(1).ratio);
+    }
+    const float settled = machine.run(1500).ratio;
+    CHECK(lowest > 0.85F * settled);
 }

@@ -147,7 +147,7 @@ class ForceControlTick {
     control::FeedController<Scalar> controller_;
     Scalar reaction_s_;  // of the CNC
     Scalar K_t1_Nm_per_A_;
-    Scalar contact_current_A_;  // of the spindle: torque beyond the idle one by contact_force_N
+    Scalar contact_torque_Nm_;
 
     control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};

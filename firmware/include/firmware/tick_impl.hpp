@@ -12,14 +12,12 @@
 
 namespace millforce::firmware {
 
-/// The spindle's current that counts as contact: the idle one, and contact_force_N at the cutter's radius.
+/// The spindle's torque that counts as contact: the idle one, and contact_force_N at the cutter's radius.
 template <typename Scalar>
-static Scalar contact_current_A(const Parameters<Scalar>& p) {
+static Scalar contact_torque_Nm(const Parameters<Scalar>& p) {
     constexpr Scalar m_per_mm = estimation::literal<Scalar>(0.001L);
-    const estimation::SpindleDriveParameters<Scalar>& spindle = p.machine.spindle;
     const Scalar radius_m = estimation::halved(p.tool.diameter_mm) * m_per_mm;
-    const Scalar torque_Nm = p.tool.control.contact_force_N * radius_m - spindle.K_t2_Nm;
-    return spindle.K_t1_Nm_per_A > Scalar(0) ? torque_Nm / spindle.K_t1_Nm_per_A : Scalar(0);
+    return p.tool.control.contact_force_N * radius_m - p.machine.spindle.K_t2_Nm;
 }
 
 /// Of its current, as a force at the cutter's radius.
@@ -44,7 +42,7 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
       controller_(controller_parameters(parameters)),
       reaction_s_(reaction_s(parameters.machine)),
       K_t1_Nm_per_A_(parameters.machine.spindle.K_t1_Nm_per_A),
-      contact_current_A_(contact_current_A(parameters)),
+      contact_torque_Nm_(contact_torque_Nm(parameters)),
       settled_feed_(load_delay_s(parameters.machine)) {}
 
 /// Over the window, or over the last tooth period alone where that is larger.
@@ -108,15 +106,13 @@ void ForceControlTick<Scalar, WideBand>::watch_sample(const hal::DriveSample& sa
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::watch_encoder(std::uint32_t count, Scalar spindle_current_A, Scalar dt_s) {
     constexpr Scalar surely_stands_s = estimation::literal<Scalar>(0.02L);
-    constexpr Scalar longest_s{1};
-    const Scalar stands_s = encoder_stands_s_ < longest_s ? encoder_stands_s_ + dt_s : longest_s;
     const auto turned = static_cast<std::int32_t>(count - last_count_);
-    const Scalar not_forwards_s = not_forwards_s_ < longest_s ? not_forwards_s_ + dt_s : longest_s;
-    encoder_stands_s_ = turned == 0 ? stands_s : Scalar(0);
-    not_forwards_s_ = turned > 0 ? Scalar(0) : not_forwards_s;
+    encoder_stands_s_ = turned == 0 ? encoder_stands_s_ + dt_s : Scalar(0);
+    not_forwards_s_ = turned > 0 ? Scalar(0) : not_forwards_s_ + dt_s;
     last_count_ = count;
     input_.cut.spindle_does_not_mill = not_forwards_s_ > surely_stands_s;
-    input_.cut.spindle_loaded_at_rest = encoder_stands_s_ > surely_stands_s && spindle_current_A > contact_current_A_;
+    input_.cut.spindle_loaded_at_rest =
+        encoder_stands_s_ > surely_stands_s && K_t1_Nm_per_A_ * spindle_current_A > contact_torque_Nm_;
 }
 
 template <typename Scalar, typename WideBand>
