@@ -75,6 +75,10 @@ TEST(TickInputs, need_no_spindle_current_where_the_machine_has_none) {
         step_and_work(tick, without(sample_of(k), hal::Present::spindle_current), program());
         CHECK(tick.control().fault == Fault::none);
     }
+    hal::DriveSample late = without(sample_of(400), hal::Present::spindle_current);
+    late.time_us += 100'000;
+    step_and_work(tick, late, program());
+    CHECK(tick.control().fault == Fault::stale_input);
 }
 
 TEST(TickInputs, show_no_load_of_a_spindle_at_rest_where_its_current_means_nothing) {
@@ -98,15 +102,14 @@ TEST(TickInputs, are_stale_where_two_whole_samples_are_too_far_apart) {
     CHECK(tick.control().fault == Fault::stale_input);
 }
 
-TEST(TickInputs, without_a_count_are_no_spindle_that_stands) {
+TEST(TickInputs, without_a_count_hide_no_spindle_that_stands) {
     fly(tick, 0, 150);
-    hal::FeedOverride output;
-    for (int k = 150; k < 190; ++k) {
-        hal::DriveSample sample = without(in_air(k), hal::Present::spindle_count);
-        sample.spindle_count = in_air(149).spindle_count;
-        output = step_and_work(tick, sample, program());
+    for (int k = 150; k < 400; ++k) {
+        hal::DriveSample sample = with_force(k, 400.0F);
+        sample.spindle_count = k % 2 == 0 ? in_air(149).spindle_count : static_cast<std::uint32_t>(1000 * k);
+        step_and_work(tick, k % 2 == 0 ? sample : without(sample, hal::Present::spindle_count), program());
     }
-    CHECK(output.ratio == lowest);
+    CHECK(tick.control().fault == Fault::spindle_stopped);
 }
 
 TEST(TickInputs, leave_the_feed_to_a_spindle_that_was_stopped_or_reversed_in_air) {
@@ -115,7 +118,7 @@ TEST(TickInputs, leave_the_feed_to_a_spindle_that_was_stopped_or_reversed_in_air
         fly(fresh, 0, 150);
         hal::FeedOverride output;
         std::uint32_t count = in_air(149).spindle_count;
-        for (int k = 150; k < 200; ++k) {
+        for (int k = 150; k < 350; ++k) {
             hal::DriveSample sample = in_air(k);
             count += static_cast<std::uint32_t>(counts_per_ms);
             sample.spindle_count = count;
@@ -241,4 +244,26 @@ TEST(TickWithMap, that_sees_air_leaves_the_force_as_it_is_measured) {
 TEST(TickWithMap, believes_no_smaller_tooth_than_the_forces_leave) {
     DOUBLES_EQUAL(static_cast<double>(ratio_in_cut(way_with(0.5F))), static_cast<double>(ratio_in_cut(way_with(0.1F))),
                   1e-3);
+}
+
+TEST_GROUP(TickOnSpindleAlone){};
+
+TEST(TickOnSpindleAlone, does_not_believe_a_fall_that_a_drift_explains) {
+    Parameters p = machine_and_tool();
+    p.machine.spindle_rated_current_A = 20.0F;
+    for (auto& axis : p.machine.axes) {
+        axis.K_x4_N_per_A = 0.0F;
+    }
+    Tick tick(p);
+    float before = 0.0F;
+    for (int k = 0; k < 5000; ++k) {
+        const float fallen = std::clamp(0.0002F * static_cast<float>(k - 2000), 0.0F, 0.5F);
+        hal::DriveSample sample = sample_of(k);
+        const float idle_A = in_air(k).spindle_current_A;
+        sample.spindle_current_A = idle_A + (1.0F - fallen) * (sample.spindle_current_A - idle_A);
+        step_and_work(tick, sample, program());
+        before = k == 1999 ? tick.control().ratio : before;
+    }
+    CHECK(tick.estimate().tangential_N.value < 0.6F * 250.0F);
+    CHECK(tick.control().ratio < 1.02F * before);
 }
