@@ -239,6 +239,18 @@ TEST(TickWithMap, of_which_nothing_is_known_is_without_one) {
 TEST(TickWithMap, that_sees_air_leaves_the_force_as_it_is_measured) {
     const float by_forces = ratio_in_cut(way_with(0.0F));
     CHECK(by_forces > 1.1F * ratio_in_cut(way_with(5.0F)));
+    CHECK(by_forces < ratio_in_cut(way_with(0.1F)));  // the least that the forces leave
+}
+
+TEST(TickWithMap, takes_the_maps_force_within_the_noise_of_the_measured_one) {
+    control::WayAhead<float> way = way_with(5.0F);
+    const float as_measured = ratio_in_cut(way);
+    way.tangential_N = 1.0F;
+    CHECK(ratio_in_cut(way) > as_measured);
+    way.tangential_N = 10'000.0F;
+    const float heavier = ratio_in_cut(way);
+    CHECK(heavier < as_measured);
+    CHECK(heavier > 0.8F * as_measured);
 }
 
 TEST(TickWithMap, believes_no_smaller_tooth_than_the_forces_leave) {
