@@ -428,6 +428,25 @@ TEST(Ceilings, monitor_only_watches_the_cut_all_the_same) {
     CHECK(controller.step(stale).hold);
 }
 
+TEST(Ceilings, a_load_that_has_not_answered_bounds_the_feed_of_a_cut_with_or_without_a_map) {
+    for (const bool has_map : {false, true}) {
+        Controller controller(immediate());
+        bring_into_cut(controller);
+        Input light = in_contact();
+        light.cut.tooth_force_N = 300.0F;
+        light.way.known = has_map;
+        light.way.feed_mm_s = 100.0F;
+        const Output free = repeat(controller, light, 200);
+        light.cut.answered_feed_mm_s = 0.5F * free.ratio * light.programmed_feed_mm_s;
+        const Output bound = repeat(controller, light, 200);
+        check_ratio(0.5F * free.ratio, bound);
+        CHECK(bound.limit == Limit::load_unanswered);
+        STRCMP_EQUAL("load_unanswered", name(bound.limit));
+        light.cut.answered_feed_mm_s = 0.0F;
+        check_ratio(free.ratio, repeat(controller, light, 400));
+    }
+}
+
 TEST(Ceilings, forces_that_contradict_the_law_raise_nothing_and_still_lower) {
     Controller controller(immediate());
     bring_into_cut(controller);

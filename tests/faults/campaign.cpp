@@ -188,12 +188,13 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
     sim::Scenario scenario = part.scenario;
     scenario.seed = seed;
     scenario.deviation = sim::drawn_deviation(scenario, seed);
-    FaultyMachine machine(controller,
-                          {.begins_s = spindle_start_s + std::uniform_real_distribution(0.0, part.duration_s)(random),
-                           .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
-                           .begin = begin,
-                           .corrupt = corruption(part, fault, seed),
-                           .leaves_blind = leaves_blind(fault, part)});
+    const bool is_sound = fault == Fault{SignalFault::none};  // is judged from its begin
+    const double into_part_s = is_sound ? 0.0 : std::uniform_real_distribution(0.0, part.duration_s)(random);
+    FaultyMachine machine(controller, {.begins_s = spindle_start_s + into_part_s,
+                                       .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
+                                       .begin = begin,
+                                       .corrupt = corruption(part, fault, seed),
+                                       .leaves_blind = leaves_blind(fault, part)});
     sim::SimulationSettings stopped_early;
     stopped_early.longest_run_s = 1.5 * part.duration_s;
     stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };

@@ -285,6 +285,14 @@ TEST(SignalSupervisorAlone, does_not_take_the_next_value_of_a_load_that_comes_se
     CHECK(judged(supervisor, one_tooth(), 6, CutState::in_cut) == Fault::none);
 }
 
+TEST(SignalSupervisorAlone, takes_a_load_that_does_not_answer_the_feed_for_a_signal_that_is_stuck) {
+    Supervisor supervisor(machine_and_tool());
+    supervisor.judge_load(false);
+    CHECK(supervisor.fault() == Fault::none);
+    supervisor.judge_load(true);
+    CHECK(supervisor.fault() == Fault::signal_stuck);
+}
+
 TEST(SignalSupervisorAlone, does_not_judge_a_force_of_an_earlier_feed) {
     Supervisor supervisor(machine_and_tool());
     judged(supervisor, one_tooth(), 8, CutState::in_cut);

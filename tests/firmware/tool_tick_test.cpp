@@ -88,6 +88,15 @@ class Mill {
 
 using Motion = Mill::Motion;
 
+/// Of a force, by what is known of the machine's spindle.
+float variance_of_force(const firmware::ToolTick& tick) {
+    estimation::SpindleDrive<float>::Average average;
+    average.current_A = 2.0F;
+    average.speed_rad_s = 400.0F;
+    average.present = true;
+    return tick.of_tool().machine_knowledge().drives.spindle.tangential_force_N(average, 5.0F).variance;
+}
+
 }  // namespace
 
 TEST_GROUP(ToolTick) {
@@ -247,6 +256,54 @@ TEST(ToolTick, keeps_what_it_has_learnt_of_the_machine_and_nothing_else) {
         DOUBLES_EQUAL(friction, mill.tick.of_tool().estimator().friction_scale(0, true), 1e-3);
         CHECK_FALSE(mill.tick.of_tool().estimate().tangential_N.valid);
     }
+}
+
+TEST(ToolTick, knows_the_machine_less_surely_the_longer_no_tool_is_known) {
+    mill.run(Motion::rest, 1000);
+    mill.number = 99;
+    mill.run(Motion::rest, 1);
+    const float learnt = variance_of_force(mill.tick);
+    mill.run(Motion::rest, 30'000);
+    CHECK(variance_of_force(mill.tick) > 1.01F * learnt);
+}
+
+TEST(ToolTick, knows_no_time_that_has_passed_before_its_first_sample_or_where_the_clock_runs_back) {
+    Parameters that_warms_up = machine_and_tool();
+    that_warms_up.machine.spindle.warm_up_torque_sd_Nm = 0.5F;
+    that_warms_up.machine.spindle.warm_up_time_s = 600.0F;
+    firmware::ToolTick tick(that_warms_up, &tools());
+    tick.follow_tool(99, true);
+    const float at_first = variance_of_force(tick);
+    for (const std::uint32_t time_us : {2'000'000'000U, 1'000'000'000U}) {
+        tick.take(sample_of(0, time_us));
+        DOUBLES_EQUAL(at_first, variance_of_force(tick), exactly);
+    }
+}
+
+TEST(ToolTick, changes_to_a_tool_that_there_is_as_soon_as_the_axes_rest_behind_a_cut) {
+    mill.run(Motion::air, 500);
+    mill.run(Motion::cut, 1000);
+    mill.run(Motion::rest, 200);
+    CHECK(mill.tick.of_tool().control().state == control::CutState::exit);
+    mill.number = weak;
+    mill.run(Motion::rest, 1);
+    UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
+}
+
+TEST(ToolTick, is_no_other_one_where_one_unknown_number_follows_another) {
+    CHECK(mill.tick.follow_tool(strong, true));
+    CHECK(mill.tick.follow_tool(99, true));
+    CHECK_FALSE(mill.tick.follow_tool(98, true));
+    CHECK_FALSE(mill.tick.follow_tool(0, true));
+}
+
+TEST(ToolTick, takes_its_sample_in_a_step) {
+    for (int k = 300; k < 800; ++k) {
+        mill.tick.follow_tool(strong, false);
+        mill.tick.step(sample_of(k), mill.status);
+        firmware::finish_work(mill.tick);
+    }
+    CHECK(mill.tick.of_tool().estimate().tangential_N.valid);
 }
 
 TEST(ToolTick, changes_the_tool_after_the_reset_of_a_fault_and_not_before) {

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "control/cut_state.hpp"
+
 using namespace millforce::faults;
 
 namespace {
@@ -38,6 +40,20 @@ TEST(SignalFaults, stop_the_feed_within_a_tenth_of_a_second_where_there_is_no_fo
                                     SignalFault::encoder_absent, SignalFault::not_a_number, SignalFault::time_frozen}) {
         const Outcome outcome = mill_with(parts[1], Path::tick, fault, 3);  // begins in the cut
         CHECK_TEXT(outcome.reaction.has_reacted && outcome.reaction.after_s < 0.1, name_of(fault));
+    }
+}
+
+TEST(SignalFaults, of_a_load_that_stands_still_in_the_cut_are_found_by_a_question_within_four_seconds) {
+    struct InTheCut {
+        const char* part;
+        std::uint64_t seed;
+    };
+    for (const InTheCut& run : {InTheCut{"slot_entry:vfd", 8}, {"depth_ramp:vfd", 1}, {"width_step:vfd", 3}}) {
+        const Part part = part_named(run.part);
+        const Outcome outcome = mill_with(part, Path::tick, SignalFault::spindle_frozen, run.seed);
+        CHECK_TEXT(outcome.reaction.has_reacted && outcome.reaction.after_s < 4.0, run.part);
+        LONGS_EQUAL_TEXT(millforce::control::Fault::signal_stuck, outcome.reaction.fault, run.part);
+        CHECK_FALSE_TEXT(mill_with(part, Path::tick, SignalFault::none, run.seed).reaction.has_reacted, run.part);
     }
 }
 

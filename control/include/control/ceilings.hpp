@@ -25,6 +25,7 @@
 ///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
 ///   way ahead  where a part map is known: its feed (feed_ahead.hpp). It replaces air, entry, exit, surge,
 ///              turn and fading, which guard a tool that does not see. The force, which is measured, stays.
+///   load       where a spindle load comes seldom: the feed that it has answered (limit load_unanswered)
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   blind      override_min out of the cut without F_at, unless the spindle stands or turns backwards: the tool may
 ///              meet the workpiece unnoticed (limit no_estimate)

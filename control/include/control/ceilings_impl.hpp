@@ -217,6 +217,9 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     if (!input.way.known) {
         lower_by_surge(lowest, parameters, input, situation);
     }
+    if (input.cut.answered_feed_mm_s > Scalar(0)) {
+        lowest.lower_to(input.cut.answered_feed_mm_s / input.programmed_feed_mm_s, Limit::load_unanswered);
+    }
     const bool asks_for_roughness = parameters.Ra_limit_um > Scalar(0);
     if (asks_for_roughness) {
         lowest.lower_to(surface_ceiling_, Limit::roughness);

@@ -80,9 +80,10 @@ struct CutEstimateForControl {
     Scalar turn_ratio{1};           ///< as surge_ratio, to turn_radial_immersion
     Scalar turn_cutting_share{1};
     Scalar feed_exponent{estimation::usual_feed_exponent<Scalar>};  ///< 1 + p_s
-    Scalar section_mm2{0};        ///< width × depth of the cut: its trend is watched, not its size; 0: not known
-    Scalar section_noise_mm2{0};  ///< part of the section's deviation that differs from one window to the next
-    Scalar feed_mm_s{0};          ///< path speed over the window of tangential_N
+    Scalar section_mm2{0};         ///< width × depth of the cut: its trend is watched, not its size; 0: not known
+    Scalar section_noise_mm2{0};   ///< part of the section's deviation that differs from one window to the next
+    Scalar feed_mm_s{0};           ///< path speed over the window of tangential_N
+    Scalar answered_feed_mm_s{0};  ///< no faster until a load that comes seldom has answered; 0: no bound
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
     bool spindle_does_not_mill = false;   ///< its encoder is there, and stands or counts backwards

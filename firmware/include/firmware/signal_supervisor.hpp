@@ -17,7 +17,8 @@
 ///   stale_input        the samples' time stands or runs backwards: 32 samples
 ///   encoder_mismatch   counts between two index pulses are not one revolution: three in a row;
 ///                      the spindle's speed changes by 40 % within one revolution of a cut
-///   signal_stuck       the current of a turning spindle, or in a cut of a moving axis, stands (stuck_signal.hpp)
+///   signal_stuck       the current of a turning spindle, or in a cut of a moving axis, stands (stuck_signal.hpp);
+///                      a load that comes seldom does not answer the feed (load_answer.hpp)
 ///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
 ///   force_jumped       F_x or F_y changes within two teeth by more than that
 ///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
@@ -63,6 +64,8 @@ class SignalSupervisor {
                bool feed_is_settled);
     /// What re-zeroing in air says of the spindle, with each new estimate.
     void judge_idle(bool is_implausible, int tooth_periods);
+    /// The spindle's load does not answer the feed (load_answer.hpp).
+    void judge_load(bool is_dead);
     /// No average reaches over this moment.
     void restart();
     void reset();

@@ -159,6 +159,13 @@ void SignalSupervisor<Scalar>::judge_idle(bool is_implausible, int tooth_periods
 }
 
 template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_load(bool is_dead) {
+    if (is_dead) {
+        find(control::Fault::signal_stuck);
+    }
+}
+
+template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled) {
     using estimation::literal;
     using estimation::square;

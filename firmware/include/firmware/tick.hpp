@@ -6,6 +6,7 @@
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
 #include "firmware/carried_immersion.hpp"
+#include "firmware/load_answer.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/settled_feed.hpp"
 #include "firmware/signal_supervisor.hpp"
@@ -125,6 +126,7 @@ class ForceControlTick {
     void forget_estimate();
     void rezero_in_air();
     [[nodiscard]] bool is_idle(const estimation::CutEstimate<Scalar>& e) const;
+    void ask_load();
     void set_cut();
     void allow_for_drift();
     void allow_for_drift_of_the_spindle_alone();
@@ -139,12 +141,13 @@ class ForceControlTick {
     CarriedImmersion<Scalar> drops_{};
     SteadyCut<Scalar> steady_cut_{};
     SlowFall<Scalar> slow_fall_;
+    LoadAnswer<Scalar> load_answer_;
     SurfaceMonitor<Scalar> surface_;
     SignalSupervisor<Scalar> supervisor_;
     control::FeedController<Scalar> controller_;
     Scalar reaction_s_;  // of the CNC
     Scalar K_t1_Nm_per_A_;
-    Scalar contact_current_A_;  // of the spindle: torque beyond the idle one by contact_force_N
+    Scalar contact_torque_Nm_;
 
     control::ControlInput<Scalar> input_{};
     control::ControlOutput<Scalar> control_{};

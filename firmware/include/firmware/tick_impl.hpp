@@ -12,14 +12,12 @@
 
 namespace millforce::firmware {
 
-/// The spindle's current that counts as contact: the idle one, and contact_force_N at the cutter's radius.
+/// The spindle's torque that counts as contact: the idle one, and contact_force_N at the cutter's radius.
 template <typename Scalar>
-static Scalar contact_current_A(const Parameters<Scalar>& p) {
+static Scalar contact_torque_Nm(const Parameters<Scalar>& p) {
     constexpr Scalar m_per_mm = estimation::literal<Scalar>(0.001L);
-    const estimation::SpindleDriveParameters<Scalar>& spindle = p.machine.spindle;
     const Scalar radius_m = estimation::halved(p.tool.diameter_mm) * m_per_mm;
-    const Scalar torque_Nm = p.tool.control.contact_force_N * radius_m - spindle.K_t2_Nm;
-    return spindle.K_t1_Nm_per_A > Scalar(0) ? torque_Nm / spindle.K_t1_Nm_per_A : Scalar(0);
+    return p.tool.control.contact_force_N * radius_m - p.machine.spindle.K_t2_Nm;
 }
 
 /// Of its current, as a force at the cutter's radius.
@@ -38,12 +36,13 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
                  estimator_law(parameters.tool)),
       wide_band_(parameters),
       slow_fall_(drift_N_per_s(parameters)),
+      load_answer_(parameters),
       surface_(parameters.tool),
       supervisor_(parameters),
       controller_(controller_parameters(parameters)),
       reaction_s_(reaction_s(parameters.machine)),
       K_t1_Nm_per_A_(parameters.machine.spindle.K_t1_Nm_per_A),
-      contact_current_A_(contact_current_A(parameters)),
+      contact_torque_Nm_(contact_torque_Nm(parameters)),
       settled_feed_(load_delay_s(parameters.machine)) {}
 
 /// Over the window, or over the last tooth period alone where that is larger.
@@ -78,6 +77,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     } else {
         forget_estimate();
     }
+    load_answer_.take(signals.values[Signals::spindle_current]);
     set_motion(signals.velocity());
     input_.motion_is_unseen = false;
     input_.height_is_known = hal::knows_velocity(sample, 2);
@@ -106,15 +106,13 @@ void ForceControlTick<Scalar, WideBand>::watch_sample(const hal::DriveSample& sa
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::watch_encoder(std::uint32_t count, Scalar spindle_current_A, Scalar dt_s) {
     constexpr Scalar surely_stands_s = estimation::literal<Scalar>(0.02L);
-    constexpr Scalar longest_s{1};
-    const Scalar stands_s = encoder_stands_s_ < longest_s ? encoder_stands_s_ + dt_s : longest_s;
     const auto turned = static_cast<std::int32_t>(count - last_count_);
-    const Scalar not_forwards_s = not_forwards_s_ < longest_s ? not_forwards_s_ + dt_s : longest_s;
-    encoder_stands_s_ = turned == 0 ? stands_s : Scalar(0);
-    not_forwards_s_ = turned > 0 ? Scalar(0) : not_forwards_s;
+    encoder_stands_s_ = turned == 0 ? encoder_stands_s_ + dt_s : Scalar(0);
+    not_forwards_s_ = turned > 0 ? Scalar(0) : not_forwards_s_ + dt_s;
     last_count_ = count;
     input_.cut.spindle_does_not_mill = not_forwards_s_ > surely_stands_s;
-    input_.cut.spindle_loaded_at_rest = encoder_stands_s_ > surely_stands_s && spindle_current_A > contact_current_A_;
+    input_.cut.spindle_loaded_at_rest =
+        encoder_stands_s_ > surely_stands_s && K_t1_Nm_per_A_ * spindle_current_A > contact_torque_Nm_;
 }
 
 template <typename Scalar, typename WideBand>
@@ -226,8 +224,7 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const Scalar now_N = estimator_.estimate().newest_tangential_N;
     const Scalar sd_N = sqrt(estimator_.estimate().tangential_N.variance);
     const Scalar doubt_N = estimator_.estimate().tangential_gain_doubt * now_N;
-    const Scalar caution_N =
-        controller_.parameters().caution_sd * sqrt(square(sd_N) + square(doubt_N));
+    const Scalar caution_N = controller_.parameters().caution_sd * sqrt(square(sd_N) + square(doubt_N));
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
     const Scalar tangential_N =
         input_.way.tangential_N > Scalar(0)
@@ -276,8 +273,22 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     surface_.update(estimator_.estimate());
     supervisor_.judge(estimator_.estimate(), program_, control_.state, feed_is_settled());
     supervisor_.judge_idle(estimator_.spindle_is_implausible(), estimator_.estimate().tooth_periods);
+    ask_load();
     set_cut();
     has_new_estimate_ = true;
+}
+
+template <typename Scalar, typename WideBand>
+void ForceControlTick<Scalar, WideBand>::ask_load() {
+    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
+    if (control_.state == control::CutState::in_cut && e.tangential_N.valid && teeth_rad_s > Scalar(0)) {
+        load_answer_.follow(e, estimation::turn_rad<Scalar> / teeth_rad_s, feed_is_settled());
+    } else {
+        load_answer_.restart();
+    }
+    input_.cut.answered_feed_mm_s = load_answer_.bound_mm_s();
+    supervisor_.judge_load(load_answer_.is_dead());
 }
 
 template <typename Scalar, typename WideBand>

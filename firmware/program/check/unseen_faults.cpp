@@ -3,7 +3,22 @@
 
 #include <fmt/format.h>
 
+#include "firmware/load_answer.hpp"
+
 namespace millforce::host {
+
+namespace {
+
+/// Below it load_answer.hpp does not ask. The steps of a load that is rounded are those of an evenly distributed error.
+float lightest_asked_N(const firmware::Parameters<float>& parameters) {
+    constexpr float steps_per_sd = 3.46F;  // √12
+    const auto& spindle = parameters.machine.spindle;
+    const float answer_N =
+        spindle.K_t1_Nm_per_A * 2000.0F / parameters.tool.diameter_mm * (steps_per_sd + 2.0F) * spindle.current_sd_A;
+    return answer_N / (firmware::LoadAnswer<float>::largest_answer * estimation::usual_feed_exponent<float>);
+}
+
+}  // namespace
 
 std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parameters) {
     const auto& axes = parameters.machine.axes;
@@ -29,7 +44,11 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
             "the spindle's load comes every {:g} s (load_period_s) and is {:g} s old by then (load_age_s): what the "
             "tool meets shows up to {:g} s late",
             machine.spindle_load_period_s, machine.spindle_load_age_s, firmware::load_delay_s(machine)));
-        faults.emplace_back("a load that no longer changes looks like a steady cut: it is found in the next air");
+        faults.push_back(fmt::format(
+            "a load that stands still is asked in the cut, after 2 s, by a lower feed; not where F_at is below some "
+            "{:.0f} N (by current_sd_A), and not in air. There the feed rises by no more than the load may hide "
+            "(limit load_unanswered)",
+            lightest_asked_N(parameters)));
     }
     faults.emplace_back(
         "a programmed feed that is told too high, and velocities that are told too low, only slow the machine down; "

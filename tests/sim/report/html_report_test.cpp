@@ -56,11 +56,11 @@ TEST(HtmlReport, EmbedsValidDataAndLeavesNoPlaceholder) {
 TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
     RunResult run = synthetic::pocket_run("millforce");
     for (TracePoint& point : run.trace) {
-        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::depth_step);
+        point.limit = static_cast<std::uint8_t>(millforce::control::Limit::load_unanswered);
     }
     const std::string data = report_data_json(info, std::span(&run, 1));
-    CHECK(data.find("\"limits\":\"eeee") != std::string::npos);
-    CHECK(data.find("\"way_ahead\",\"feed_mismatch\",\"depth_step\"]") != std::string::npos);
+    CHECK(data.find("\"limits\":\"ffff") != std::string::npos);
+    CHECK(data.find("\"way_ahead\",\"feed_mismatch\",\"depth_step\",\"load_unanswered\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {

@@ -38,10 +38,15 @@ TEST(UnseenFaults, of_a_spindle_alone_are_also_its_scale_in_the_cut) {
     CHECK(names("contradicted by no second current"));
 }
 
-TEST(UnseenFaults, of_a_converters_load_are_late_and_may_stand_still) {
+TEST(UnseenFaults, of_a_converters_load_are_late_and_may_stand_still_in_air_and_in_light_cuts) {
     parameters.machine = host::read_machine_parameters(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vfd.toml");
     CHECK(names("comes every 0.1 s (load_period_s) and is 0.15 s old by then (load_age_s)"));
     CHECK(names("shows up to 0.25 s late"));
-    CHECK(names("a load that no longer changes looks like a steady cut"));
+    CHECK(names("a load that stands still is asked in the cut"));
+    // 0.7 Nm/A · 2/(10 mm) · 5.46 · 0.04 A, of which a quarter of the feed must show as much
+    parameters.machine.spindle.K_t1_Nm_per_A = 0.7F;
+    parameters.machine.spindle.current_sd_A = 0.04F;
+    parameters.tool.diameter_mm = 10.0F;
+    CHECK(names("not where F_at is below some 170 N (by current_sd_A)"));
     CHECK(names("contradicted by no second current"));
 }

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "firmware/tick.hpp"
+#include "tick_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::test;
+
+namespace {
+
+Parameters spindle_with_a_seldom_load() {
+    Parameters p = machine_and_tool();
+    for (auto& axis : p.machine.axes) {
+        axis.K_x4_N_per_A = 0.0F;
+    }
+    p.machine.spindle.current_sd_A = 0.04F;
+    p.machine.spindle_load_period_s = 0.1F;
+    p.machine.spindle_load_age_s = 0.1F;
+    return p;
+}
+
+/// The cut of tick_bench.hpp whose force follows the feed, and the feed the override. Its load comes ten times a
+/// second, 0.1 s old and rounded to 0.1 A.
+class Machine {
+  public:
+    hal::FeedOverride run(int samples) {
+        hal::FeedOverride output;
+        for (const int end = index_ + samples; index_ < end; ++index_) {
+            output = firmware::step_and_work(tick, sample(), program());
+            feed_ = output.hold ? 0.0F : feed_mm_s * output.ratio;
+        }
+        return output;
+    }
+
+    firmware::ForceControlTick<float> tick{spindle_with_a_seldom_load()};
+    bool load_stands_still = false;
+    float heavier = 1.0F;
+
+  private:
+    hal::DriveSample sample() {
+        constexpr int period = 100;
+        constexpr float idle_A = 0.95F / 0.7F;
+        hal::DriveSample sample = sample_of(index_);
+        sample.axis_velocity_mm_s = {feed_, 0.0F, 0.0F};
+        const float load_A = index_ < 500 ? 0.0F : 3.0F * heavier * (0.2F + 0.8F * feed_ / feed_mm_s);
+        if (index_ % period == 0 && !load_stands_still) {
+            told_A_ = measured_A_;
+            measured_A_ = std::round((idle_A + load_A) * 10.0F) / 10.0F;
+        }
+        sample.spindle_current_A = told_A_;
+        return sample;
+    }
+
+    int index_ = 0;
+    float feed_ = feed_mm_s;
+    float told_A_ = 1.4F;
+    float measured_A_ = 1.4F;
+};
+
+}  // namespace
+
+TEST_GROUP(TickOnSeldomLoad) {
+    Machine machine;
+};
+
+TEST(TickOnSeldomLoad, mills_on_by_a_load_that_answers) {
+    for (int second = 0; second < 30; ++second) {
+        const hal::FeedOverride output = machine.run(1000);
+        CHECK_FALSE(output.hold);
+        UNSIGNED_LONGS_EQUAL(0, output.fault);
+    }
+    CHECK(machine.tick.control().state == control::CutState::in_cut);
+}
+
+TEST(TickOnSeldomLoad, asks_a_load_that_stands_still_in_the_cut_and_finds_it) {
+    machine.run(6000);
+    machine.load_stands_still = true;
+    const float before = machine.run(1).ratio;
+    float highest = 0.0F;
+    bool was_asked = false;
+    hal::FeedOverride output;
+    for (int k = 0; k < 5000 && output.fault == 0; ++k) {
+        output = machine.run(1);
+        highest = std::fmax(highest, output.ratio);
+        was_asked = was_asked || machine.tick.control().limit == control::Limit::load_unanswered;
+    }
+    CHECK(was_asked);
+    CHECK(output.hold);
+    UNSIGNED_LONGS_EQUAL(static_cast<unsigned>(control::Fault::signal_stuck), output.fault);
+    CHECK(highest < 1.25F * before);
+}
+
+TEST(TickOnSeldomLoad, changes_the_feed_once_for_a_cut_that_becomes_heavier_and_not_for_each_sample_of_a_late_load) {
+    machine.run(6000);
+    machine.heavier = 1.8F;
+    float lowest = 10.0F;
+    for (int k = 0; k < 1000; ++k) {
+        lowest = std::fmin(lowest, machine.run(1).ratio);
+    }
+    const float settled = machine.run(1500).ratio;
+    CHECK(lowest > 0.85F * settled);
+}
