@@ -124,9 +124,9 @@ TEST(WayOverBus, is_silent_until_it_is_asked) {
 TEST(WayOverBus, the_way_is_known_once_forces_agree) {
     chip.begin();
     chip.give_cut();
-    chip.mill(0.0F, 1.0F);
+    chip.mill(0.0F, 0.5F);
     CHECK_FALSE(chip.tick.way.known);
-    chip.mill(1.0F, 8.0F);
+    chip.mill(0.5F, 8.0F);
     CHECK(chip.tick.way.known);
     CHECK(chip.tick.way.feed_mm_s > 9.0F);
     chip.mill(8.0F, 37.5F);  // 0.5 mm before the wall is near

@@ -33,7 +33,7 @@ class ToothForce {
   private:
     using Factors = typename EngagementPeaks<Scalar>::Factors;
 
-    static Scalar follow_growth(CutEstimate<Scalar>& e);
+    Scalar follow_growth(CutEstimate<Scalar>& e) const;
     void estimate_tooth_force(CutEstimate<Scalar>& e, const Factors& factors, Scalar newest_N) const;
     [[nodiscard]] Scalar runout_factor(const CutEstimate<Scalar>& e) const;
     [[nodiscard]] static typename CutEstimate<Scalar>::Change change_to(const typename Table::Forces& forces_then,
@@ -42,6 +42,7 @@ class ToothForce {
     Scalar teeth_{4};
     Scalar cutter_radius_mm_{5};
     Scalar feed_exponent_{usual_feed_exponent<Scalar>};
+    bool load_is_held_ = false;
     Scalar force_exponent_{usual_feed_exponent<Scalar>};
 };
 

@@ -11,7 +11,10 @@ namespace millforce::estimation {
 
 template <typename Scalar>
 ToothForce<Scalar>::ToothForce(const CutEstimatorSettings<Scalar>& settings, const CuttingLaw<Scalar>& law)
-    : teeth_(settings.teeth), cutter_radius_mm_(settings.cutter_radius_mm), feed_exponent_(Scalar(1) + law.p_s) {}
+    : teeth_(settings.teeth),
+      cutter_radius_mm_(settings.cutter_radius_mm),
+      feed_exponent_(Scalar(1) + law.p_s),
+      load_is_held_(settings.load_is_held) {}
 
 template <typename Scalar>
 void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scalar>& peaks, const Table& table,
@@ -52,7 +55,7 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
 /// once. A tooth has risen by what it carries more than a revolution ago. That some teeth carry more than others is
 /// runout, which has its own factor: only what a tooth carries beyond that counts.
 template <typename Scalar>
-Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
+Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) const {
     using std::sqrt;
     constexpr Scalar clear_deviations{3};
     const auto higher = [](Scalar a, Scalar b) { return a > b ? a : b; };
@@ -70,8 +73,9 @@ Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) {
         const Scalar above_window_N = tooth.value - window.value;
         e.newest_tangential_N =
             higher(e.newest_tangential_N, window.value + (rise_N < above_window_N ? rise_N : above_window_N));
-        // A forecast multiplies the noise.
-        e.tangential_growth_N_per_s = rise_N * turns_per_rad<Scalar> * e.spindle_speed_rad_s;
+        // A forecast multiplies the noise, and a load that comes seldom says nothing of one revolution.
+        e.tangential_growth_N_per_s =
+            load_is_held_ ? Scalar(0) : rise_N * turns_per_rad<Scalar> * e.spindle_speed_rad_s;
     }
     return e.newest_tangential_N;
 }
