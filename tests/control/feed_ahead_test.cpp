@@ -345,6 +345,23 @@ TEST(FeedAhead, a_force_where_it_knows_nothing_neither_confirms_nor_refutes_it) 
     CHECK_FALSE(ahead.is_refuted());
 }
 
+TEST(FeedAhead, what_has_agreed_stays_where_only_the_window_is_lost) {
+    const std::vector<Stretch<float>> map{cut_from(0.0F), air_from(end_mm)};
+    Ahead ahead = with(map);
+    CHECK_TRUE(cut(ahead, 1.0F, 3.0F, 300.0F).known);
+    ahead.empty();
+    CHECK_FALSE(ahead.step(at(3.1F)).known);
+    for (const Stretch<float>& stretch : map) {
+        CHECK_TRUE(ahead.add(stretch));
+    }
+    CHECK_TRUE(ahead.step(at(3.2F)).known);
+    ahead.restart();
+    for (const Stretch<float>& stretch : map) {
+        CHECK_TRUE(ahead.add(stretch));
+    }
+    CHECK_FALSE(ahead.step(at(3.3F)).known);
+}
+
 TEST(FeedAhead, a_cut_that_is_known_at_most_says_as_much_as_is_sure_of_it) {
     Stretch<float> half = cut_from(0.0F);
     half.least_share = 0.5F;

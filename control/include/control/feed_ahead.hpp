@@ -130,6 +130,8 @@ class FeedAhead {
     /// Another program, or the same from its begin: the window is empty, and nothing has agreed yet. κ is kept: the
     /// next part is of the same material.
     void restart();
+    /// The window is empty, of the same map: what has agreed of it stays.
+    void empty();
 
     [[nodiscard]] std::size_t room() const { return Capacity - count_; }
     /// False, and nothing is added, where there is no room or the stretch does not begin behind the last one.

@@ -16,14 +16,19 @@ FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::restart() {
-    first_ = 0;
-    count_ = 0;
+    empty();
     agreed_mm_ = Scalar(0);
     disagreed_mm_ = Scalar(0);
     disagreements_ = 0;
+    is_refuted_ = false;
+}
+
+template <typename Scalar, std::size_t Capacity>
+void FeedAhead<Scalar, Capacity>::empty() {
+    first_ = 0;
+    count_ = 0;
     since_estimate_mm_ = Scalar(0);
     touched_in_air_ = false;
-    is_refuted_ = false;
 }
 
 template <typename Scalar, std::size_t Capacity>

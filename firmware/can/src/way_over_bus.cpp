@@ -101,8 +101,11 @@ template <typename Scalar>
 void WayOverBus<Scalar>::begin() {
     const bool is_same_run = run_ == receiver_.run();
     run_ = receiver_.run();
-    empty();
-    if (!is_same_run) {
+    if (is_same_run) {
+        blocks_.clear();
+        ahead_.empty();
+    } else {
+        empty();
         was_refuted_ = false;
         position_ = PathPosition<Scalar>();
         along_.restart();

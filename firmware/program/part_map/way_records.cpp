@@ -19,6 +19,7 @@ using way_window::StretchRecord;
 
 constexpr double um_per_mm = 1000.0;
 constexpr int most_blocks_without_stretch = 16;
+constexpr int most_stretches_without_block = 16;  // a window that begins within a long block need not begin with it
 
 /// Clears `fits` where the value is outside of the range.
 template <typename Whole>
@@ -51,11 +52,17 @@ class Row {
   public:
     void add(const BlockRecord& block) {
         records_.emplace_back(block);
+        last_block_ = block;
+        stretches_since_block_ = 0;
         ++blocks_since_stretch_;
     }
     /// Where two begin within the same micrometre, the second one begins one later.
     void add(StretchRecord stretch) {
         stretch.begin_um = std::max(stretch.begin_um, has_stretch_ ? last_.begin_um + 1 : 0);
+        if (stretches_since_block_ >= most_stretches_without_block && stretch.begin_um < last_block_.end_um) {
+            add(BlockRecord{last_block_.line, last_block_.end_um, last_block_.end_um - stretch.begin_um});
+        }
+        ++stretches_since_block_;
         records_.emplace_back(stretch);
         last_ = stretch;
         has_stretch_ = true;
@@ -73,6 +80,8 @@ class Row {
   private:
     std::vector<WayRecord> records_;
     StretchRecord last_{};
+    BlockRecord last_block_{};
+    int stretches_since_block_ = 0;
     bool has_stretch_ = false;
     int blocks_since_stretch_ = 0;
 };

@@ -129,7 +129,7 @@ TEST(WayOverBus, the_way_is_known_once_forces_agree) {
     chip.mill(0.5F, 8.0F);
     CHECK(chip.tick.way.known);
     CHECK(chip.tick.way.feed_mm_s > 9.0F);
-    chip.mill(8.0F, 37.5F);  // 0.5 mm before the wall is near
+    chip.mill(8.0F, 38.0F);  // 0.5 mm before the wall is near
     CHECK(chip.tick.way.known);
     CHECK(chip.tick.way.feed_mm_s < 7.0F);
 }
