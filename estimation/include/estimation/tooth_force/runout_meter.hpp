@@ -27,7 +27,8 @@
 /// stays: teeth may stand unequal in themselves, which this does not see.
 ///
 /// A machine that knows the spindle's current alone never knows the arc. There the size of F_1 is averaged as if φ_m
-/// were 90°: E/sin φ_m, which is what the thickest chip of a narrow arc has of it.
+/// were 90°: E/sin φ_m, which is what the thickest chip of a narrow arc has of it. It never counts as less than stated
+/// there: nothing else is known of a tooth's share.
 ///
 /// Valid: N ≥ 2, a known arc or the spindle alone, a steady speed, air at this speed before the cut; else nothing is
 /// learnt. Where |E| is larger than the chip at the arc's middle, f_z sin φ_m, teeth miss the cut, their edge force
@@ -118,7 +119,7 @@ class RunoutMeter {
         const Scalar size2_um2 = squared_length(off_axis_um_);
         const Scalar doubt_um2 = variance_um2_ + air_variance_um2_ + square(model_share) * size2_um2;
         const Scalar measured_um = sqrt(size2_um2) * share_ + sqrt(doubt_um2);
-        const Scalar least_um = halved(stated_um_);
+        const Scalar least_um = is_spindle_alone_ ? stated_um_ : halved(stated_um_);
         return (measured_um > least_um ? measured_um : least_um) * mm_per_um;
     }
 
