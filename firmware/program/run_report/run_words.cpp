@@ -71,7 +71,7 @@ const char* meaning_of(firmware::Condition condition) {
 }
 
 const CeilingWords& words_of(control::Limit limit) {
-    static constexpr CeilingWords words[control::limit_count] = {
+    static constexpr CeilingWords words[] = {
         {"nothing", "", "The feed was the programmed one, as in rapid moves."},
         {"load on a tooth", "tooth_force_limit_N, setpoint_share",
          "The load on a tooth was where it should be: at its limit, less a margin."},
@@ -99,7 +99,10 @@ const CeilingWords& words_of(control::Limit limit) {
         {"a step of the depth", "depth_step_ratio, depth_step_share",
          "The depth might have grown without warning, faster than the feed can fall. A part map, "
          "<code>declared_axial_depth_mm</code> or <code>depth_step_ratio = 1</code> for a part without steps lift it."},
+        {"a load that was asked", "load_period_s",
+         "The spindle's load, which comes seldom, had not changed as the feed did, or had stood still for 2 s."},
     };
+    static_assert(sizeof words / sizeof words[0] == control::limit_count);
     return words[static_cast<unsigned>(limit) % control::limit_count];
 }
 
