@@ -310,9 +310,12 @@ PartMap MapLearner::map_of(const Run& run) const {
     const std::vector<MapPlace> seen = seen_in(run);
     PartMap map;
     Smoother smoother(map);
-    for (const Block& block : run.blocks) {
+    for (std::size_t i = 0; i < run.blocks.size(); ++i) {
+        const Block& block = run.blocks[i];
         double path_mm = block.begin_mm;
-        while (path_mm < std::min(block.end_mm, run.path_mm)) {
+        // A CNC may go on with the next block before it has told the end of this one.
+        const double next_mm = i + 1 < run.blocks.size() ? run.blocks[i + 1].begin_mm : run.path_mm;
+        while (path_mm < std::min({block.end_mm, run.path_mm, next_mm})) {
             const std::size_t k = bin_at(path_mm);
             MapPlace place;
             place.known = Known::nothing;

@@ -190,6 +190,8 @@ class PartMap:
 
     COLUMNS = ("path_mm", "block_end_mm", "line", "rapid", "feed_mm_min", "spindle_rpm", "entry_deg", "exit_deg",
                "axial_depth_mm")
+    DOUBT_COLUMNS = ("known", "arc_sd_deg", "axial_depth_sd_mm", "hardness", "hardness_sd", "position_sd_mm", "contested",
+                     "least_share")
 
     def __init__(self, part_map: Any):
         self._map = part_map
@@ -201,17 +203,21 @@ class PartMap:
 
     @classmethod
     def of(cls, table: Table, program: PathLike, tool: str, parameters: Parameters) -> PartMap:
-        """A map of a table with COLUMNS, for this program and this tool: the controller takes it with no other.
+        """A map of a table with COLUMNS, for this program and this tool: the controller takes it with no other. With
+        DOUBT_COLUMNS, too, it says what is not known of a cut; without, each cut is exactly this one.
         Raises InputError as read(), with the lines of a file map.csv."""
-        if set(table) != set(cls.COLUMNS):
-            raise InputError(f"table: columns {', '.join(table)}; expected {', '.join(cls.COLUMNS)}")
-        columns = {name: np.asarray(table[name], dtype=int if name in ("line", "rapid") else float)
-                   for name in cls.COLUMNS}
+        names = cls.COLUMNS + cls.DOUBT_COLUMNS if set(table) >= set(cls.DOUBT_COLUMNS) else cls.COLUMNS
+        if set(table) != set(names):
+            raise InputError(f"table: columns {', '.join(table)}; expected {', '.join(cls.COLUMNS)}, "
+                             f"and all or none of {', '.join(cls.DOUBT_COLUMNS)}")
+        whole = ("line", "rapid", "known", "contested")
+        columns = {name: np.asarray(table[name], dtype=int if name in whole else float) for name in names}
+        version = 2 if names != cls.COLUMNS else 1
         name, crc32, tool_name, tool_crc32 = _millforce.map_origin(os.fspath(program), tool, parameters._parameters)
         with _files() as path_of:
             path = path_of(columns, "map.csv")
             rows = Path(path).read_text(encoding="utf-8")
-            Path(path).write_text(f"# millforce part map 1\n# program {name} crc32 {crc32:08x}\n"
+            Path(path).write_text(f"# millforce part map {version}\n# program {name} crc32 {crc32:08x}\n"
                                   f"# tool {tool_name} crc32 {tool_crc32:08x}\n{rows}", encoding="utf-8")
             return cls.read(path)
 
@@ -232,10 +238,10 @@ class PartMap:
     @property
     def table(self) -> Arrays:
         """The columns of the file. A row holds up to the next; further arcs at a place are further rows with the same
-        path_mm; NaN in the last three columns: air. Angles are from the normal to the feed, 0 to 180 degrees."""
+        path_mm; NaN in the columns of the arc: air. Angles are from the normal to the feed, 0 to 180 degrees."""
         air = [(np.nan, np.nan, np.nan)]
-        rows = [(*place, *arc) for *place, arcs in self._map.rows() for arc in arcs or air]
-        return {name: np.array(column) for name, column in zip(self.COLUMNS, zip(*rows))}
+        rows = [(*place, *arc, *doubt) for (*place, arcs), doubt in self._map.rows() for arc in arcs or air]
+        return {name: np.array(column) for name, column in zip(self.COLUMNS + self.DOUBT_COLUMNS, zip(*rows))}
 
     def arcs_at(self, path_mm: float) -> list[tuple[float, float, float]]:
         """The engaged arcs where this much of the program's path is done: entry and exit in degrees, axial depth in mm.

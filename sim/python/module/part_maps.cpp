@@ -40,10 +40,17 @@ py::tuple row_of(const MapPlace& place) {
                           30.0 / std::numbers::pi * place.spindle_speed_rad_s, arcs_of(place));
 }
 
+/// In the order of the file's further columns.
+py::tuple doubt_of(const MapPlace& place) {
+    return py::make_tuple(static_cast<int>(place.known), in_degrees(place.arc_sd_rad), place.axial_depth_sd_mm,
+                          place.hardness, place.hardness_sd, place.position_sd_mm, place.is_contested,
+                          place.known == host::Known::at_most ? place.least_share : 1.0);
+}
+
 py::list rows_of(const PartMapFile& file) {
     py::list rows;
     for (const MapPlace& place : file.map) {
-        rows.append(row_of(place));
+        rows.append(py::make_tuple(row_of(place), doubt_of(place)));
     }
     return rows;
 }

@@ -185,6 +185,11 @@ class MoreOfTheReplay(WithFolder):
         made.write(self.folder / "shallow.map")
         self.assertEqual((self.folder / "shallow.map").read_text().splitlines()[:3],
                          (self.folder / "pocket.map").read_text().splitlines()[:3])
+        self.assertEqual(set(made.table["known"]), set(table["known"]))
+        self.assertGreater(len(set(table["least_share"])), 2)  # the blank may be half a millimetre off
+        exact = {name: table[name] for name in millforce.PartMap.COLUMNS}
+        self.assertEqual(set(millforce.PartMap.of(exact, ROOT / "sim/scenarios/pocket.ngc", "endmill_10mm",
+                                                  millforce.Parameters(MACHINE, TOOL)).table["known"]), {2})
         table["path_mm"][row] = -5.0
         self.assert_refused("map.csv:", millforce.PartMap.of, table, ROOT / "sim/scenarios/pocket.ngc", "endmill_10mm",
                             millforce.Parameters(MACHINE, TOOL))
