@@ -50,6 +50,13 @@ TEST(Memory, a_run_remembers_arc_and_depth_where_they_were) {
     }
 }
 
+/// Whose arcs blend into each other: the next one is told before the last one has ended.
+TEST(Memory, of_a_round_pocket_goes_along_its_path_and_never_back) {
+    const PartMap memory = memory_of(scenario_named("circular"));
+    CHECK_COMPARE(memory.size(), >, std::size_t{100});
+    CHECK_TRUE(std::ranges::is_sorted(memory, std::ranges::less_equal{}, &MapPlace::path_mm));
+}
+
 TEST(Memory, a_second_part_is_done_sooner_and_keeps_the_limit_in_any_batch) {
     for (const char* name : {"width_step", "interrupted"}) {
         const Scenario scenario = scenario_named(name);
