@@ -58,6 +58,14 @@ std::string error_of_rows(const std::string& rows) {
     return error_of(head + rows);
 }
 
+/// Without a line end.
+std::string head_of_version_2() {
+    std::string of_runs = head;
+    of_runs.replace(of_runs.find("map 1"), 5, "map 2");
+    of_runs.pop_back();
+    return of_runs + ",known,arc_sd_deg,axial_depth_sd_mm,hardness,hardness_sd,position_sd_mm,contested";
+}
+
 }  // namespace
 
 TEST_GROUP(PartMapFile){};
@@ -130,10 +138,7 @@ TEST(PartMapFile, what_a_run_says_of_its_doubt_is_read_as_it_was_written) {
 }
 
 TEST(PartMapFile, a_doubt_that_cannot_be_is_refused_with_its_column) {
-    std::string head_of_runs = head;
-    head_of_runs.replace(head_of_runs.find("map 1"), 5, "map 2");
-    head_of_runs.pop_back();
-    head_of_runs += ",known,arc_sd_deg,axial_depth_sd_mm,hardness,hardness_sd,position_sd_mm,contested\n";
+    const std::string head_of_runs = head_of_version_2() + "\n";
     const auto error = [&](const std::string& doubt) {
         return error_of(head_of_runs + "5,9,1,0,60,1000,10,20,1," + doubt + "\n9,9,1,0,60,1000,,,,2,0,0,1,0,0,0\n");
     };
@@ -148,10 +153,7 @@ TEST(PartMapFile, a_doubt_that_cannot_be_is_refused_with_its_column) {
 }
 
 TEST(PartMapFile, the_least_share_of_a_cut_may_be_missing_but_not_be_wrong) {
-    std::string head_of_runs = head;
-    head_of_runs.replace(head_of_runs.find("map 1"), 5, "map 2");
-    head_of_runs.pop_back();
-    head_of_runs += ",known,arc_sd_deg,axial_depth_sd_mm,hardness,hardness_sd,position_sd_mm,contested,least_share\n";
+    const std::string head_of_runs = head_of_version_2() + ",least_share\n";
     const auto error = [&](const std::string& share) {
         return error_of(head_of_runs + "5,9,1,0,60,1000,10,20,1,1,0,0,1,0,0,0," + share +
                         "\n9,9,1,0,60,1000,,,,2,0,0,1,0,0,0,1\n");
