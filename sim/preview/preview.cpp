@@ -79,7 +79,7 @@ class PossibleCuts {
 }  // namespace
 
 host::PartMap preview_within(const Scenario& scenario, double stock_tolerance_mm, double step_mm) {
-    const host::PartMap drawn = preview(scenario, step_mm);
+    host::PartMap drawn = preview(scenario, step_mm);
     if (!(stock_tolerance_mm > 0.0) || !scenario.has_program()) {
         return drawn;
     }
