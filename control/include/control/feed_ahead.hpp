@@ -26,10 +26,11 @@
 /// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
 /// stands for it. In each cut that stays the same over the window of an estimate, and farthest_off_mm before and behind
 /// it, κ = F_at/F(f)|κ=1 is measured and averaged over some revolutions; not where e exceeds the feed per tooth, since
-/// teeth then miss the cut. At every
-/// place the feed may then be v_i. Now it may be the largest v from which the machine slows down to each of them, d_i
-/// ahead. a: its acceleration. What is asked for acts a reaction time T later, while the tool goes on at what was asked
-/// for before: a feed that falls by more than d/(e T) would pass the place too fast. So
+/// teeth then miss the cut.
+///
+/// At every place the feed may then be v_i. Now it may be the largest v from which the machine, with its acceleration
+/// a, slows down to each of them, d_i ahead. What is asked for acts a reaction time T later, while the tool goes on at
+/// what was asked for before: a feed that falls by more than d/(e T) would pass the place too fast (e = 2.7). So
 ///
 ///   (v − v_i) 2.4 T + (v² − v_i²)/(2 a) = d_i − 2 v_i T        v_i where d_i is less than 2 v_i T
 ///   v = √((v_i + 2.4 a T)² + 2 a (d_i − 2 v_i T)) − 2.4 a T    the lowest of all i
