@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "supervisor_bench.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+namespace hal = millforce::hal;
+using namespace millforce::test;
+
+/// The axes against the spindle, the feed against the program, over revolutions.
+TEST_GROUP(SignalSupervisorAxes){};
+
+TEST(SignalSupervisorAxes, counts_revolutions_and_not_teeth) {
+    Supervisor supervisor(machine_and_tool());
+    Estimate e = one_tooth();
+    e.tangential_N.value = -500.0F;
+    CHECK(judged(supervisor, e, 15) == Fault::none);  // of the first revolution only the speed is taken
+    CHECK(judged(supervisor, e, 1) == Fault::negative_torque);
+}
+
+TEST(SignalSupervisorAxes, counts_revolutions_anew_after_a_reset) {
+    Supervisor supervisor(machine_and_tool());
+    Estimate e = revolution();
+    e.tangential_N.value = -500.0F;
+    judged(supervisor, e, 3);
+    supervisor.reset();
+    CHECK(judged(supervisor, e, 3) == Fault::none);
+    CHECK(judged(supervisor, e, 1) == Fault::negative_torque);
+}
+
+TEST(SignalSupervisorAxes, does_not_judge_a_torque_that_is_not_known_or_of_a_spindle_that_changes_its_speed) {
+    Supervisor supervisor(machine_and_tool());
+    Estimate unknown = revolution();
+    unknown.tangential_N.value = -500.0F;
+    unknown.tangential_N.valid = false;
+    CHECK(judged(supervisor, unknown, 20) == Fault::none);
+    for (const float growth : {0.99F, 1.01F}) {
+        Supervisor another(machine_and_tool());
+        Estimate e = revolution();
+        e.tangential_N.value = -500.0F;
+        for (int k = 0; k < 20; ++k) {
+            e.spindle_speed_rad_s *= growth;
+            CHECK(judged(another, e, 1) == Fault::none);
+        }
+    }
+}
+
+TEST(SignalSupervisorAxes, takes_the_least_force_of_a_move_in_air_for_its_friction) {
+    Supervisor supervisor(machine_and_tool());
+    Estimate e = revolution();
+    e.feed_N = known_N(100.0F);
+    CHECK(judged(supervisor, e, 20) == Fault::none);
+    e.feed_N = known_N(50.0F);
+    CHECK(judged(supervisor, e, 20) == Fault::none);
+    e.feed_N = known_N(100.0F);
+    CHECK(judged(supervisor, e, 2) == Fault::none);
+    CHECK(judged(supervisor, e, 1) == Fault::forces_contradict);
+}
+
+TEST(SignalSupervisorAxes, allows_the_axes_no_friction_beyond_the_known_one_where_a_cut_has_just_ended) {
+    for (const float force_N : {-100.0F, 100.0F}) {
+        Supervisor supervisor(machine_and_tool());
+        Estimate e = revolution();
+        e.feed_N = known_N(force_N);
+        CHECK(judged(supervisor, e, 20) == Fault::none);
+        CHECK(judged(supervisor, e, 3, CutState::exit) == Fault::forces_contradict);
+    }
+}
+
+TEST(SignalSupervisorAxes, does_not_compare_the_axes_with_the_torque_in_a_cut_a_rapid_or_an_unsteady_move) {
+    Estimate e = revolution();
+    e.feed_N = known_N(100.0F);
+    hal::ProgramStatus rapid = program();
+    rapid.rapid = true;
+    Supervisor in_a_rapid(machine_and_tool());
+    CHECK(judged(in_a_rapid, e, 20, CutState::exit, rapid) == Fault::none);
+    Supervisor in_a_cut(machine_and_tool());
+    judged(in_a_cut, e, 20, CutState::air);
+    e.feed_N = known_N(1000.0F);
+    CHECK(judged(in_a_cut, e, 20, CutState::in_cut) == Fault::none);
+    Supervisor unsteady(machine_and_tool());
+    e.tooth_change.feed_is_steady = false;
+    CHECK(judged(unsteady, e, 20, CutState::exit) == Fault::none);
+    Supervisor without_torque(machine_and_tool());
+    e = revolution();
+    e.feed_N = known_N(100.0F);
+    e.tangential_N.valid = false;
+    CHECK(judged(without_torque, e, 20, CutState::exit) == Fault::none);
+}
+
+TEST(SignalSupervisorAxes, lets_the_axes_carry_twice_the_torque_and_never_less_than_none) {
+    Estimate e = revolution();
+    e.tangential_N.value = 100.0F;
+    e.feed_N = known_N(200.0F);
+    Supervisor supervisor(machine_and_tool());
+    CHECK(judged(supervisor, e, 20, CutState::exit) == Fault::none);
+    e.feed_N = known_N(230.0F);
+    CHECK(judged(supervisor, e, 3, CutState::exit) == Fault::forces_contradict);
+    Supervisor below_idle(machine_and_tool());
+    e.tangential_N.value = -15.0F;
+    e.feed_N = known_N(0.0F);
+    CHECK(judged(below_idle, e, 20, CutState::exit) == Fault::none);
+}
+
+TEST(SignalSupervisorAxes, finds_a_feed_force_that_is_lost_in_the_move_in_which_it_was_known) {
+    Estimate lost = revolution();
+    lost.axis_is_implausible = true;
+    Supervisor never_known(machine_and_tool());
+    CHECK(judged(never_known, lost, 20) == Fault::none);
+    Supervisor known(machine_and_tool());
+    Estimate e = revolution();
+    e.feed_N = known_N(10.0F);
+    CHECK(judged(known, e, 1 + 256) == Fault::none);
+    CHECK(judged(known, lost, 2) == Fault::none);
+    CHECK(judged(known, lost, 1) == Fault::forces_contradict);
+}
+
+TEST(SignalSupervisorAxes, lets_the_feed_force_be_unknown_where_an_arc_slows_one_axis_down) {
+    const Estimate unknown = revolution();
+    Supervisor supervisor(machine_and_tool());
+    Estimate e = revolution();
+    e.feed_N = known_N(10.0F);
+    CHECK(judged(supervisor, e, 1 + 256) == Fault::none);
+    CHECK(judged(supervisor, unknown, 256) == Fault::none);
+}
+
+TEST(SignalSupervisorAxes, gives_the_cnc_the_time_to_slow_down_that_its_acceleration_takes) {
+    Parameters p = machine_and_tool();
+    Estimate e = revolution();
+    e.feed_mm_s = 100.0F;
+    hal::ProgramStatus slow = program();
+    slow.programmed_feed_mm_s = 10.0F;
+    p.machine.cnc.acceleration_mm_s2 = 200.0F;
+    Supervisor supervisor(p);
+    CHECK(judged(supervisor, e, 43, CutState::air, slow) == Fault::none);  // 0.01 s + 0.15 s + 0.5 s
+    CHECK(judged(supervisor, e, 2, CutState::air, slow) == Fault::feed_mismatch);
+}
+
+TEST(SignalSupervisorAxes, errs_towards_a_fault_without_a_diameter_or_an_acceleration) {
+    Parameters p = machine_and_tool();  // such parameters are refused elsewhere
+    p.tool.diameter_mm = 0.0F;
+    p.machine.cnc.acceleration_mm_s2 = 0.0F;
+    Supervisor of_feed(p);
+    Estimate e = revolution();
+    e.feed_mm_s = 100.0F;
+    hal::ProgramStatus slow = program();
+    slow.programmed_feed_mm_s = 10.0F;
+    CHECK(judged(of_feed, e, 10, CutState::air, slow) == Fault::none);
+    CHECK(judged(of_feed, e, 2, CutState::air, slow) == Fault::feed_mismatch);
+    Supervisor of_force(p);
+    judged(of_force, one_tooth(), 8, CutState::in_cut);
+    judged(of_force, fallen_force(), 1, CutState::in_cut);
+    CHECK(judged(of_force, one_tooth(), 6, CutState::in_cut) == Fault::force_vanished);
+}
+
+TEST(SignalSupervisorAxes, does_not_judge_the_feed_in_a_rapid_or_where_the_program_s_is_not_known) {
+    Estimate e = revolution();
+    e.feed_mm_s = 100.0F;
+    hal::ProgramStatus unknown = program();
+    unknown.programmed_feed_mm_s = 0.0F;
+    Supervisor supervisor(machine_and_tool());
+    CHECK(judged(supervisor, e, 100, CutState::air, unknown) == Fault::none);
+    hal::ProgramStatus rapid = program();
+    rapid.rapid = true;
+    CHECK(judged(supervisor, e, 100, CutState::air, rapid) == Fault::none);
+    CHECK(judged(supervisor, e, 100) == Fault::feed_mismatch);
+}
