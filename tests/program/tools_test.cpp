@@ -3,6 +3,7 @@
 #include "csv_rows.hpp"
 #include "inputs.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 
@@ -142,15 +143,12 @@ TEST(Tools, a_folder_that_is_not_sound_is_refused_by_each_command_with_the_file)
     folder_is_refused({"T7.toml: tool 7 is in T007.toml, too"});
 }
 
-TEST(Tools, one_tool_or_a_folder_must_be_given_and_a_part_map_is_for_one_tool) {
+TEST(Tools, one_tool_or_a_folder_must_be_given) {
     const std::vector<std::string> serve{"serve", inputs.name("a.sock"), "--machine", inputs.name("machine.toml")};
     STRCMP_EQUAL("", not_refused(run_millforce(serve), {"--tool, --tools: neither was given"}).c_str());
     std::vector<std::string> both = inputs.with_tools({"serve", inputs.name("a.sock")});
     both.insert(both.end(), {"--tool", inputs.name("tool.toml")});
     STRCMP_EQUAL("", not_refused(run_millforce(both), {"--tool, --tools: both were given"}).c_str());
-    const std::vector<std::string> with_map =
-        inputs.with_tools({"serve", inputs.name("a.sock"), "--program", "part.ngc", "--map", "part.map"});
-    STRCMP_EQUAL("", not_refused(run_millforce(with_map), {"--map, --learn: with --tools"}).c_str());
 }
 
 TEST(Tools, a_bus_without_a_program_status_cannot_tell_a_tool) {
@@ -248,4 +246,95 @@ TEST(Tools, replay_follows_the_frames_of_a_candump_log) {
     STRCMP_EQUAL("7", tools[2].c_str());
     STRCMP_EQUAL("", tools[7].c_str());
     STRCMP_EQUAL("12", tools[12].c_str());
+}
+
+/// A part program with maps for the tools 7, 12 and 3; there is no tool 3 in the folder.
+TEST_GROUP(MapsOfTools) {
+    ToolInputs inputs;
+
+    void setup() override {
+        inputs.write("part.ngc", "G21 G90 G94\nS4000 M3\nG1 X10 F600\nG1 Y10\nM5\nM30\n");
+        inputs.write("stock.toml",
+                     "[stock]\nmin_x_mm = 0\nmin_y_mm = -10\nmax_x_mm = 10\nmax_y_mm = 10\ntop_mm = 0\n"
+                     "cell_mm = 0.5\nstart_x_mm = -20\nstart_y_mm = 0\nstart_z_mm = 5\n");
+        inputs.write("T3.toml", with(tool_text, "teeth = 4", "teeth = 3"));
+        for (const auto& [tool, map] : {std::pair{"tools/T7.toml", "T7.map"},
+                                        {"tools/T12.toml", "T12.map"},
+                                        {"tools/T7.toml", "again.map"},
+                                        {"T3.toml", "T3.map"}}) {
+            LONGS_EQUAL(0, run_millforce({"preview", inputs.name("part.ngc"), "--stock", inputs.name("stock.toml"),
+                                          "--tool", inputs.name(tool), "-o", inputs.name(map)})
+                               .exit_code);
+        }
+    }
+
+    [[nodiscard]] std::vector<std::string> serve(const std::vector<std::string>& maps) const {
+        std::vector<std::string> words =
+            inputs.with_tools({"serve", inputs.name("a.sock"), "--program", inputs.name("part.ngc")});
+        for (const std::string& map : maps) {
+            words.insert(words.end(), {"--map", inputs.name(map.c_str())});
+        }
+        return words;
+    }
+    void is_refused(const std::vector<std::string>& words, const std::string& why) const {
+        STRCMP_EQUAL("", not_refused(run_millforce(words), {why}).c_str());
+    }
+    /// The block of a line, in air.
+    static void mill(Bridge & cnc, std::uint32_t tool, std::uint32_t line) {
+        cnc.ask(tool, 0.0F);
+        cnc.sample.line = line;
+        for (int k = 100; k >= 0; --k) {
+            cnc.sample.distance_to_go_mm = 0.1F * static_cast<float>(k);
+            cnc.ask(tool, 10.0F);
+        }
+        cnc.ask(tool, 0.0F);
+    }
+};
+
+TEST(MapsOfTools, there_is_one_for_each_tool_of_the_folder_and_serve_says_whose_each_is) {
+    Program served(serve({"T12.map", "T7.map"}));
+    CHECK(served.says("waiting"));
+    served.interrupt(SIGTERM);
+    served.wait();
+    LONGS_EQUAL(0, served.exit_code());
+    CHECK(contains(served.error(), "T12.map: looks ahead in part.ngc, 40 mm of path, with T12\n"));
+    CHECK(contains(served.error(), "T7.map: looks ahead in part.ngc, 40 mm of path, with T7\n"));
+}
+
+TEST(MapsOfTools, two_for_one_tool_and_one_for_none_are_refused_in_words) {
+    is_refused(serve({"T7.map", "T12.map", "again.map"}), "again.map: a second map for T7, expected one for each tool");
+    is_refused(serve({"T7.map", "T3.map"}), "T3.map: made for another tool ('T3') than those of ");
+    inputs.write("part.ngc", "M30\n");
+    is_refused(serve({"T7.map"}), "T7.map: made for another program ('part.ngc'");
+    is_refused(
+        {"serve", inputs.name("a.sock"), "--machine", inputs.name("machine.toml"), "--tool", inputs.name("tool.toml"),
+         "--program", inputs.name("part.ngc"), "--map", inputs.name("T7.map"), "--map", inputs.name("T12.map")},
+        "--map: 2 maps for one tool, expected one, or --tools");
+}
+
+TEST(MapsOfTools, each_tool_leaves_the_map_of_its_own_path_in_the_folder_of_learn) {
+    std::vector<std::string> words = serve({});
+    words.insert(words.end(), {"--learn", inputs.name("seen")});
+    Program served(words);
+    {
+        Bridge cnc(inputs.name("a.sock"));
+        mill(cnc, 7, 3);
+        mill(cnc, 12, 4);
+        mill(cnc, 9, 5);  // not among them
+        mill(cnc, 7, 6);
+    }
+    served.interrupt(SIGTERM);
+    served.wait();
+    LONGS_EQUAL(0, served.exit_code());
+    CHECK(contains(served.error(), "T7.map: 20 mm of path learnt"));
+    CHECK(contains(served.error(), "T12.map: 10 mm of path learnt"));
+    std::vector<std::string> ends;
+    const std::string map = test::text_of(inputs.name("seen/T7.map"));
+    for (const CsvRow& row : csv_rows(map.substr(map.find("path_mm,")))) {
+        ends.push_back(row.at("line") + " to " + row.at("block_end_mm"));
+    }
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    CHECK((ends == std::vector<std::string>{"3 to 10", "6 to 20"}));
+    words.back() = inputs.name("part.ngc");
+    is_refused(words, "part.ngc: cannot create the folder");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -27,6 +28,29 @@ inline std::string slow_machine() {
 /// At 2000 rpm: two samples in a tooth's time.
 inline const std::string slow_scenario = test::straight_cut(2000, 800, 2, 22);
 
+/// A part program through a block, without its table [stock].
+inline const std::string part_scenario = R"(machine = "machine.toml"
+tool = "tool.toml"
+program = "part.ngc"
+seed = 5
+[material]
+K_tc_N_mm2 = 1650
+K_rc_N_mm2 = 620
+K_te_N_mm = 22
+K_re_N_mm = 28
+)";
+
+using Words = std::vector<std::string>;
+
+inline Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+inline bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 class LiveFolder {
   public:
     LiveFolder() : path_(temporary_file("live")) {
@@ -43,11 +67,11 @@ class LiveFolder {
     [[nodiscard]] std::string text(const std::string& name) const { return test::text_of(file(name)); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
 
-    [[nodiscard]] std::vector<std::string> run_words() const {
+    [[nodiscard]] Words run_words() const {
         return {"run",   "vcan0",           "--machine", file("machine.toml"), "--tool", file("tool.toml"),
                 "--log", file("run.jsonl"), "--record",  file("run.log")};
     }
-    [[nodiscard]] std::vector<std::string> plant_words() const {
+    [[nodiscard]] Words plant_words() const {
         return {"simulate", file("scenario.toml"), "--bus", "vcan0", "--out", file("out")};
     }
     /// Waits for a text in the run's log of conditions.
@@ -57,6 +81,36 @@ class LiveFolder {
 
   private:
     std::string path_;
+};
+
+/// The controller and the plant of a folder in lock-step, so that a run does not depend on how busy this computer is.
+class LockStep {
+  public:
+    LockStep(const Words& run, const LiveFolder& folder)
+        : controller_(with(run, {"--lock-step"})), plant_(with(folder.plant_words(), {"--lock-step"})) {}
+
+    /// To the end of the program.
+    void mill() {
+        plant_.wait();
+        end(controller_);
+    }
+    /// Where it is.
+    void stop() {
+        end(controller_);
+        end(plant_);
+    }
+    /// Once they have ended.
+    [[nodiscard]] const test::Program& controller() const { return controller_; }
+    [[nodiscard]] const test::Program& plant() const { return plant_; }
+
+  private:
+    static void end(test::Program& program) {
+        program.interrupt(SIGTERM);
+        program.wait();
+    }
+
+    test::Program controller_;
+    test::Program plant_;
 };
 
 /// The value of a member in a line of JSON as it stands there; "" for null.

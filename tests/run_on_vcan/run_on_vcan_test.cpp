@@ -13,22 +13,11 @@ using namespace millforce::vcan;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 constexpr const char* stopped_heartbeat = "77E#04";  // the controller's last frame
 
 /// Of the first run in the summary.
 double peak_over_limit(const LiveFolder& folder) {
     return std::stod(member(folder.text("out/summary.json"), "peak_over_limit"));
-}
-
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
 }
 
 /// Every tick of the run, by its digest.
@@ -113,16 +102,13 @@ TEST(RunOnVcan, in_lock_step_a_part_at_1_kHz_has_the_figures_of_one_process_and_
     folder.write("machine.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml"));
     const Words lock_step{"--lock-step"};
     const Candump candump("vcan0", folder.file("candump.log"));
-    test::Program controller(with(folder.run_words(), lock_step));
-    test::Program plant(with(folder.plant_words(), lock_step));
-    plant.wait();
-    controller.interrupt(SIGTERM);
-    controller.wait();
+    LockStep run(folder.run_words(), folder);
+    run.mill();
     CHECK(candump.is_quiet());
-    STRCMP_EQUAL("", plant.error().c_str());
-    LONGS_EQUAL(0, plant.exit_code());  // the bounds hold, the program finished
-    LONGS_EQUAL(0, controller.exit_code());
-    CHECK(has(controller.out(), " 0 not sent, 0 lost"));
+    STRCMP_EQUAL("", run.plant().error().c_str());
+    LONGS_EQUAL(0, run.plant().exit_code());  // the bounds hold, the program finished
+    LONGS_EQUAL(0, run.controller().exit_code());
+    CHECK(has(run.controller().out(), " 0 not sent, 0 lost"));
     CHECK(has(folder.text("run.jsonl"), "\"state\":\"in_cut\""));
     const double peak_over_bus = peak_over_limit(folder);
     const test::Ended in_process =

@@ -8,8 +8,6 @@ using namespace millforce::vcan;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// A slot 5 mm deep from the block's side, then out of the block to the other side.
 const std::string part = R"(G21 G90 G94
 S4000 M3
@@ -38,17 +36,6 @@ start_z_mm = 10
                        min_x_mm);
 }
 
-const std::string scenario = R"(machine = "machine.toml"
-tool = "tool.toml"
-program = "part.ngc"
-seed = 5
-[material]
-K_tc_N_mm2 = 1650
-K_rc_N_mm2 = 620
-K_te_N_mm = 22
-K_re_N_mm = 28
-)";
-
 struct Milled {
     double time_s = 0.0;
     double peak_over_limit = 0.0;
@@ -61,7 +48,7 @@ class MapFolder : public LiveFolder {
     MapFolder() {
         write("machine.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml"));
         write("part.ngc", part);
-        write("scenario.toml", scenario + stock_from(0));
+        write("scenario.toml", part_scenario + stock_from(0));
     }
 
     /// What `millforce preview` makes of a block that begins there.
@@ -72,30 +59,17 @@ class MapFolder : public LiveFolder {
         STRCMP_EQUAL("", ended.error.c_str());
     }
 
-    /// In lock-step, so that it does not depend on how busy this computer is.
-    [[nodiscard]] Milled mill(Words more = {}) const {
-        Words run = run_words();
-        run.insert(run.end(), more.begin(), more.end());
-        run.insert(run.end(), {"--lock-step", "--report", file("page")});
-        Words words = plant_words();
-        words.emplace_back("--lock-step");
-        test::Program controller(run);
-        test::Program plant(words);
-        plant.wait();
-        controller.interrupt(SIGTERM);
-        controller.wait();
-        STRCMP_EQUAL("", plant.error().c_str());
-        LONGS_EQUAL(0, plant.exit_code());  // the bounds hold, the program finished
-        LONGS_EQUAL(0, controller.exit_code());
+    [[nodiscard]] Milled mill(const Words& more = {}) const {
+        LockStep run(with(with(run_words(), more), {"--report", file("page")}), *this);
+        run.mill();
+        STRCMP_EQUAL("", run.plant().error().c_str());
+        LONGS_EQUAL(0, run.plant().exit_code());  // the bounds hold, the program finished
+        LONGS_EQUAL(0, run.controller().exit_code());
         const std::string summary = text("out/summary.json");
         return {std::stod(member(summary, "time_s")), std::stod(member(summary, "peak_over_limit")),
-                controller.error()};
+                run.controller().error()};
     }
 };
-
-bool has(const std::string& text, const std::string& part_of_it) {
-    return text.find(part_of_it) != std::string::npos;
-}
 
 }  // namespace
 
@@ -104,17 +78,11 @@ TEST_GROUP(RunWithMap) {
     const Words with_program{"--program", folder.file("part.ngc")};
 
     [[nodiscard]] Words with_map(const std::string& map, const Words& more = {}) const {
-        Words words = with_program;
-        words.insert(words.end(), {"--map", folder.file(map)});
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+        return with(with(with_program, {"--map", folder.file(map)}), more);
     }
 
     void refuses(const std::string& map, const std::string& why) {
-        Words run = folder.run_words();
-        const Words with = with_map(map);
-        run.insert(run.end(), with.begin(), with.end());
-        const test::Ended ended = test::run_millforce(run);
+        const test::Ended ended = test::run_millforce(with(folder.run_words(), with_map(map)));
         LONGS_EQUAL(2, ended.exit_code);
         STRCMP_CONTAINS(why.c_str(), ended.error.c_str());
         STRCMP_EQUAL("", ended.out.c_str());
@@ -129,12 +97,10 @@ TEST(RunWithMap, a_part_takes_a_fifth_less_time_with_its_map_below_the_limit_and
     CHECK(has(ahead.says, "seen.map: "));
     CHECK_COMPARE(ahead.time_s, <, 0.8 * blind.time_s);
     CHECK_COMPARE(ahead.peak_over_limit, <, 1.0);
-    Words replay{"replay", folder.file("run.log"),    "--machine",  folder.file("machine.toml"),
-                 "--tool", folder.file("tool.toml"),  "--verify",   folder.file("run.jsonl"),
-                 "-o",     folder.file("replay.csv"), "--lock-step"};
-    const Words map = with_map("part.map");
-    replay.insert(replay.end(), map.begin(), map.end());
-    const test::Ended replayed = test::run_millforce(replay);
+    const Words replay{"replay", folder.file("run.log"),    "--machine",  folder.file("machine.toml"),
+                       "--tool", folder.file("tool.toml"),  "--verify",   folder.file("run.jsonl"),
+                       "-o",     folder.file("replay.csv"), "--lock-step"};
+    const test::Ended replayed = test::run_millforce(with(replay, with_map("part.map")));
     STRCMP_CONTAINS("looks ahead", replayed.error.c_str());
     LONGS_EQUAL(0, replayed.exit_code);  // each tick bit for bit
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_bench.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
+#include "part_map/part_map_file.hpp"
 #include "program_status/tool_frame.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -27,11 +29,7 @@ M5
 M30
 )";
 
-const std::string scenario = R"(machine = "machine.toml"
-tool = "tool.toml"
-program = "part.ngc"
-seed = 5
-[stock]
+const std::string stock = R"([stock]
 min_x_mm = 0
 min_y_mm = -12
 max_x_mm = 120
@@ -41,33 +39,52 @@ cell_mm = 0.1
 start_x_mm = -40
 start_y_mm = 0
 start_z_mm = -3
-[material]
-K_tc_N_mm2 = 1650
-K_rc_N_mm2 = 620
-K_te_N_mm = 22
-K_re_N_mm = 28
+)";
+
+/// Two slots in a block, the second one after a rest in which the tool is changed.
+const std::string two_slots = R"(G21 G90 G94
+S4000 M3
+G0 X-8 Z-5
+G1 X26 F1500
+G0 Z5
+G0 X-20 Y25
+G4 P5
+G0 X-8 Z-5
+G1 X26
+G0 Z5
+M5
+M30
+)";
+constexpr std::size_t line_of_first_slot = 4;
+constexpr std::size_t line_of_second_slot = 9;
+
+const std::string wide_stock = R"([stock]
+min_x_mm = 0
+min_y_mm = -12
+max_x_mm = 40
+max_y_mm = 37
+top_mm = 0
+cell_mm = 0.1
+start_x_mm = -20
+start_y_mm = 0
+start_z_mm = 10
 )";
 
 /// The tools 7 and 12 in the folder `tools`; there is no 99.
 class ToolsFolder : public LiveFolder {
   public:
     ToolsFolder() {
-        write("scenario.toml", scenario);
+        write("scenario.toml", part_scenario + stock);
         write("part.ngc", part);
         std::filesystem::create_directories(file("tools"));
         write("tools/T7.toml", text("tool.toml"));
         write("tools/T12.toml", text("tool.toml"));
     }
-    [[nodiscard]] std::vector<std::string> run_words() const {
+    [[nodiscard]] Words run_words() const {
         return with_tools({"run", "vcan0", "--log", file("run.jsonl"), "--record", file("run.log")});
     }
-    [[nodiscard]] std::vector<std::string> replay_words() const {
+    [[nodiscard]] Words replay_words() const {
         return with_tools({"replay", file("run.log"), "-o", file("replay.csv"), "--verify", file("run.jsonl")});
-    }
-    [[nodiscard]] std::vector<std::string> plant_words() const {
-        std::vector<std::string> words = LiveFolder::plant_words();
-        words.emplace_back("--lock-step");
-        return words;
     }
     [[nodiscard]] std::vector<std::string> estimates_with(const std::string& member) const {
         std::vector<std::string> found;
@@ -85,9 +102,8 @@ class ToolsFolder : public LiveFolder {
     }
 
   private:
-    [[nodiscard]] std::vector<std::string> with_tools(std::vector<std::string> words) const {
-        words.insert(words.end(), {"--machine", file("machine.toml"), "--tools", file("tools"), "--lock-step"});
-        return words;
+    [[nodiscard]] Words with_tools(const Words& words) const {
+        return with(words, {"--machine", file("machine.toml"), "--tools", file("tools")});
     }
 };
 
@@ -109,6 +125,12 @@ class ToolTeller {
     std::unique_ptr<Child> sender_;
 };
 
+void replays(const ToolsFolder& folder, const Words& more = {}) {
+    const test::Ended replay = test::run_millforce(with(with(folder.replay_words(), more), {"--lock-step"}));
+    STRCMP_CONTAINS("bit for bit", replay.out.c_str());
+    LONGS_EQUAL(0, replay.exit_code);
+}
+
 }  // namespace
 
 TEST_GROUP(RunWithTools) {
@@ -118,13 +140,6 @@ TEST_GROUP(RunWithTools) {
     [[nodiscard]] bool is_in_cut() const {
         return wait_until([&] { return folder.estimates_with("\"state\":\"in_cut\"").size() > 5; });
     }
-    static void end(test::Program & controller, test::Program & plant) {
-        controller.interrupt(SIGTERM);
-        controller.wait();
-        plant.interrupt(SIGTERM);
-        plant.wait();
-        LONGS_EQUAL(0, controller.exit_code());
-    }
     /// The whole cut by the limits of tool 7; the operator's override is 1.
     void judge_cut() const {
         for (const std::string& line : folder.estimates_with("\"state\":\"in_cut\"")) {
@@ -132,17 +147,11 @@ TEST_GROUP(RunWithTools) {
             CHECK(std::stod(member(line, "override")) < 0.9);
         }
     }
-    void replays() const {
-        const test::Ended replay = test::run_millforce(folder.replay_words());
-        STRCMP_CONTAINS("bit for bit", replay.out.c_str());
-        LONGS_EQUAL(0, replay.exit_code);
-    }
 };
 
 TEST(RunWithTools, the_tool_frame_changes_the_tool_at_rest_and_none_in_a_cut) {
     cnc.tell(7);
-    test::Program controller(folder.run_words());
-    test::Program plant(folder.plant_words());
+    LockStep run(folder.run_words(), folder);
     CHECK(is_in_cut());
     cnc.tell(12);
     CHECK(folder.logged("\"tool_change_due\""));
@@ -152,26 +161,89 @@ TEST(RunWithTools, the_tool_frame_changes_the_tool_at_rest_and_none_in_a_cut) {
     CHECK(wait_until([&] { return folder.has_tool("0"); }));
     cnc.tell(7);
     CHECK(wait_until([&] { return folder.has_tool("7"); }));
-    end(controller, plant);
+    run.stop();
+    LONGS_EQUAL(0, run.controller().exit_code());
     judge_cut();
     for (const std::string& line : folder.estimates_with("\"tool\":0,")) {
         STRCMP_EQUAL("1", member(line, "override").c_str());
         STRCMP_EQUAL("", member(line, "tangential_force_N").c_str());
     }
-    STRCMP_CONTAINS("vcan0: tool_change_due\n", controller.error().c_str());
-    STRCMP_CONTAINS("vcan0: tool_unknown", controller.error().c_str());
-    replays();
+    STRCMP_CONTAINS("vcan0: tool_change_due\n", run.controller().error().c_str());
+    STRCMP_CONTAINS("vcan0: tool_unknown", run.controller().error().c_str());
+    replays(folder);
 }
 
 TEST(RunWithTools, a_cnc_that_stops_telling_the_tool_in_a_cut_keeps_its_limits_to_the_next_rest) {
     cnc.tell(7);
-    test::Program controller(folder.run_words());
-    test::Program plant(folder.plant_words());
+    LockStep run(folder.run_words(), folder);
     CHECK(is_in_cut());
     cnc.tell_none();
     CHECK(folder.logged("\"tool_change_due\""));
     CHECK(wait_until([&] { return folder.has_tool("0"); }));
-    end(controller, plant);
+    run.stop();
+    LONGS_EQUAL(0, run.controller().exit_code());
     judge_cut();
-    replays();
+    replays(folder);
+}
+
+/// At 1 kHz.
+TEST_GROUP(RunWithMapsOfTools) {
+    ToolsFolder folder;
+    ToolTeller cnc;
+    const Words with_program{"--program", folder.file("part.ngc")};
+
+    void setup() override {
+        folder.write("machine.toml", test::text_of(MILLFORCE_SOURCE_DIR "/sim/scenarios/machines/vmc.toml"));
+        folder.write("part.ngc", two_slots);
+        folder.write("scenario.toml", part_scenario + wide_stock);
+        folder.write("stock.toml", wide_stock);
+    }
+
+    /// Of the whole part, as if it were milled with that tool.
+    std::string preview(const std::string& tool) const {
+        const std::string map = folder.file(tool + ".map");
+        const test::Ended ended =
+            test::run_millforce({"preview", folder.file("part.ngc"), "--stock", folder.file("stock.toml"), "--tool",
+                                 folder.file("tools/" + tool + ".toml"), "-o", map});
+        LONGS_EQUAL(0, ended.exit_code);
+        return map;
+    }
+
+    /// The first slot with tool 7, the second with tool 12. What the controller says.
+    std::string mill(const Words& more) {
+        folder.write("run.jsonl", "");
+        cnc.tell(7);
+        LockStep run(with(with(folder.run_words(), with_program), more), folder);
+        CHECK(wait_until([&] { return folder.estimates_with("\"state\":\"in_cut\"").size() > 5; }));
+        cnc.tell(12);
+        run.mill();
+        STRCMP_EQUAL("", run.plant().error().c_str());
+        LONGS_EQUAL(0, run.plant().exit_code());  // the bounds hold, the program finished
+        LONGS_EQUAL(0, run.controller().exit_code());
+        return run.controller().error();
+    }
+    [[nodiscard]] double time_s() const {
+        return std::stod(member(folder.text("out/summary.json"), "time_s"));
+    }
+    [[nodiscard]] bool cuts_in(const std::string& map, std::size_t line) const {
+        const host::PartMap places = host::read_part_map(folder.file(map)).map;
+        return std::ranges::any_of(
+            places, [line](const host::MapPlace& place) { return place.line == line && !place.cut.empty(); });
+    }
+};
+
+TEST(RunWithMapsOfTools, each_tool_looks_ahead_in_its_own_map_and_leaves_its_own_behind) {
+    mill({"--learn", folder.file("seen")});
+    const double blind_s = time_s();
+    CHECK(cuts_in("seen/T7.map", line_of_first_slot) && cuts_in("seen/T12.map", line_of_second_slot));
+    CHECK_FALSE(cuts_in("seen/T7.map", line_of_second_slot) || cuts_in("seen/T12.map", line_of_first_slot));
+
+    const Words both{"--map", preview("T7"), "--map", preview("T12")};
+    const std::string says = mill(both);
+    CHECK(has(says, "T7.map: looks ahead in part.ngc, ") && has(says, ", with T12\n"));
+    CHECK_COMPARE(time_s(), <, 0.85 * blind_s);
+    replays(folder, with(with_program, both));
+
+    mill({"--map", folder.file("seen/T7.map"), "--map", folder.file("seen/T12.map")});
+    CHECK_COMPARE(time_s(), <, 0.92 * blind_s);
 }

@@ -50,12 +50,14 @@ local_link::MessageError LinkController::on_message(std::span<const std::uint8_t
     bridge_gap(message.time_us, program_);
     reset_where_asked(message);
     finish_work(tick_);  // what was not done in time
-    tick_.follow_tool(message.tool, hal::axes_rest(message.axis_velocity_mm_s));
+    if (tick_.follow_tool(message.tool, hal::axes_rest(message.axis_velocity_mm_s)) && way_ != nullptr) {
+        way_->set_tool(tick_.tool());
+    }
     drives_.on_message(message);
     (void)drives_.take_sample(sample_);  // each message is one
     tick_.take(sample_);
     finish_estimate(tick_);
-    if (way_ != nullptr) {
+    if (way_ != nullptr && tick_.is_tool_known()) {
         way_->look_ahead(tick_.of_tool(), program_);
     }
     output_ = tick_.answer(program_);

@@ -106,6 +106,11 @@ Option& Option::shows_default() {
     return *this;
 }
 
+Option& Option::one_each_time() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
 Option& Option::needs(const Option& other) {
     option_->needs(other.option_);
     return *this;

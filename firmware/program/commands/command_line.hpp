@@ -38,6 +38,8 @@ class Option {
     Option& one_of_or(const std::vector<std::string>& names, const std::string& prefix, const std::string& shown);
     /// `--help` shows the variable's present value as the default.
     Option& shows_default();
+    /// Of a list: each time one value; what follows is another option's.
+    Option& one_each_time();
     Option& needs(const Option& other);
     Option& excludes(const Option& other);
 

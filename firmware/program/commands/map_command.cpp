@@ -24,6 +24,7 @@
 #include "parameters/tool_set.hpp"
 #include "part_map/map_join.hpp"
 #include "part_map/map_sender.hpp"
+#include "part_map/numbered_maps.hpp"
 #include "part_map/part_map_file.hpp"
 #include "socketcan/can_socket.hpp"
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands/command_line.hpp"
-#include "daemon/line_printer.hpp"
 #include "parameters/tool_set.hpp"
 #include "part_map/part_map_file.hpp"
 #include "part_map/way_along_map.hpp"
@@ -16,38 +19,54 @@ namespace millforce::host {
 /// What a live controller does with part maps.
 struct MapOptions {
     std::string program;
-    std::string map;
-    std::string learn;
+    std::vector<std::string> maps;  ///< one, or with tools by number one for each
+    std::string learn;              ///< a file; with tools by number a folder
+
+    [[nodiscard]] bool is_any() const { return !maps.empty() || !learn.empty(); }
 };
 
 /// --program, --map and --learn.
 void add_map(Command& command, MapOptions& options);
 
-/// The part maps of a live controller, for one tool: one that is looked ahead in, and one that is learnt. One thread.
+/// The part maps of a live controller: those that are looked ahead in, and those that are learnt, of the one tool or of
+/// each tool by its number. One thread.
 class LiveMaps {
   public:
-    /// Reads the map, and refuses one of another program or tool, and --learn where nothing can be written. Throws
-    /// InputError. Says on standard error which map it is.
-    LiveMaps(const MapOptions& options, const ToolChoice& tool, const firmware::Parameters<float>& parameters);
+    /// Reads the maps, and refuses one of another program or tool, two for one tool, and --learn where nothing can be
+    /// written. Throws InputError. Says on standard error which maps they are.
+    LiveMaps(const MapOptions& options, const ToolChoice& choice, const ToolSet& tools);
 
-    /// A machine connects: nothing has agreed with the map yet. Null where there is nothing to do.
+    /// A machine connects: nothing has agreed with the maps yet. Null where there is nothing to do.
     [[nodiscard]] firmware::WaySource<float>* begin();
-    /// The map does not fit the cut, and is not looked ahead in.
-    [[nodiscard]] bool is_refuted() const { return follower_ != nullptr && follower_->is_refuted(); }
-    /// Since the last call the map was dropped, because it does not fit the cut.
-    [[nodiscard]] bool was_dropped();
+    /// The map of the tool in the spindle does not fit the cut, and is not looked ahead in.
+    [[nodiscard]] bool is_refuted() const { return way_ && way_->is_refuted(); }
+    /// Those that were dropped since the last call because they do not fit the cut: "part map", "part map of T7".
+    [[nodiscard]] std::vector<std::string> dropped();
     /// Writes what was learnt, if anything was. False, with a line on standard error, where that failed.
     [[nodiscard]] bool finish();
 
   private:
+    /// Of a tool by its number; 0: the one tool.
+    struct Followed {
+        PartMap map;
+        std::unique_ptr<MapFollower> follower{};
+        bool is_dropped = false;
+    };
+
+    /// Says which map it is.
+    std::string read(const std::string& file, const ToolChoice& choice);
+    void prepare_to_learn(const ToolChoice& choice);
+    [[nodiscard]] std::filesystem::path file_to_learn(std::uint32_t number) const;
+    [[nodiscard]] bool write(std::uint32_t number, const PartMap& map) const;
+
     MapOptions options_;
-    firmware::Parameters<float> parameters_;
-    MapOrigin origin_{};
-    std::optional<PartMap> map_;
-    std::unique_ptr<MapLearner> learner_;
-    std::unique_ptr<MapFollower> follower_;
-    std::optional<WayAlongMap> way_;
-    bool is_dropped_ = false;
+    bool has_numbers_;
+    firmware::MachineParameters<float> machine_;
+    std::vector<firmware::NumberedTool> tools_;  // without numbers the one tool as 0
+    std::map<std::uint32_t, MapOrigin> origins_{};
+    std::map<std::uint32_t, Followed> maps_{};
+    std::unique_ptr<MapLearner> learner_{};
+    std::optional<WayAlongMap> way_{};
 };
 
 }  // namespace millforce::host

@@ -168,7 +168,7 @@ int replay(const ReplayOptions& options) {
         throw InputError(fmt::format("--output, --mcap: both are {}, expected two files", options.mcap));
     }
     if (!is_candump_log(options.log)) {
-        if (!options.maps.map.empty() || !options.maps.learn.empty()) {
+        if (options.maps.is_any()) {
             throw InputError(
                 fmt::format("--map, --learn: {} is not a candump log, expected one with the CNC's position "
                             "frames",
@@ -185,13 +185,13 @@ int replay(const ReplayOptions& options) {
                                      options.log));
     }
     const ToolSet tools(read_machine_parameters(options.machine), options.tools);
-    LiveMaps maps(options.maps, options.tools, tools.parameters());
+    LiveMaps maps(options.maps, options.tools, tools);
     const int exit_code = replay_candump(
         {options.log, options.machine, options.tools, options.output, options.interface, options.interval_s,
          options.run_log, options.mcap, options.pace, options.report, maps.begin(), !options.watch.view},
         tools, [&] { return playback_of(options, tools); });
-    if (maps.was_dropped()) {
-        print_line(stderr, "millforce: the part map does not fit this cut: continuing without it");
+    for (const std::string& map : maps.dropped()) {
+        print_line(stderr, fmt::format("millforce: the {} does not fit this cut: continuing without it", map));
     }
     return maps.finish() ? exit_code : 1;
 }

@@ -109,7 +109,7 @@ int run_on_bus(const RunOptions& options) {
                         "number is that id + 0x100",
                         options.machine, bus.program.id, hal::largest_standard_can_id - 0x100));
     }
-    LiveMaps maps(options.maps, options.tools, tools.parameters());
+    LiveMaps maps(options.maps, options.tools, tools);
     firmware::WaySource<float>* const way = maps.begin();
     if (way != nullptr && program_status::position_frame_id(bus.program.id) == 0) {
         throw InputError(
@@ -144,8 +144,8 @@ int run_on_bus(const RunOptions& options) {
     journal->finish();
     hub->finish();
     print_summary(options, *daemon, *journal);
-    if (maps.was_dropped()) {
-        print_line(stdout, "the part map did not fit the cut: the run went on without it");
+    for (const std::string& map : maps.dropped()) {
+        print_line(stdout, fmt::format("the {} did not fit the cut: the run went on without it", map));
     }
     const bool is_learnt = maps.finish();
     const bool is_reported = finish_report(report.get(), stdout);

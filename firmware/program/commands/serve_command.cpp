@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "check/start_check.hpp"
 #include "check/unseen_faults.hpp"
@@ -66,9 +67,9 @@ class FaultReporter {
 
 /// Reports when a part map is dropped.
 void report_map(LiveMaps& maps, LinePrinter& printer, Notes& notes) {
-    if (maps.was_dropped()) {
-        notes.add("The part map does not fit this cut: the run went on without it.");
-        printer.print("millforce: the part map does not fit this cut: continuing without it");
+    for (const std::string& map : maps.dropped()) {
+        notes.add(fmt::format("The {} does not fit this cut: the run went on without it.", map));
+        printer.print(fmt::format("millforce: the {} does not fit this cut: continuing without it", map));
     }
 }
 
@@ -193,13 +194,14 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
-    refuse_overwriting(options.watch.mcap,
-                       {options.machine, options.tools.file, options.maps.map, options.maps.program});
+    std::vector<std::filesystem::path> inputs{options.machine, options.tools.file, options.maps.program};
+    inputs.insert(inputs.end(), options.maps.maps.begin(), options.maps.maps.end());
+    refuse_overwriting(options.watch.mcap, inputs);
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();
     show_start_check(tools);
-    LiveMaps maps(options.maps, options.tools, parameters);
+    LiveMaps maps(options.maps, options.tools, tools);
     const auto report =
         started_report({RunKind::serve, options.socket, options.machine, options.tools, options.report}, tools);
     Notes notes;

@@ -100,18 +100,36 @@ class Smoother {
 
 }  // namespace
 
-MapLearner::MapLearner(const firmware::Parameters<float>& parameters) : parameters_(parameters) {
+MapLearner::MapLearner(const firmware::Parameters<float>& parameters)
+    : MapLearner(parameters.machine, {{0, parameters.tool}}) {
+    set_tool(0);
+}
+
+MapLearner::MapLearner(const firmware::MachineParameters<float>& machine,
+                       const std::vector<firmware::NumberedTool>& tools)
+    : machine_(machine), tools_(tools), tool_(tools.size()) {
     for (Run* const run : {&run_, &longest_}) {
         run->blocks.reserve(most_blocks);
         run->bins.resize(bin_at(longest_mm));
     }
 }
 
+std::size_t MapLearner::place_of(std::uint32_t number) const {
+    const auto found = std::find_if(tools_.begin(), tools_.end(),
+                                    [number](const firmware::NumberedTool& tool) { return tool.number == number; });
+    return static_cast<std::size_t>(found - tools_.begin());
+}
+
+void MapLearner::set_tool(std::uint32_t number) {
+    tool_ = place_of(number);
+    last_middle_mm_.reset();
+}
+
 // ---- Along the path
 // --------------------------------------------------------------------------------------------------
 
 void MapLearner::take(const firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program) {
-    const std::optional<double> path_mm = follow(program);
+    const std::optional<double> path_mm = tool_ < tools_.size() ? follow(program) : std::nullopt;
     if (!path_mm) {
         last_middle_mm_.reset();
         return;
@@ -125,7 +143,7 @@ void MapLearner::take(const firmware::ForceControlTick<float>& tick, const hal::
     if (!tick.has_new_estimate() || !e.tangential_N.valid) {
         return;
     }
-    const float behind_s = 0.5F * e.window_s + firmware::load_delay_s(parameters_.machine);
+    const float behind_s = 0.5F * e.window_s + firmware::load_delay_s(machine_);
     const double middle_mm = std::max(0.0, *path_mm - static_cast<double>(e.feed_mm_s * behind_s));
     const double last_mm = last_middle_mm_.value_or(middle_mm);
     last_middle_mm_ = middle_mm;
@@ -146,8 +164,8 @@ std::optional<double> MapLearner::follow(const hal::ProgramStatus& program) {
     if (program.line == 0 || !std::isfinite(to_go_mm) || to_go_mm < 0.0) {
         return std::nullopt;
     }
-    const bool goes_on =
-        !run_.blocks.empty() && run_.blocks.back().line == program.line && to_go_mm <= to_go_mm_ + blending_mm;
+    const bool goes_on = !run_.blocks.empty() && run_.blocks.back().tool == tool_ &&
+                         run_.blocks.back().line == program.line && to_go_mm <= to_go_mm_ + blending_mm;
     if (!goes_on) {
         begin_block(program);
     }
@@ -166,6 +184,7 @@ void MapLearner::begin_block(const hal::ProgramStatus& program) {
         run_.blocks.back().line = program.line;  // the path beyond is not known
     } else {
         Block block;
+        block.tool = tool_;
         block.line = program.line;
         block.begin_mm = run_.blocks.empty() ? 0.0 : run_.blocks.back().end_mm - to_go_mm_;
         run_.blocks.push_back(block);
@@ -200,7 +219,8 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
     const estimation::CutEstimate<float>& e = tick.estimate();
     const float sd_N = std::sqrt(e.tangential_N.variance);
     // Half of what counts as contact, as the tick re-zeroes in air: a faster run would feel it.
-    const bool is_contact = e.tangential_N.value > 0.5F * control::contact_level_N(parameters_.tool.control, sd_N);
+    const float contact_N = control::contact_level_N(tools_[tool_].parameters.control, sd_N);
+    const bool is_contact = e.tangential_N.value > 0.5F * contact_N;
     if (bin.air + bin.contact >= enough) {
         return;
     }
@@ -225,11 +245,36 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
 // ---- What was seen
 // ---------------------------------------------------------------------------------------------------
 
-PartMap MapLearner::map() const {
-    return map_of(run_.path_mm >= longest_.path_mm ? run_ : longest_);
+/// What a run has seen, by the law of one of its tools.
+class MapLearner::SeenRun {
+  public:
+    SeenRun(const Run& run, std::size_t tool, const firmware::Parameters<float>& parameters)
+        : run_(run), tool_(tool), parameters_(parameters) {}
+
+    [[nodiscard]] PartMap map() const;
+
+  private:
+    [[nodiscard]] std::vector<MapPlace> seen() const;
+    [[nodiscard]] MapPlace seen_in(const Bin& bin) const;
+    [[nodiscard]] bool carries(const std::vector<EngagedArc>& cut, const Bin& bin) const;
+    void bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const;
+    [[nodiscard]] double end_of(std::size_t block) const;
+
+    const Run& run_;
+    std::size_t tool_;
+    const firmware::Parameters<float>& parameters_;
+};
+
+PartMap MapLearner::map(std::uint32_t number) const {
+    const std::size_t tool = place_of(number);
+    if (tool == tools_.size()) {
+        return {};
+    }
+    const firmware::Parameters<float> parameters{machine_, tools_[tool].parameters};
+    return SeenRun(run_.path_mm >= longest_.path_mm ? run_ : longest_, tool, parameters).map();
 }
 
-MapPlace MapLearner::seen_in(const Bin& bin) const {
+MapPlace MapLearner::SeenRun::seen_in(const Bin& bin) const {
     MapPlace seen;
     if (bin.air > bin.contact) {
         return seen;
@@ -254,11 +299,11 @@ MapPlace MapLearner::seen_in(const Bin& bin) const {
 }
 
 /// Of each bin; what is at most a neighbour's cut bears that cut.
-std::vector<MapPlace> MapLearner::seen_in(const Run& run) const {
-    std::vector<MapPlace> seen(run.used);
-    std::transform(run.bins.begin(), run.bins.begin() + static_cast<std::ptrdiff_t>(run.used), seen.begin(),
+std::vector<MapPlace> MapLearner::SeenRun::seen() const {
+    std::vector<MapPlace> seen(run_.used);
+    std::transform(run_.bins.begin(), run_.bins.begin() + static_cast<std::ptrdiff_t>(run_.used), seen.begin(),
                    [this](const Bin& bin) { return seen_in(bin); });
-    for (const Block& block : run.blocks) {
+    for (const Block& block : run_.blocks) {
         for (std::size_t k = bin_at(block.begin_mm); k < std::min(bin_at(block.end_mm) + 1, seen.size()); ++k) {
             seen[k].line = block.line;
         }
@@ -268,13 +313,13 @@ std::vector<MapPlace> MapLearner::seen_in(const Run& run) const {
         if (seen[k].known != Known::at_most) {
             continue;
         }
-        bound_by(seen, k, run.bins[k], completed[k]);
+        bound_by(seen, k, run_.bins[k], completed[k]);
     }
     return completed;
 }
 
 /// F_at of the cut is not below that which was measured there, but for the noise.
-bool MapLearner::carries(const std::vector<EngagedArc>& cut, const Bin& bin) const {
+bool MapLearner::SeenRun::carries(const std::vector<EngagedArc>& cut, const Bin& bin) const {
     constexpr float noise = 1.1F;
     float tangential_N = 0.0F;
     for (const EngagedArc& arc : cut) {
@@ -291,7 +336,8 @@ bool MapLearner::carries(const std::vector<EngagedArc>& cut, const Bin& bin) con
 
 /// Where the tool goes straight on, the arc of an entry or exit is a part of its neighbour's; elsewhere only the depth
 /// is known.
-void MapLearner::bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const {
+void MapLearner::SeenRun::bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin,
+                                   MapPlace& place) const {
     const std::size_t reach = bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
     const Neighbours neighbours = neighbours_of(seen, k, reach);
     place.known = Known::nothing;
@@ -306,24 +352,35 @@ void MapLearner::bound_by(const std::vector<MapPlace>& seen, std::size_t k, cons
     }
 }
 
-PartMap MapLearner::map_of(const Run& run) const {
-    const std::vector<MapPlace> seen = seen_in(run);
+/// How far the run was in a block. A CNC may go on with the next one before it has told the end of this one.
+double MapLearner::SeenRun::end_of(std::size_t block) const {
+    const bool is_last = block + 1 == run_.blocks.size();
+    const double next_mm = is_last ? run_.path_mm : run_.blocks[block + 1].begin_mm;
+    return std::min({run_.blocks[block].end_mm, run_.path_mm, next_mm});
+}
+
+PartMap MapLearner::SeenRun::map() const {
+    const std::vector<MapPlace> seen = this->seen();
     PartMap map;
     Smoother smoother(map);
-    for (std::size_t i = 0; i < run.blocks.size(); ++i) {
-        const Block& block = run.blocks[i];
+    double by_others_mm = 0.0;
+    double end_mm = 0.0;
+    for (std::size_t i = 0; i < run_.blocks.size(); ++i) {
+        const Block& block = run_.blocks[i];
+        if (block.tool != tool_) {
+            by_others_mm += std::max(end_of(i) - block.begin_mm, 0.0);
+            continue;
+        }
         double path_mm = block.begin_mm;
-        // A CNC may go on with the next block before it has told the end of this one.
-        const double next_mm = i + 1 < run.blocks.size() ? run.blocks[i + 1].begin_mm : run.path_mm;
-        while (path_mm < std::min({block.end_mm, run.path_mm, next_mm})) {
+        while (path_mm < end_of(i)) {
             const std::size_t k = bin_at(path_mm);
             MapPlace place;
             place.known = Known::nothing;
             if (k < seen.size() && block.feed_mm_s > 0.0F && block.spindle_speed_rad_s > 0.0F) {
                 place = seen[k];
             }
-            place.path_mm = path_mm;
-            place.block_end_mm = block.end_mm;
+            place.path_mm = path_mm - by_others_mm;
+            place.block_end_mm = block.end_mm - by_others_mm;
             place.line = block.line;
             place.rapid = block.rapid;
             place.programmed_feed_mm_s = static_cast<double>(block.feed_mm_s);
@@ -331,10 +388,11 @@ PartMap MapLearner::map_of(const Run& run) const {
             smoother.add(place);
             path_mm = std::min(bin_mm * static_cast<double>(k + 1), block.end_mm);
         }
+        end_mm = (i + 1 == run_.blocks.size() ? run_.path_mm : end_of(i)) - by_others_mm;
     }
     if (!map.empty()) {
         MapPlace end = map.back();
-        end.path_mm = run.path_mm;
+        end.path_mm = end_mm;
         end.cut.clear();
         end.known = Known::cut;
         end.arc_sd_rad = 0.0;

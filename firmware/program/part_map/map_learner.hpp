@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/parameter_block.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/tick.hpp"
 #include "hal/drive_sample.hpp"
@@ -24,6 +25,9 @@ namespace millforce::host {
 ///
 /// Depth and K_s enter the forces as a product: the depth is the one that gives the measured force by the tool's law.
 ///
+/// With tools by number there is a map for each tool: along the path that it goes itself, as if the program had its
+/// blocks alone.
+///
 /// If a program begins again, the longer of its last two runs is kept. take(): no heap, some 100 ns. map(): some 10 ms
 /// for each metre. Memory: 20 MB, most of it not touched by a short program; a path beyond longest_mm is not known. Not
 /// thread-safe.
@@ -34,15 +38,24 @@ class MapLearner {
     static constexpr std::size_t most_blocks = 100'000;
 
     explicit MapLearner(const firmware::Parameters<float>& parameters);
+    /// By number. Until set_tool() nothing is learnt.
+    MapLearner(const firmware::MachineParameters<float>& machine, const std::vector<firmware::NumberedTool>& tools);
+
+    /// Another tool is in the spindle, at rest; 0, or one that is not among them: nothing is learnt.
+    void set_tool(std::uint32_t number);
 
     /// Between the tick's estimate and its answer, once for each sample.
     void take(const firmware::ForceControlTick<float>& tick, const hal::ProgramStatus& program);
 
     /// What was seen up to now; empty where the CNC reported no position.
-    [[nodiscard]] PartMap map() const;
+    [[nodiscard]] PartMap map() const { return map(0); }
+    /// Of the tool with this number.
+    [[nodiscard]] PartMap map(std::uint32_t number) const;
 
   private:
+    class SeenRun;
     struct Block {
+        std::size_t tool = 0;
         std::uint32_t line = 0;
         bool rapid = false;
         double begin_mm = 0.0;
@@ -70,18 +83,16 @@ class MapLearner {
         double path_mm = 0.0;  // farthest
     };
 
+    [[nodiscard]] std::size_t place_of(std::uint32_t number) const;
     [[nodiscard]] std::optional<double> follow(const hal::ProgramStatus& program);
     void begin_block(const hal::ProgramStatus& program);
     [[nodiscard]] bool begins_again(const hal::ProgramStatus& program) const;
     void begin_run();
     void add(Bin& bin, const firmware::ForceControlTick<float>& tick) const;
-    [[nodiscard]] PartMap map_of(const Run& run) const;
-    [[nodiscard]] std::vector<MapPlace> seen_in(const Run& run) const;
-    [[nodiscard]] MapPlace seen_in(const Bin& bin) const;
-    [[nodiscard]] bool carries(const std::vector<EngagedArc>& cut, const Bin& bin) const;
-    void bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const;
 
-    firmware::Parameters<float> parameters_;
+    firmware::MachineParameters<float> machine_;
+    std::vector<firmware::NumberedTool> tools_;  // without numbers the one tool as 0
+    std::size_t tool_ = 0;                       // in the spindle; tools_.size(): none of them
     Run run_;
     Run longest_;  // of the runs before
     double to_go_mm_ = 0.0;

@@ -6,17 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/parameter_block.hpp"
-#include "part_map/part_map_file.hpp"
+#include "firmware/parameters.hpp"
+#include "part_map/part_map.hpp"
 #include "part_map/way_sender.hpp"
 #include "program_status/tool_frame.hpp"
 
 namespace millforce::host {
-
-/// Number of the tool that a map was made for, out of a folder: the one of the map's name, T7 for 7, else the only one
-/// with its geometry. Throws InputError where none or more than one has it. `map_file` and `folder` are for its text.
-[[nodiscard]] std::uint32_t number_of_map(const std::string& map_file, const MapOrigin& origin,
-                                          const std::string& folder, const std::vector<firmware::NumberedTool>& tools);
 
 /// Hands part maps to a controller whose tool is chosen by its number: that of the tool in the spindle, by the CNC's
 /// tool frame. Without a map for it nothing is sent, and the controller goes on without one. With each tool that comes

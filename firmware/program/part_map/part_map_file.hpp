@@ -16,7 +16,8 @@
 ///     0,142.7,4,1,15000,4000,,,
 ///     150.4,216.7,8,0,1500,4000,11.5,168.5,5
 ///
-///   path_mm         gone along the program's path since its begin, rapids included; a row holds up to the next one
+///   path_mm         gone along the program's path since its begin, rapids included; a row holds up to the next one. Of
+///                   a program that changes its tool: gone with this one
 ///   block_end_mm    path at the end of the block in work: a CNC reports the line and the distance to go to that end
 ///   line            of the program, 1 the first
 ///   rapid           1 in a G0

@@ -50,6 +50,8 @@ local_link::OverrideMessage answer(firmware::LinkController& controller, const l
 
 struct FeedsSeen final : firmware::WaySource<float> {
     std::vector<float> feeds_mm_s{};
+    std::vector<std::uint32_t> tools{};
+    void set_tool(std::uint32_t number) override { tools.push_back(number); }
     void look_ahead(firmware::ForceControlTick<float>&, const hal::ProgramStatus& program) override {
         feeds_mm_s.push_back(program.programmed_feed_mm_s);
     }
@@ -207,7 +209,8 @@ TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_
     std::array<firmware::ReadyTool, 1> memory;
     firmware::ReadyTools tools(memory);
     tools.add(7, capped_mill);
-    firmware::LinkController controller(a_mill(), 1.0F, nullptr, &tools);
+    FeedsSeen way;
+    firmware::LinkController controller(a_mill(), 1.0F, &way, &tools);
     cnc.message.tool = 7;
     cnc.message.operator_limit = 0.7F;
     CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);
@@ -229,6 +232,8 @@ TEST(LinkController, follows_the_tool_that_the_cnc_tells_at_rest_and_says_where_
     cnc.message.axis_velocity_mm_s = {};
     CHECK_FALSE(answer(controller, cnc.next()).tool_unknown);
     UNSIGNED_LONGS_EQUAL(6, controller.output().heartbeat);
+    CHECK((way.tools == std::vector<std::uint32_t>{7, 0, 7}));
+    UNSIGNED_LONGS_EQUAL(3, way.feeds_mm_s.size());  // of no tool that is not known
 }
 
 TEST(LinkController, with_one_tool_takes_no_notice_of_numbers) {

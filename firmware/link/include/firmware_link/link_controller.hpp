@@ -31,8 +31,8 @@ namespace millforce::firmware {
 
 class LinkController {
   public:
-    /// `largest_override`: what the CNC's input takes; caps the machine's override_max. `way`: what lies ahead of one
-    /// tool. With a tools, `parameters.tool` is any tool of it. Both outlive this.
+    /// `largest_override`: what the CNC's input takes; caps the machine's override_max. `way`: what lies ahead of the
+    /// tool in the spindle. With `tools`, `parameters.tool` is any tool of it. Both outlive this.
     LinkController(const Parameters<float>& parameters, float largest_override, WaySource<float>* way = nullptr,
                    const ToolSource* tools = nullptr);
 
@@ -51,7 +51,7 @@ class LinkController {
     [[nodiscard]] const ForceControlTick<float>& tick() const { return tick_.of_tool(); }
     [[nodiscard]] bool is_tool_known() const { return tick_.is_tool_known(); }
     [[nodiscard]] bool is_tool_change_due() const { return tick_.is_change_due(); }
-    /// Number of the tool that the override is for; 0: without a tools, or not known.
+    /// Number of the tool that the override is for; 0: without a source of tools, or not known.
     [[nodiscard]] std::uint32_t tool() const { return tick_.tool(); }
     [[nodiscard]] const hal::FeedOverride& output() const { return output_; }
     /// The answer says hold: by the tick, or from outside.
