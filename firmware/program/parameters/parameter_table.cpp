@@ -116,7 +116,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"tool", "diameter_mm", "mm", "Cutting diameter.", must_be_given},
     {"tool", "helix_deg", "°", "Helix angle of the flutes; 0 for inserts."},
     {"tool", "flute_length_mm", "mm", "Longest axial depth that the tool can cut.", must_be_given},
-    {"tool", "runout_um", "µm", "Largest difference between the radii of two teeth, until a cut shows it; half of it always stays."},
+    {"tool", "runout_um", "µm", "Largest difference between the radii of two teeth, until a cut shows it; half of it always stays. 0, as where it is left out: none, and no cut will show one."},
     {"tool", "side", "", "Which edge of the cut is fixed while its width varies: a hint that the forces may refute; unknown: inferred from them.", may_be_left_out, "down|up|centred|unknown"},
     {"tool", "centre_offset_mm", "mm", "Offset of the workpiece's centre line from the cutter's axis, for side = \"centred\"."},
     {"tool", "tooth_force_limit_N", "N", "F_tooth,max: the largest in-plane force that one tooth may carry.", must_be_given},

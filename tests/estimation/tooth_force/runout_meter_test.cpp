@@ -276,6 +276,16 @@ TEST(RunoutMeter, half_of_what_the_file_says_always_stays) {
     DOUBLES_EQUAL(3.0, excess_um(meter), 1e-3);
 }
 
+TEST(RunoutMeter, where_the_file_says_none_it_measures_none) {
+    const Milling cut;
+    Spindle spindle{.noise_A = 0.1};
+    RunoutMeter<float> meter(0.0F, cut.teeth);
+    turn_in_air(meter, spindle);
+    mill(meter, spindle, cut, 500);
+    CHECK_COMPARE(mean_largest_excess_um(cut), >, 4.0);
+    CHECK_COMPARE(excess_um(meter), <, 0.1);  // the noise in air
+}
+
 TEST(RunoutMeter, keeps_how_much_it_was_when_the_angle_is_lost_and_finds_it_again) {
     Milling cut;
     Spindle spindle;

@@ -26,6 +26,10 @@
 /// Until there is a measurement, and beside it as its doubt, e is what the tool's file states. Half of that always
 /// stays: teeth may stand unequal in themselves, which this does not see.
 ///
+/// A file that states 0 states it without a doubt: that is the variance of E to begin with and the measure of its walk,
+/// so that the gain of every measurement is 0, and e is no more than the noise in air. A small runout that is not known
+/// is stated as a small figure, not as 0.
+///
 /// A machine that knows the spindle's current alone never knows the arc. There the size of F_1 is averaged as if φ_m
 /// were 90°: E/sin φ_m, which is what the thickest chip of a narrow arc has of it. It never counts as less than stated
 /// there: nothing else is known of a tooth's share.
@@ -40,7 +44,7 @@ namespace millforce::estimation {
 template <typename Scalar>
 class RunoutMeter {
   public:
-    /// `stated_mm`: largest difference of two teeth's radii. `is_spindle_alone`: no arc will ever be known.
+    /// `stated_mm`: largest difference of two teeth's radii; 0: nothing is measured. `is_spindle_alone`: no arc will ever be known.
     RunoutMeter(Scalar stated_mm, int teeth, bool is_spindle_alone = false)
         : stated_um_(stated_mm * um_per_mm),
           can_measure_(teeth > 1),

@@ -78,8 +78,8 @@ class CanController {
   public:
     static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 6;
 
-    /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of one tool; it
-    /// outlives this.
+    /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of the tool in the
+    /// spindle; it outlives this.
     CanController(const CanControllerSettings& settings, const Parameters<float>& parameters,
                   TickListener* listener = nullptr, const ToolSource* tools = nullptr, WaySource<float>* way = nullptr);
 
