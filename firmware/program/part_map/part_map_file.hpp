@@ -43,10 +43,10 @@
 /// The last row is the end of the program, or of the run, in air. The checksum of the program is that of its bytes
 /// without carriage returns; that of the tool covers what the arcs and depths depend on: teeth, diameter, helix and
 /// flute length. It leaves out the tool's law on purpose: the forces along a map are worked out when it is read, by the
-/// law of the tool's file then, and a tool that is calibrated again keeps its maps. In the map of a run the depth is the
-/// one that gave the measured force by the law of that time; another k_s now is to the controller another steel. In the
-/// width step a map that was learnt with a k_s of 0.77 or 1.3 of the right one takes 8.6 s or 9.3 s instead of 8.9 s,
-/// with peaks of 98 % or 90 % of the limit instead of 93 %.
+/// law of the tool's file then, and a tool that is calibrated again keeps its maps. In the map of a run the depth is
+/// the one that gave the measured force by the law of that time; another k_s now is to the controller another steel. In
+/// the width step a map that was learnt with a k_s of 0.77 or 1.3 of the right one takes 8.6 s or 9.3 s instead of 8.9
+/// s, with peaks of 98 % or 90 % of the limit instead of 93 %.
 
 namespace millforce::host {
 

@@ -44,7 +44,8 @@ namespace millforce::estimation {
 template <typename Scalar>
 class RunoutMeter {
   public:
-    /// `stated_mm`: largest difference of two teeth's radii; 0: nothing is measured. `is_spindle_alone`: no arc will ever be known.
+    /// `stated_mm`: largest difference of two teeth's radii; 0: nothing is measured. `is_spindle_alone`: no arc will
+    /// ever be known.
     RunoutMeter(Scalar stated_mm, int teeth, bool is_spindle_alone = false)
         : stated_um_(stated_mm * um_per_mm),
           can_measure_(teeth > 1),
