@@ -84,7 +84,7 @@ class MapFolder : public LiveFolder {
         plant.wait();
         controller.interrupt(SIGTERM);
         controller.wait();
-        STRCMP_EQUAL("", plant.error().c_str());
+        STRCMP_EQUAL_TEXT("", plant.error().c_str(), controller.error().c_str());
         LONGS_EQUAL(0, plant.exit_code());  // the bounds hold, the program finished
         LONGS_EQUAL(0, controller.exit_code());
         const std::string summary = text("out/summary.json");
