@@ -12,7 +12,7 @@
 #include "loop/simulation.hpp"
 #include "sim/converter_load.hpp"
 #include "sim/preview/named_scenario.hpp"
-#include "sim/preview/wrong_maps.hpp"
+#include "wrong_maps/wrong_maps.hpp"
 #include "sim/without_axis_currents.hpp"
 
 using namespace millforce::sim;
