@@ -392,3 +392,15 @@ TEST(FeedAheadGuards, is_not_known_as_near_to_what_is_not_known_as_the_map_may_b
     }
     CHECK_TRUE(ahead.step(at(22.1F)).known);
 }
+
+/// What the tick learns as idle torque depends on it.
+TEST(FeedAheadGuards, a_cut_may_be_where_the_map_has_one_before_forces_have_confirmed_it_and_until_they_refute_it) {
+    Ahead ahead = with({air_from(0.0F), cut_from(20.0F), air_from(60.0F)});
+    CHECK_FALSE(ahead.step(estimate_at(10.0F, 0.0F)).may_cut);
+    const WayAhead<float> in_cut = ahead.step(estimate_at(30.0F, 0.0F));
+    CHECK_TRUE(in_cut.may_cut);
+    CHECK_FALSE(in_cut.known);
+    (void)cut(ahead, 30.1F, 40.0F, 0.0F);
+    CHECK_TRUE(ahead.is_refuted());
+    CHECK_FALSE(ahead.step(at(41.0F)).may_cut);
+}

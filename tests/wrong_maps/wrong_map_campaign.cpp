@@ -63,9 +63,12 @@ struct Row {
 
 std::string_view name_of(sim::BenchMachine machine) {
     switch (machine) {
-        case sim::BenchMachine::currents: return "all currents";
-        case sim::BenchMachine::spindle_alone: return "spindle alone";
-        case sim::BenchMachine::converter: return "a converter's load";
+        case sim::BenchMachine::currents:
+            return "all currents";
+        case sim::BenchMachine::spindle_alone:
+            return "spindle alone";
+        case sim::BenchMachine::converter:
+            return "a converter's load";
     }
     return "";
 }
@@ -112,11 +115,10 @@ class Campaign {
             if (row.peaks.empty()) {
                 continue;
             }
-            fmt::print("| {} | {} | {:.0f} % | {:.0f} % | {:.0f} % | {:.0f} % | {} | {} |\n", name_of(error),
-                       row.peaks.size(),
-                       100.0 * static_cast<double>(row.refuted) / static_cast<double>(row.peaks.size()),
-                       100.0 * row.peak(0.5), 100.0 * row.peak(0.95), 100.0 * row.peak(1.0), row.broken,
-                       row.broken_without_map_too);
+            fmt::print(
+                "| {} | {} | {:.0f} % | {:.0f} % | {:.0f} % | {:.0f} % | {} | {} |\n", name_of(error), row.peaks.size(),
+                100.0 * static_cast<double>(row.refuted) / static_cast<double>(row.peaks.size()), 100.0 * row.peak(0.5),
+                100.0 * row.peak(0.95), 100.0 * row.peak(1.0), row.broken, row.broken_without_map_too);
             is_sound = is_sound && row.broken == row.broken_without_map_too && row.unfinished == 0;
         }
         return is_sound;

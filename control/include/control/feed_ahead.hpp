@@ -210,6 +210,7 @@ class FeedAhead {
     int disagreements_ = 0;  // estimates in a row
     Scalar since_estimate_mm_{0};
     Mapped mapped_;
+    bool may_cut_ = false;
     bool touched_in_air_ = false;
     bool is_refuted_ = false;
 };

@@ -63,7 +63,11 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
         compare(now);
         drop_passed(now.position_mm - now.window_mm - settings_.farthest_off_mm);
     }
-    way.known = !is_refuted_ && !(agreed_mm_ < settings_.agreement_mm) && !is_near_unknown(now.position_mm);
+    if (is_refuted_) {
+        return way;
+    }
+    way.may_cut = may_cut_;
+    way.known = !(agreed_mm_ < settings_.agreement_mm) && !is_near_unknown(now.position_mm);
     way.feed_mm_s = fastest_for(now);
     way.tooth_per_tangential = mapped_.tooth_per_tangential;
     way.tangential_N = hardness() * mapped_.tangential_N;
@@ -96,6 +100,7 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     const bool touches_in_air = is_in_contact && !expected.has_unknown && !(expected.tangential_N.high > Scalar(0));
     since_estimate_mm_ = Scalar(0);
     mapped_ = mapped_within(now);
+    may_cut_ = expected.tangential_N.high > Scalar(0);
     is_refuted_ = is_refuted_ || (touches_in_air && touched_in_air_);
     touched_in_air_ = touches_in_air;
     if (!force_agrees(now, expected) || !direction_agrees(now, expected)) {

@@ -323,8 +323,7 @@ bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<S
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
-    const bool is_mapped_cut = input_.way.known && input_.way.tangential_N > Scalar(0);
-    const bool in_air = controller_.state() == control::CutState::air && !is_mapped_cut;
+    const bool in_air = controller_.state() == control::CutState::air && !input_.way.may_cut;
     const bool looks_idle = estimator_.axes_rest() || (was_rezeroed_ && is_idle(estimate));
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
