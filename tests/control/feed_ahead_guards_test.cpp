@@ -125,11 +125,55 @@ TEST(FeedAheadGuards, in_mapped_air_no_direction_is_expected) {
     CHECK_FALSE(ahead.is_refuted());
 }
 
-TEST(FeedAheadGuards, the_material_is_measured_only_where_the_cut_stays_the_same) {
+TEST(FeedAheadGuards, where_the_cut_changes_a_force_between_both_says_nothing_of_the_material) {
     Ahead ahead = with({cut_from(0.0F), cut_from(20.0F, wall_feed_mm_s, 200.0F), air_from(60.0F)});
     (void)cut(ahead, 1.0F, 10.0F, 300.0F);
-    (void)ahead.step(estimate_at(20.2F, 330.0F));
+    for (const float force_N : {240.0F, 260.0F, 280.0F}) {
+        (void)ahead.step(estimate_at(20.2F, force_N, 0.0F));
+    }
     DOUBLES_EQUAL(1.0, static_cast<double>(ahead.hardness()), 1e-3);
+}
+
+TEST(FeedAheadGuards, cuts_that_never_stay_the_same_tell_that_the_material_is_soft_but_not_how_soft) {
+    std::vector<Stretch<float>> teeth;
+    for (int k = 0; k < 30; ++k) {
+        teeth.push_back(cut_from(static_cast<float>(k), 10.0F, k % 2 == 0 ? 300.0F : 200.0F));
+    }
+    teeth.push_back(air_from(30.0F));
+    FeedAheadSettings<float> settings = exact(0.0F);
+    settings.farthest_off_mm = 1.5F;
+    settings.assumed_hardness = 1.3F;
+    Ahead ahead = with(teeth, settings);
+    const float before_mm_s = ahead.step(at(2.0F)).feed_mm_s;
+    const float after_mm_s = cut(ahead, 2.0F, 25.0F, 0.5F * 250.0F).feed_mm_s;
+    DOUBLES_EQUAL(10.0 / 1.3, static_cast<double>(before_mm_s), 1e-2);
+    // κ is 0.5 of 250 N over 200 N at most.
+    DOUBLES_EQUAL(10.0 / 0.625, static_cast<double>(after_mm_s), 0.2);
+    DOUBLES_EQUAL(0.0, static_cast<double>(ahead.hardness()), 0.0);
+}
+
+/// 300 N, of which 180 N at the edges of four teeth: 120 N and the edges of those that cut are there at least.
+TEST(FeedAheadGuards, where_teeth_may_miss_the_cut_a_low_force_may_lack_their_edge_forces) {
+    Stretch<float> with_edge_forces = cut_from(0.0F);
+    with_edge_forces.falling_share = 0.4F;
+    FeedAheadSettings<float> settings = exact(0.0F);
+    settings.assumed_hardness = 1.3F;
+    const auto hardness = [&](float runout_mm_s) {
+        Ahead ahead = with({with_edge_forces, air_from(60.0F)}, settings);
+        FeedAheadStep<float> now;
+        for (float s_mm = 1.0F; s_mm < 20.0F; s_mm += step_mm) {
+            now = estimate_at(s_mm, 195.0F);
+            now.tangential_sd_N = 0.0F;
+            now.runout_mm_s = runout_mm_s;
+            now.mapped_runout_mm_s = runout_mm_s;
+            now.tooth_share = 0.25F;
+            (void)ahead.step(now);
+        }
+        return static_cast<double>(wall_feed_mm_s / ahead.step(now).feed_mm_s);
+    };
+    DOUBLES_EQUAL(195.0 / 300.0, hardness(9.0F), 1e-3);                    // all cut
+    DOUBLES_EQUAL(195.0 / (120.0 + 0.4 * 180.0), hardness(15.0F), 1e-3);   // 10/(10 + 15)
+    DOUBLES_EQUAL(195.0 / (120.0 + 0.25 * 180.0), hardness(90.0F), 1e-3);  // one
 }
 
 TEST(FeedAheadGuards, a_force_below_contact_agrees_with_no_cut) {
@@ -347,4 +391,16 @@ TEST(FeedAheadGuards, is_not_known_as_near_to_what_is_not_known_as_the_map_may_b
         CHECK_FALSE(ahead.step(at(position_mm)).known);
     }
     CHECK_TRUE(ahead.step(at(22.1F)).known);
+}
+
+/// What the tick learns as idle torque depends on it.
+TEST(FeedAheadGuards, a_cut_may_be_where_the_map_has_one_before_forces_have_confirmed_it_and_until_they_refute_it) {
+    Ahead ahead = with({air_from(0.0F), cut_from(20.0F), air_from(60.0F)});
+    CHECK_FALSE(ahead.step(estimate_at(10.0F, 0.0F)).may_cut);
+    const WayAhead<float> in_cut = ahead.step(estimate_at(30.0F, 0.0F));
+    CHECK_TRUE(in_cut.may_cut);
+    CHECK_FALSE(in_cut.known);
+    (void)cut(ahead, 30.1F, 40.0F, 0.0F);
+    CHECK_TRUE(ahead.is_refuted());
+    CHECK_FALSE(ahead.step(at(41.0F)).may_cut);
 }

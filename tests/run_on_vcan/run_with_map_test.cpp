@@ -62,7 +62,7 @@ class MapFolder : public LiveFolder {
     [[nodiscard]] Milled mill(const Words& more = {}) const {
         LockStep run(with(with(run_words(), more), {"--report", file("page")}), *this);
         run.mill();
-        STRCMP_EQUAL("", run.plant().error().c_str());
+        STRCMP_EQUAL_TEXT("", run.plant().error().c_str(), run.controller().error().c_str());
         LONGS_EQUAL(0, run.plant().exit_code());  // the bounds hold, the program finished
         LONGS_EQUAL(0, run.controller().exit_code());
         const std::string summary = text("out/summary.json");

@@ -23,10 +23,15 @@
 /// with, e the measured one (runout_meter.hpp): its tooth takes so much more of a chip. N teeth, n revolutions per
 /// second; one tooth takes no more than the chips of all.
 ///
-/// κ: how hard the material is, 1 as in the tool's file. It is not known before the first cut; assumed_hardness
-/// stands for it. In each cut that stays the same over the window of an estimate, and farthest_off_mm before and behind
-/// it, κ = F_at/F(f)|κ=1 is measured and averaged over some revolutions; not where e exceeds the feed per tooth, since
-/// teeth then miss the cut.
+/// κ: how hard the material is, 1 as in the tool's file. Before the first cut assumed_hardness stands for it. For each
+/// estimate in a cut the map gives the least and the most F at κ = 1 within its window and farthest_off_mm before and
+/// behind it. Averaged over some ten estimates, with the noise σ of the averaged F_at:
+///
+///   F_at/F_most ≤ κ ≤ (F_at + σ)/F_least
+///
+/// κ changes only as far as these bounds ask; in a cut that stays the same they are σ apart. Where e exceeds the feed
+/// per tooth, teeth may miss the cut, and the least F lacks their edge forces: f/(f + e N n) of the teeth cut at least,
+/// and one of them.
 ///
 /// At every place the feed may then be v_i. Now it may be the largest v from which the machine, with its acceleration
 /// a, slows down to each of them, d_i ahead. What is asked for acts a reaction time T later, while the tool goes on at
@@ -140,7 +145,8 @@ class FeedAhead {
 
     [[nodiscard]] WayAhead<Scalar> step(const Step& now);
 
-    [[nodiscard]] Scalar hardness() const { return hardness_; }
+    /// κ; 0 until a cut has told it to a tenth.
+    [[nodiscard]] Scalar hardness() const { return is_hardness_measured_ ? hardness_ : Scalar(0); }
     [[nodiscard]] bool is_refuted() const { return is_refuted_; }
 
   private:
@@ -185,6 +191,7 @@ class FeedAhead {
     void for_each_within(Scalar from_mm, Scalar to_mm, const Visit& visit) const;
     [[nodiscard]] bool is_near_unknown(Scalar position_mm) const;
     [[nodiscard]] Scalar feed_at(std::size_t i, const Step& now) const;
+    [[nodiscard]] static Scalar cutting_teeth_share(const Step& now);
     [[nodiscard]] Scalar force_at(std::size_t i, Scalar feed_mm_s) const;
     [[nodiscard]] Scalar fastest_for(const Step& now) const;
 
@@ -192,13 +199,18 @@ class FeedAhead {
     std::array<Stretch<Scalar>, Capacity> window_{};
     std::size_t first_ = 0;
     std::size_t count_ = 0;
-    Scalar hardness_{0};  // κ; 0: not measured
-    Scalar hardening_;    // 1 − 1/κ
+    Scalar hardness_;                    // κ
+    Scalar hardening_;                   // 1 − 1/κ
+    bool is_hardness_measured_ = false;  // κ is known to a tenth
+    Scalar measured_N_{0};               // averages of F_at,
+    Scalar lowest_N_{0};                 // of the least at κ = 1 that the map may mean,
+    Scalar highest_N_{0};                // and of the most
     Scalar agreed_mm_{0};
     Scalar disagreed_mm_{0};
     int disagreements_ = 0;  // estimates in a row
     Scalar since_estimate_mm_{0};
     Mapped mapped_;
+    bool may_cut_ = false;
     bool touched_in_air_ = false;
     bool is_refuted_ = false;
 };

@@ -12,7 +12,7 @@ namespace millforce::control {
 
 template <typename Scalar, std::size_t Capacity>
 FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings)
-    : settings_(settings), hardening_(Scalar(1) - Scalar(1) / settings.assumed_hardness) {}
+    : settings_(settings), hardness_(settings.assumed_hardness), hardening_(Scalar(1) - Scalar(1) / hardness_) {}
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::restart() {
@@ -63,10 +63,14 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
         compare(now);
         drop_passed(now.position_mm - now.window_mm - settings_.farthest_off_mm);
     }
-    way.known = !is_refuted_ && !(agreed_mm_ < settings_.agreement_mm) && !is_near_unknown(now.position_mm);
+    if (is_refuted_) {
+        return way;
+    }
+    way.may_cut = may_cut_;
+    way.known = !(agreed_mm_ < settings_.agreement_mm) && !is_near_unknown(now.position_mm);
     way.feed_mm_s = fastest_for(now);
     way.tooth_per_tangential = mapped_.tooth_per_tangential;
-    way.tangential_N = hardness_ * mapped_.tangential_N;
+    way.tangential_N = hardness() * mapped_.tangential_N;
     return way;
 }
 
@@ -96,6 +100,7 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     const bool touches_in_air = is_in_contact && !expected.has_unknown && !(expected.tangential_N.high > Scalar(0));
     since_estimate_mm_ = Scalar(0);
     mapped_ = mapped_within(now);
+    may_cut_ = expected.tangential_N.high > Scalar(0);
     is_refuted_ = is_refuted_ || (touches_in_air && touched_in_air_);
     touched_in_air_ = touches_in_air;
     if (!force_agrees(now, expected) || !direction_agrees(now, expected)) {
@@ -119,11 +124,11 @@ bool FeedAhead<Scalar, Capacity>::force_agrees(const Step& now, const Expected& 
     if (expected.has_unknown) {
         return true;
     }
-    const bool is_measured = hardness_ > Scalar(0);
     const Scalar lowest = settings_.lowest_hardness;
     const Scalar highest = settings_.highest_hardness;
-    const Scalar softest = clamp(hardness_ / settings_.hardness_band, lowest, highest);  // not measured: 0, the lowest
-    const Scalar hardest = is_measured ? clamp(hardness_ * settings_.hardness_band, lowest, highest) : highest;
+    const Scalar softest = is_hardness_measured_ ? clamp(hardness_ / settings_.hardness_band, lowest, highest) : lowest;
+    const Scalar hardest =
+        is_hardness_measured_ ? clamp(hardness_ * settings_.hardness_band, lowest, highest) : highest;
     const Scalar noise_N = significance * now.tangential_sd_N;
     const Scalar most_N = expected.tangential_N.high * hardest + noise_N;
     const Scalar least_N = expected.tangential_N.low * softest - noise_N;
@@ -142,33 +147,41 @@ bool FeedAhead<Scalar, Capacity>::direction_agrees(const Step& now, const Expect
     return now.feed_force_N >= least_N && now.feed_force_N <= most_N;
 }
 
-/// Only where the cut stays the same as far as the map may be off: elsewhere the force depends on the exact place more
-/// than on the material.
+/// Averaged over some ten estimates, F_at is κ times a force between the averages of the least and of the most.
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range& expected_N) {
-    constexpr Scalar steady = literal<Scalar>(0.9L);
-    constexpr Scalar weight = literal<Scalar>(0.1L);  // of one estimate
-    const bool is_measured = hardness_ > Scalar(0);
-    const bool teeth_miss = now.mean_feed_mm_s < now.runout_mm_s;
-    if (expected_N.low < steady * expected_N.high || (is_measured && teeth_miss)) {
+    constexpr Scalar weight = literal<Scalar>(0.1L);             // of one estimate
+    constexpr Scalar noise_of_average = literal<Scalar>(0.23L);  // √(weight/(2 − weight))
+    constexpr Scalar determined = literal<Scalar>(0.9L);
+    if (!(expected_N.low > Scalar(0))) {
         return;
     }
-    const Scalar measured = now.tangential_N / estimation::halved(expected_N.low + expected_N.high);
-    const Scalar lowest = teeth_miss ? Scalar(1) : settings_.lowest_hardness;
-    const Scalar kept = estimation::clamp(measured, lowest, settings_.highest_hardness);
-    hardness_ = is_measured ? hardness_ + weight * (kept - hardness_) : kept;
+    const bool is_first = !(highest_N_ > Scalar(0));
+    const auto average = [&](Scalar& mean_N, Scalar value_N) {
+        mean_N = is_first ? value_N : mean_N + weight * (value_N - mean_N);
+    };
+    average(measured_N_, now.tangential_N);
+    average(lowest_N_, expected_N.low);
+    average(highest_N_, expected_N.high);
+    const Scalar least = measured_N_ / highest_N_;
+    const Scalar most = (measured_N_ + noise_of_average * now.tangential_sd_N) / lowest_N_;
+    hardness_ = estimation::clamp(estimation::clamp(hardness_, least, most), settings_.lowest_hardness,
+                                  settings_.highest_hardness);
     hardening_ = Scalar(1) - Scalar(1) / hardness_;
+    is_hardness_measured_ = is_hardness_measured_ || !(lowest_N_ < determined * highest_N_);
 }
 
 template <typename Scalar, std::size_t Capacity>
 auto FeedAhead<Scalar, Capacity>::expected_within(const Step& now, Scalar tolerance_mm) const -> Expected {
     Expected expected;
+    const Scalar cutting = cutting_teeth_share(now);
     for_each_within(now.position_mm - now.window_mm - tolerance_mm, now.position_mm + tolerance_mm, [&](std::size_t i) {
         const Scalar force_N = force_at(i, now.mean_feed_mm_s);
+        const Scalar edges_missing_N = (Scalar(1) - cutting) * (Scalar(1) - at(i).falling_share) * at(i).tangential_N;
         expected.has_unknown = expected.has_unknown || !at(i).is_known;
         expected.has_open = expected.has_open || at(i).is_open();
         expected.tangential_N.include(force_N);
-        expected.tangential_N.include(at(i).least_share * force_N);
+        expected.tangential_N.include(at(i).least_share * (force_N - edges_missing_N));
         if (force_N > Scalar(0)) {
             expected.direction.include(at(i).feed_per_tangential);
         }
@@ -211,6 +224,17 @@ void FeedAhead<Scalar, Capacity>::for_each_within(Scalar from_mm, Scalar to_mm, 
             visit(i);
         }
     }
+}
+
+/// The least share of the teeth that can cut: none takes more than a chip and the runout, and all chips together are
+/// those of the feed.
+template <typename Scalar, std::size_t Capacity>
+Scalar FeedAhead<Scalar, Capacity>::cutting_teeth_share(const Step& now) {
+    if (!(now.mean_feed_mm_s < now.runout_mm_s)) {
+        return Scalar(1);
+    }
+    const Scalar share = now.mean_feed_mm_s / (now.mean_feed_mm_s + now.runout_mm_s);
+    return share > now.tooth_share ? share : now.tooth_share;
 }
 
 /// F_at at κ = 1.

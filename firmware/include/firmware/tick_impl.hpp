@@ -208,8 +208,8 @@ bool ForceControlTick<Scalar, WideBand>::belongs_to_this_feed() const {
     return feed_is_settled() || control_.state != control::CutState::in_cut;
 }
 
-/// The map knows the arc, and with it the tooth's share of F_at, better than the forces can give it. The lower end of
-/// the forces' band remains the least that the tooth is assumed to carry.
+/// In a mapped cut the map stands for the caution: what the forces determine by themselves counts as it is. Elsewhere
+/// the map knows the arc, and with it the tooth's share of F_at.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     using estimation::square;
@@ -218,23 +218,25 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     if (!input_.way.known || !(input_.way.tooth_per_tangential > Scalar(0)) || !has_new_estimate_ || !cut.force_valid) {
         return;
     }
-    const estimation::Measurement<Scalar>& tooth = estimator_.estimate().tooth_force_N;
-    const bool is_determined_by_forces = tooth.valid && !cut.tooth_force_is_bound;
-    const Scalar least_N = is_determined_by_forces ? tooth.value - sqrt(tooth.variance) : cut.least_tooth_force_N;
-    const Scalar now_N = estimator_.estimate().newest_tangential_N;
-    const Scalar sd_N = sqrt(estimator_.estimate().tangential_N.variance);
-    const Scalar doubt_N = estimator_.estimate().tangential_gain_doubt * now_N;
-    const Scalar caution_N = controller_.parameters().caution_sd * sqrt(square(sd_N) + square(doubt_N));
+    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
+    cut.tooth_force_valid = true;
+    cut.forecast = Scalar(1);
+    if (e.tooth_force_N.valid && !cut.tooth_force_is_bound) {
+        cut.tooth_force_N = e.tooth_force_N.value;
+        return;
+    }
+    const Scalar now_N = e.newest_tangential_N;
+    const Scalar sd_N = sqrt(e.tangential_N.variance);
+    const Scalar caution_N =
+        controller_.parameters().caution_sd * sqrt(e.tangential_N.variance + square(e.tangential_gain_doubt * now_N));
     // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
     const Scalar tangential_N =
         input_.way.tangential_N > Scalar(0)
             ? estimation::clamp(input_.way.tangential_N, now_N - sd_N, now_N + sd_N) + estimation::halved(caution_N)
             : now_N + caution_N;
-    const Scalar by_map_N = input_.way.tooth_per_tangential * tangential_N * estimator_.estimate().runout_factor;
-    cut.tooth_force_valid = true;
-    cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < least_N);
-    cut.tooth_force_N = by_map_N > least_N ? by_map_N : least_N;
-    cut.forecast = Scalar(1);
+    const Scalar by_map_N = input_.way.tooth_per_tangential * tangential_N * e.runout_factor;
+    cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < cut.least_tooth_force_N);
+    cut.tooth_force_N = by_map_N > cut.least_tooth_force_N ? by_map_N : cut.least_tooth_force_N;
 }
 
 template <typename Scalar, typename WideBand>
@@ -321,8 +323,7 @@ bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<S
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
-    const bool is_mapped_cut = input_.way.known && input_.way.tangential_N > Scalar(0);
-    const bool in_air = controller_.state() == control::CutState::air && !is_mapped_cut;
+    const bool in_air = controller_.state() == control::CutState::air && !input_.way.may_cut;
     const bool looks_idle = estimator_.axes_rest() || (was_rezeroed_ && is_idle(estimate));
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;

@@ -23,6 +23,13 @@ std::size_t bin_at(double path_mm) {
     return static_cast<std::size_t>(std::max(path_mm, 0.0) / MapLearner::bin_mm);
 }
 
+/// R_r = 1 − cos θ. The larger of both sides: near a slot, and near nothing, the arc's end answers to R_r by a root.
+double arc_sd_rad(double immersion, double immersion_sd) {
+    const auto angle = [](double radial) { return std::acos(1.0 - std::clamp(radial, 0.0, 2.0)); };
+    const double middle = angle(immersion);
+    return std::max(angle(immersion + immersion_sd) - middle, middle - angle(immersion - immersion_sd));
+}
+
 bool is_seen_cut(const MapPlace& place) {
     return place.known == Known::cut && !place.cut.empty();
 }
@@ -291,9 +298,8 @@ MapPlace MapLearner::SeenRun::seen_in(const Bin& bin) const {
                                                       firmware::estimator_settings(parameters_).centre_offset_in_radii);
     seen.cut = {{static_cast<double>(angles.entry_rad), static_cast<double>(angles.exit_rad),
                  static_cast<double>(bin.depth_mm / count)}};
-    // R_r = 1 − cos θ, dθ = dR_r/sin θ
-    const float sine = std::max(std::sqrt(std::max(immersion * (2.0F - immersion), 0.0F)), 0.1F);
-    seen.arc_sd_rad = static_cast<double>(std::sqrt(bin.immersion_variance / count) / sine);
+    seen.arc_sd_rad =
+        arc_sd_rad(static_cast<double>(immersion), static_cast<double>(std::sqrt(bin.immersion_variance / count)));
     seen.axial_depth_sd_mm = static_cast<double>(std::sqrt(bin.depth_variance_mm2 / count));
     return seen;
 }

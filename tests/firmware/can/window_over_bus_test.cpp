@@ -10,8 +10,10 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
+#include <vector>
 
 using namespace millforce;
 using namespace millforce::test;
@@ -108,7 +110,7 @@ TEST(WindowOverBus, a_chip_mills_as_fast_as_with_the_whole_map) {
         const Run chip = with_window(scenario, map);
         CHECK(sim::bounds_hold(chip.figures));
         CHECK_FALSE(chip.is_refuted);
-        DOUBLES_EQUAL(whole.time_s, chip.figures.time_s, 0.03 * whole.time_s);
+        CHECK(chip.figures.time_s < 1.03 * whole.time_s);
         CHECK(chip.figures.time_s < 0.9 * blind.time_s);
         CHECK(chip.sessions <= 2);  // the first may come before the controller hears
     }
@@ -170,25 +172,31 @@ TEST(WindowOverBus, a_bus_that_loses_a_fifth_doubles_delays_and_reorders_costs_l
     const sim::Scenario scenario = scenario_of("interrupted");
     const host::PartMap map = sim::preview(scenario);
     const Run clean = with_window(scenario, map);
-    std::mt19937 random(7);
-    std::uint64_t lost = 0;
     const auto of_window = [](const hal::CanFrame& frame) {
         return frame.id == way_window::way_frame_id(override_frame::default_node_id) ||
                frame.id == way_window::way_answer_id(override_frame::default_node_id);
     };
-    const Run run = with_window(scenario, map, [&](ControllerOnLoopback& bench, WaySenderOnLoopback&, auto&) {
-        bench.wire.set_fault([&](const hal::CanFrame& frame) -> sim::LoopbackBus::Fate {
-            if (!of_window(frame)) {
-                return {1, 0, frame};
-            }
-            const auto chance = random() % 100;
-            lost += chance < 20 ? 1 : 0;
-            return {chance < 20 ? 0 : (chance < 30 ? 2 : 1), 10'000 + random() % 3000, frame};
+    std::vector<double> times_s;
+    for (std::uint32_t seed = 1; seed <= 9; ++seed) {
+        std::mt19937 random(seed);
+        std::uint64_t lost = 0;
+        const Run run = with_window(scenario, map, [&](ControllerOnLoopback& bench, WaySenderOnLoopback&, auto&) {
+            bench.wire.set_fault([&](const hal::CanFrame& frame) -> sim::LoopbackBus::Fate {
+                if (!of_window(frame)) {
+                    return {1, 0, frame};
+                }
+                const auto chance = random() % 100;
+                lost += chance < 20 ? 1 : 0;
+                return {chance < 20 ? 0 : (chance < 30 ? 2 : 1), 10'000 + random() % 3000, frame};
+            });
         });
-    });
-    CHECK(lost > 100);
-    CHECK(sim::bounds_hold(run.figures));
-    DOUBLES_EQUAL(clean.figures.time_s, run.figures.time_s, 0.05 * clean.figures.time_s);
+        CHECK(lost > 100);
+        CHECK(sim::bounds_hold(run.figures));
+        times_s.push_back(run.figures.time_s);
+    }
+    std::ranges::sort(times_s);
+    CHECK(times_s[times_s.size() / 2] < 1.05 * clean.figures.time_s);
+    CHECK(times_s.back() < 1.2 * clean.figures.time_s);  // a window that has to begin again within the cut
 }
 
 TEST(WindowOverBus, a_chip_that_starts_anew_in_mid_program_gets_the_map_from_there) {

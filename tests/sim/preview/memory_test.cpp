@@ -11,7 +11,7 @@
 #include "part_map/map_join.hpp"
 #include "preview/preview.hpp"
 #include "sim/preview/named_scenario.hpp"
-#include "sim/preview/wrong_maps.hpp"
+#include "wrong_maps/wrong_maps.hpp"
 
 using namespace millforce::sim;
 using namespace millforce::test;

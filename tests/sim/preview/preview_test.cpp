@@ -12,8 +12,8 @@
 #include "loop/simulation.hpp"
 #include "sim/converter_load.hpp"
 #include "sim/preview/named_scenario.hpp"
-#include "sim/preview/wrong_maps.hpp"
 #include "sim/without_axis_currents.hpp"
+#include "wrong_maps/wrong_maps.hpp"
 
 using namespace millforce::sim;
 using namespace millforce::test;

@@ -44,6 +44,14 @@ inline host::PartMap deeper(host::PartMap map, double factor) {
     return map;
 }
 
+/// The same cuts along a path that is longer by a factor.
+inline host::PartMap stretched(host::PartMap map, double factor) {
+    for (host::MapPlace& place : map) {
+        place.path_mm *= factor;
+    }
+    return map;
+}
+
 inline host::PartMap with_air_behind(host::PartMap map, double share) {
     for (host::MapPlace& place : map) {
         if (place.path_mm > share * map.back().path_mm) {
