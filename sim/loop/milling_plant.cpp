@@ -21,6 +21,17 @@ void MillingPlant::start_at(const Eigen::Vector3d& position_mm, double spindle_s
     machine_.start_at(position_mm, spindle_speed_rad_s);
 }
 
+void MillingPlant::set_wear(double of_section, double of_edge) {
+    CuttingCoefficients worn = scenario_.coefficients;
+    for (double* K : {&worn.K_tc_N_mm2, &worn.K_rc_N_mm2, &worn.K_ac_N_mm2}) {
+        *K *= of_section;
+    }
+    for (double* K : {&worn.K_te_N_mm, &worn.K_re_N_mm, &worn.K_ae_N_mm}) {
+        *K *= of_edge;
+    }
+    cutting_.set_coefficients(worn);
+}
+
 void MillingPlant::advance(double dt_s, const Command& command) {
     machine_.advance(dt_s, {command.position_mm, command.direction * command.feed_mm_s, command.spindle_speed_rad_s},
                      load_);

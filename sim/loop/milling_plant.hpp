@@ -91,6 +91,8 @@ class MillingPlant {
 
     /// Spindle at speed, axes standing.
     void start_at(const Eigen::Vector3d& position_mm, double spindle_speed_rad_s);
+    /// The edges have worn: factors on the scenario's coefficients, of the chip's section and of the edges' length.
+    void set_wear(double of_section, double of_edge);
     void set_clock(double time_s) { machine_.set_clock(time_s); }
     void advance(double dt_s, const Command& command);
     /// The machine alone, away from the workpiece: nothing is cut, and nothing is judged.

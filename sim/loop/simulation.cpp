@@ -133,9 +133,13 @@ void SteppedSimulation::turn_spindle() {
 
 void SteppedSimulation::step_plant() {
     cnc_.step(static_cast<double>(override_.ratio), override_.hold);
-    plant_.advance(steps_.step_s,
-                   {cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(), cnc_.programmed_feed_mm_s(), cnc_.path_mm(),
-                    cnc_.is_rapid(), cnc_.spindle_speed_rad_s(), static_cast<double>(override_.ratio)});
+    MillingPlant::Command command{
+        cnc_.position_mm(), cnc_.direction(), cnc_.feed_mm_s(),           cnc_.programmed_feed_mm_s(),
+        cnc_.path_mm(),     cnc_.is_rapid(),  cnc_.spindle_speed_rad_s(), static_cast<double>(override_.ratio)};
+    if (settings_.interfere) {
+        settings_.interfere(plant_, command);
+    }
+    plant_.advance(steps_.step_s, command);
 }
 
 hal::ProgramStatus SteppedSimulation::program() const {

@@ -20,6 +20,8 @@ struct SimulationSettings {
     double longest_run_s = 3600.0;   ///< a program that has not ended by then is an error of the run, not of the user
     /// Called about every simulated second with the share of the path done; false stops the run.
     std::function<bool(double share)> progress;
+    /// What happens beside the program, before each step of the plant: may alter the command, and the plant's edges.
+    std::function<void(MillingPlant& plant, MillingPlant::Command& command)> interfere;
 };
 
 struct Simulated {

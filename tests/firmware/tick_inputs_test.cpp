@@ -39,6 +39,11 @@ hal::DriveSample with_force(int index, float tangential_N) {
     return sample;
 }
 
+/// Which tooth has passed last, of 4 at 4000 rpm.
+int tooth_of(int index) {
+    return static_cast<int>(static_cast<float>(index) * 0.001F * 4000.0F / 60.0F * 4.0F);
+}
+
 void mill(Tick& tick, int first, int end) {
     for (int k = first; k < end; ++k) {
         step_and_work(tick, sample_of(k), program());
@@ -207,12 +212,26 @@ TEST(TickInputs, of_some_revolutions_show_a_contact_that_none_of_a_tooth_shows) 
     CHECK(control::is_cutting(tick.control().state));
 }
 
-TEST_GROUP(TickWithMap){static float ratio_in_cut(const control::WayAhead<float>& way){Tick tick = fresh_tick();
-for (int k = 0; k < 1500; ++k) {
-    tick.set_way_ahead(k < 400 ? control::WayAhead<float>{} : way);
-    step_and_work(tick, sample_of(k), program());
+TEST(TickInputs, of_a_dwell_in_which_every_other_tooth_cuts_are_one_cut) {
+    mill(tick, 0, 600);
+    for (int k = 600; k < 900; ++k) {
+        const bool cuts = tooth_of(k) % 2 == 0;
+        hal::DriveSample sample = with_force(k, cuts ? 250.0F : 0.0F);
+        sample.axis_velocity_mm_s = {};
+        sample.axis_current_A = {};
+        step_and_work(tick, sample, program());
+        CHECK(tick.control().state == CutState::in_cut);
+    }
 }
-return tick.control().ratio;
+
+TEST_GROUP(TickWithMap){static Tick in_cut(const control::WayAhead<float>& way, Tick tick = fresh_tick()){
+    for (int k = 0; k < 1500; ++k){tick.set_way_ahead(k < 400 ? control::WayAhead<float>{} : way);
+step_and_work(tick, sample_of(k), program());
+}
+return tick;
+}
+static float ratio_in_cut(const control::WayAhead<float>& way) {
+    return in_cut(way).control().ratio;
 }
 static control::WayAhead<float> way_with(float tooth_per_tangential) {
     control::WayAhead<float> way;
@@ -254,8 +273,24 @@ TEST(TickWithMap, takes_the_maps_force_within_the_noise_of_the_measured_one) {
 }
 
 TEST(TickWithMap, believes_no_smaller_tooth_than_the_forces_leave) {
-    DOUBLES_EQUAL(static_cast<double>(ratio_in_cut(way_with(0.5F))), static_cast<double>(ratio_in_cut(way_with(0.1F))),
+    Parameters p = machine_and_tool();
+    p.tool.tooth_force_limit_N = 150.0F;
+    const Tick weak_tool(p);
+    const float of_least = in_cut(way_with(0.1F), weak_tool).control().ratio;
+    DOUBLES_EQUAL(static_cast<double>(of_least), static_cast<double>(in_cut(way_with(0.5F), weak_tool).control().ratio),
                   1e-3);
+    CHECK(of_least < 0.9F * p.machine.cnc.override_max);
+}
+
+TEST(TickWithMap, believes_a_smaller_tooth_than_a_bound) {
+    CHECK(in_cut({}).estimate().tooth_force_is_bound);
+    CHECK(ratio_in_cut(way_with(0.8F)) > 1.8F * ratio_in_cut({}));
+}
+
+TEST(TickWithMap, is_in_no_overload_by_a_force_that_the_map_alone_knows) {
+    const Tick tick = in_cut(way_with(8.0F));
+    CHECK(tick.control().fault == Fault::none);
+    CHECK(tick.control().ratio == lowest);
 }
 
 TEST_GROUP(TickOnSpindleAlone){};

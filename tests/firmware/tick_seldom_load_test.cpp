@@ -30,13 +30,14 @@ class Machine {
         hal::FeedOverride output;
         for (const int end = index_ + samples; index_ < end; ++index_) {
             output = firmware::step_and_work(tick, sample(), program());
-            feed_ = output.hold ? 0.0F : feed_mm_s * output.ratio;
+            feed_ = output.hold ? 0.0F : feed_mm_s * program_share * output.ratio;
         }
         return output;
     }
 
     firmware::ForceControlTick<float> tick{spindle_with_a_seldom_load()};
     bool load_stands_still = false;
+    float program_share = 1.0F;  ///< of the feed
     float heavier = 1.0F;
 
   private:
@@ -102,4 +103,19 @@ TEST(TickOnSeldomLoad, changes_the_feed_once_for_a_cut_that_becomes_heavier_and_
     }
     const float settled = machine.run(1500).ratio;
     CHECK(lowest > 0.85F * settled);
+}
+
+TEST(TickOnSeldomLoad, sees_a_contact_though_the_feed_has_just_changed) {
+    const Machine begun = machine;
+    for (const bool is_steady : {true, false}) {
+        machine = begun;
+        int k = 0;
+        while (k < 3000 && machine.tick.control().state == control::CutState::air) {
+            machine.program_share = is_steady || k % 100 < 50 ? 1.0F : 0.8F;
+            machine.run(1);
+            ++k;
+        }
+        CHECK(machine.tick.feed_is_settled() == is_steady);
+        CHECK(k < 1000);
+    }
 }
