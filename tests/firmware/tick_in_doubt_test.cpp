@@ -30,11 +30,9 @@ hal::DriveSample at_rest(int index) {
     return sample;
 }
 
-control::WayAhead<float> mapped_cut() {
+control::WayAhead<float> with_cut(bool may_cut) {
     control::WayAhead<float> way;
-    way.known = true;
-    way.feed_mm_s = 100.0F;
-    way.tangential_N = 100.0F;
+    way.may_cut = may_cut;
     return way;
 }
 
@@ -56,22 +54,12 @@ TEST_GROUP(TickInDoubt) {
     }
 };
 
-TEST(TickInDoubt, learns_a_small_force_in_air_as_drift) {
-    DOUBLES_EQUAL(0.0, force_in_light_cut_N({}), 0.2 * its_force_N);
+TEST(TickInDoubt, learns_no_force_as_drift_where_the_map_may_have_a_cut) {
+    DOUBLES_EQUAL(its_force_N, force_in_light_cut_N(with_cut(true)), 0.2 * its_force_N);
 }
 
-TEST(TickInDoubt, learns_no_force_as_drift_where_the_map_sees_a_cut) {
-    DOUBLES_EQUAL(its_force_N, force_in_light_cut_N(mapped_cut()), 0.2 * its_force_N);
-}
-
-TEST(TickInDoubt, learns_a_small_force_where_the_map_sees_air_or_nothing) {
-    control::WayAhead<float> air = mapped_cut();
-    air.tangential_N = 0.0F;
-    DOUBLES_EQUAL(0.0, force_in_light_cut_N(air), 0.2 * its_force_N);
-    tick = fresh_tick();
-    control::WayAhead<float> unknown = mapped_cut();
-    unknown.known = false;
-    DOUBLES_EQUAL(0.0, force_in_light_cut_N(unknown), 0.2 * its_force_N);
+TEST(TickInDoubt, learns_a_small_force_where_the_map_has_air) {
+    DOUBLES_EQUAL(0.0, force_in_light_cut_N(with_cut(false)), 0.2 * its_force_N);
 }
 
 TEST(TickInDoubt, shows_an_engagement_in_the_cut_alone_and_while_it_is_held) {

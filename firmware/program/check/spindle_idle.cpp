@@ -101,13 +101,14 @@ Findings doubted_gain(const firmware::MachineParameters<float>& machine, const M
     if (!(drive.gain_doubt() > 0.0F)) {
         return {};
     }
-    return {{Severity::warning,
-             fmt::format(
-                 "spindle: {:.4g} A in air, and {:.4g} A by the file: if the gain is off by as much, the cut "
-                 "carries {:.2g} times the force shown, and the controller counts on it; calibrate the gain, or "
-                 "the idle torque",
-                 window.spindle_current_A, expected_cold_idle_A(machine.spindle, window), 1.0F + drive.gain_doubt()),
-             "spindle.K_t1_Nm_per_A"}};
+    return {
+        {Severity::warning,
+         fmt::format(
+             "spindle: {:.4g} A in air, and {:.4g} A by the file: if the gain is off by as much, and the current less "
+             "noisy than current_sd_A says, the cut carries {:.2g} times the force shown, and the controller counts "
+             "on it; calibrate the gain, or the idle torque",
+             window.spindle_current_A, expected_cold_idle_A(machine.spindle, window), 1.0F + drive.gain_doubt()),
+         "spindle.K_t1_Nm_per_A"}};
 }
 
 Findings check_current_in_air(std::vector<MotionWindow> air, const firmware::MachineParameters<float>& machine) {

@@ -107,6 +107,28 @@ TEST(FeedDrive, knows_of_a_standing_axis_what_its_motor_carries_beyond_static_fr
     CHECK_FALSE(axis.least_force_at_rest_N(moving(5.0, p.gravity_A + 2.0 * held_A)).valid);
 }
 
+TEST(FeedDrive, says_nothing_at_rest_where_it_is_far_noisier_than_stated) {
+    auto p = paper_axis();
+    FeedDrive<double> tenfold(p);
+    const auto loaded = moving(0.0, p.gravity_A + 10.0 * p.K_x3_A);
+    CHECK(tenfold.least_force_at_rest_N(loaded).valid);
+    for (int k = 0; k < 20; ++k) {
+        tenfold.learn_noise(tenfold.change_N(10.0 * p.current_sd_A, 2.0));
+    }
+    CHECK_FALSE(tenfold.least_force_at_rest_N(loaded).valid);
+}
+
+TEST(FeedDrive, gives_no_force_while_it_is_not_trusted) {
+    auto p = paper_axis();
+    FeedDrive<double> axis(p);
+    const auto in_air = moving(5.0, p.positive.at(0.3) + p.K_x3_A + p.gravity_A);
+    axis.distrust();
+    CHECK_FALSE(axis.force_N(in_air).valid);
+    CHECK_FALSE(axis.least_force_at_rest_N(moving(0.0, p.gravity_A + 10.0 * p.K_x3_A)).valid);
+    axis.rezero(in_air);
+    CHECK(axis.force_N(in_air).valid);
+}
+
 TEST(FeedDrive, doubts_its_friction_beyond_the_feeds_of_the_calibration) {
     auto p = paper_axis();
     p.friction_speed_min_m_per_min = 0.36;

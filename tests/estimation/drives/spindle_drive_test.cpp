@@ -96,6 +96,37 @@ TEST(SpindleDrive, doubts_its_gain_where_much_of_the_idle_torque_is_missing) {
     DOUBLES_EQUAL(1.0 / 0.3 - 1.0, weak.gain_doubt(), 0.05);
 }
 
+TEST(SpindleDrive, does_not_doubt_its_gain_where_the_current_is_as_noisy_in_air_as_stated) {
+    auto p = paper_spindle();
+    p.idle_torque_sd_Nm = 2.0;
+    p.current_sd_A = 0.1;
+    constexpr double samples = 10.0;
+    constexpr double N_per_Nm = 250.0;
+    const double usual_A = std::sqrt(2.0 / samples) * p.current_sd_A;
+    const auto doubt_with_noise = [&](double share) {
+        SpindleDrive<double> drive(p);
+        drive.rezero(at_current(0.3 * 9.72));
+        for (int k = 0; k < 20; ++k) {
+            drive.learn_noise(drive.change_N(share * usual_A, 100.0, samples, N_per_Nm));
+        }
+        return drive.gain_doubt();
+    };
+    DOUBLES_EQUAL(0.0, doubt_with_noise(1.0), 0.0);
+    DOUBLES_EQUAL(0.0, doubt_with_noise(2.0), 0.0);
+    DOUBLES_EQUAL(1.0 / 0.3 - 1.0, doubt_with_noise(0.3), 0.05);
+}
+
+TEST(SpindleDrive, doubts_its_gain_although_a_cut_that_a_weak_current_hides_is_noisy) {
+    auto p = paper_spindle();
+    p.idle_torque_sd_Nm = 2.0;
+    SpindleDrive<double> weak(p);
+    weak.rezero(at_current(0.3 * 9.72));
+    for (int k = 0; k < 40; ++k) {
+        weak.learn_noise(weak.change_N(k < 10 ? 0.0 : 1.0, 100.0, 10.0, 250.0));
+    }
+    CHECK(weak.gain_doubt() > 1.0);
+}
+
 TEST(SpindleDrive, does_not_doubt_its_gain_where_the_idle_torque_is_too_high) {
     auto p = paper_spindle();
     p.idle_torque_sd_Nm = 2.0;

@@ -160,7 +160,10 @@ class FeedDrive {
             break_away * parameters_.K_x3_A * (Scalar(1) + Scalar(2) * parameters_.friction_relative_sd);
         const Scalar shown_A = average.current_A - parameters_.gravity_A;
         const Scalar beyond_A = shown_A < Scalar(0) ? shown_A + held_A : shown_A - held_A;
-        if (!rests(average) || !(held_A > Scalar(0)) || !(beyond_A * shown_A > Scalar(0))) {
+        // Four times the noise that was stated: the channel is not scaled as calibrated.
+        constexpr Scalar noise_of_another_gain{16};
+        const bool is_as_calibrated = !is_implausible_ && noise_.value() < noise_of_another_gain;
+        if (!rests(average) || !is_as_calibrated || !(held_A > Scalar(0)) || !(beyond_A * shown_A > Scalar(0))) {
             return {};
         }
         const Scalar force = parameters_.K_x4_N_per_A * beyond_A;
@@ -205,6 +208,8 @@ class FeedDrive {
         }
     }
     [[nodiscard]] bool is_implausible() const { return is_implausible_; }
+    /// Its current contradicts other signals: no force either, until one in air is plausible.
+    void distrust() { is_implausible_ = true; }
 
     [[nodiscard]] Scalar friction_scale(bool positive_direction) const {
         return friction_scale_.value(positive_direction ? 1U : 0U);

@@ -135,8 +135,9 @@ class SpindleDrive {
     /// Relative deviation of F_at that the idle torque brings about, beyond that of force_N: a current that shows too
     /// little of the cut shows too little of the idle torque as well. 0, unless less of it was seen in air than
     /// calibrations like this one leave to chance; then the gain may be off by as much. Stays from then on: where a
-    /// weak signal hides the contact, what is learnt next is the cut.
-    [[nodiscard]] Scalar gain_doubt() const { return gain_doubt_; }
+    /// weak signal hides the contact, what is learnt next is the cut. 0 as well where the current is as noisy in air as
+    /// stated (NoiseRatio::is_as_stated): a signal that is weak is weak in its noise, too.
+    [[nodiscard]] Scalar gain_doubt() const { return noise_.is_as_stated() ? Scalar(0) : gain_doubt_; }
 
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
 
