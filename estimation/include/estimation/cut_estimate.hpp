@@ -108,9 +108,7 @@ struct CutEstimate {
         bool feed_is_steady = false;                  ///< the velocities differ by less than a tenth
     };
     ToothChange tooth_change{};
-    Scalar feed_mm_s{0};    ///< path speed in the plane over the window
-    Scalar feed_x_mm_s{0};  ///< its components
-    Scalar feed_y_mm_s{0};
+    Scalar feed_mm_s{0};         ///< path speed in the plane over the window
     Scalar axial_speed_mm_s{0};  ///< speed along z
     Scalar feed_per_tooth_mm{0};
     Scalar spindle_speed_rad_s{0};

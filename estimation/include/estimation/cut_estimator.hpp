@@ -69,9 +69,6 @@ class CutEstimator {
     /// for drift. Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
     bool rezero();
     void leave_air();
-    /// What the axes show contradicts the spindle: they give no force until re-zeroing has found them as they should
-    /// be.
-    void distrust_axes();
     /// What was learnt in air, up to now: for the estimator of the next tool, before its first sample.
     [[nodiscard]] MachineDrives<Scalar> drives() const;
     void set_drives(const MachineDrives<Scalar>& learnt) { drives_ = learnt; }

@@ -245,8 +245,6 @@ void CutEstimator<Scalar>::estimate_along_feed() {
     const Scalar x_mm_s = window_.mean[DriveSignals<Scalar>::first_velocity];
     const Scalar y_mm_s = window_.mean[DriveSignals<Scalar>::first_velocity + 1];
     e.axial_speed_mm_s = window_.mean[DriveSignals<Scalar>::first_velocity + 2];
-    e.feed_x_mm_s = x_mm_s;
-    e.feed_y_mm_s = y_mm_s;
     e.feed_mm_s = sqrt(square(x_mm_s) + square(y_mm_s));
     const Scalar teeth_per_s = settings_.teeth * turns_per_rad<Scalar> * window_.spindle_speed_rad_s;
     e.feed_per_tooth_mm = teeth_per_s > Scalar(0) ? e.feed_mm_s / teeth_per_s : Scalar(0);
@@ -384,13 +382,6 @@ MachineDrives<Scalar> CutEstimator<Scalar>::drives() const {
     MachineDrives<Scalar> drives = drives_;
     drives.predict(since_prediction_s_ + since_period_s_);
     return drives;
-}
-
-template <typename Scalar>
-void CutEstimator<Scalar>::distrust_axes() {
-    for (FeedDrive<Scalar>& axis : drives_.axes) {
-        axis.distrust();
-    }
 }
 
 template <typename Scalar>

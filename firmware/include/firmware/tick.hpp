@@ -6,7 +6,6 @@
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
 #include "firmware/carried_immersion.hpp"
-#include "firmware/entering_cut.hpp"
 #include "firmware/load_answer.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/settled_feed.hpp"
@@ -127,7 +126,6 @@ class ForceControlTick {
     void forget_estimate();
     void rezero_in_air();
     [[nodiscard]] bool is_idle(const estimation::CutEstimate<Scalar>& e) const;
-    void judge_entry();
     void ask_load();
     void set_cut();
     void allow_for_drift();
@@ -141,7 +139,6 @@ class ForceControlTick {
     estimation::CutEstimator<Scalar> estimator_;
     WideBand wide_band_;
     CarriedImmersion<Scalar> drops_{};
-    EnteringCut<Scalar> entering_cut_;
     SteadyCut<Scalar> steady_cut_{};
     SlowFall<Scalar> slow_fall_;
     LoadAnswer<Scalar> load_answer_;

@@ -30,18 +30,11 @@ static Scalar drift_N_per_s(const Parameters<Scalar>& p) {
                                           : Scalar(0);
 }
 
-/// 0 where the load comes late: the entry is not judged.
-template <typename Scalar>
-static Scalar judged_entry_feed_mm(const Parameters<Scalar>& p) {
-    return p.machine.spindle_load_period_s > Scalar(0) ? Scalar(0) : p.tool.control.entry_feed_per_tooth_mm;
-}
-
 template <typename Scalar, typename WideBand>
 ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
     : estimator_(estimator_settings(parameters), spindle_parameters(parameters.machine), parameters.machine.axes,
                  estimator_law(parameters.tool)),
       wide_band_(parameters),
-      entering_cut_(estimator_law(parameters.tool), judged_entry_feed_mm(parameters), parameters.tool.teeth),
       slow_fall_(drift_N_per_s(parameters)),
       load_answer_(parameters),
       surface_(parameters.tool),
@@ -282,18 +275,9 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     surface_.update(estimator_.estimate());
     supervisor_.judge(estimator_.estimate(), program_, control_.state, feed_is_settled());
     supervisor_.judge_idle(estimator_.spindle_is_implausible(), estimator_.estimate().tooth_periods);
-    judge_entry();
     ask_load();
     set_cut();
     has_new_estimate_ = true;
-}
-
-template <typename Scalar, typename WideBand>
-void ForceControlTick<Scalar, WideBand>::judge_entry() {
-    entering_cut_.follow(estimator_.estimate(), control_.state);
-    if (entering_cut_.contradicts()) {
-        estimator_.distrust_axes();
-    }
 }
 
 template <typename Scalar, typename WideBand>
@@ -346,10 +330,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     // The first windows after a change hold a mixture of air and cut.
     const int enough = 2 * static_cast<int>(controller_.parameters().teeth) + 1;
     if (air_periods_ >= enough) {
-        if (estimator_.rezero()) {
-            was_rezeroed_ = true;
-            entering_cut_.clear();
-        }
+        was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
         steady_cut_.clear();
         slow_fall_.clear();
         air_periods_ = enough;
@@ -373,8 +354,7 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_valid = tooth.valid;
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
-    cut.law_is_refuted =
-        estimation::is_refuted(e.engagement) || e.engagement.declared_depth_is_refuted || entering_cut_.contradicts();
+    cut.law_is_refuted = estimation::is_refuted(e.engagement) || e.engagement.declared_depth_is_refuted;
     cut.tooth_force_N =
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     allow_for_drift();
