@@ -73,6 +73,26 @@ TEST(FeedLawAlone, takes_no_demand_from_an_old_estimate_nor_from_one_that_it_doe
     CHECK(law.demand() < before);
 }
 
+TEST(FeedLawAlone, lets_the_feed_fall_with_the_speed_of_the_spindle_until_the_next_estimate_and_not_rise_with_it) {
+    Law law(1.0F);
+    Input input = in_contact();
+    const float speed_rad_s = input.cut.spindle_speed_rad_s;
+    law.follow(Parameters{}, input, CutState::in_cut, 0.0F);
+    const auto at_full_speed = static_cast<double>(law.demand());
+    const auto demand_at = [&](float share_of_speed) {
+        input.cut.fresh = false;
+        input.cut.spindle_speed_rad_s = share_of_speed * speed_rad_s;
+        law.follow(Parameters{}, input, CutState::in_cut, 0.0F);
+        return static_cast<double>(law.demand());
+    };
+    DOUBLES_EQUAL(at_full_speed, demand_at(0.96F), 0.0);
+    DOUBLES_EQUAL(0.8 * at_full_speed, demand_at(0.8F), 1e-4);
+    DOUBLES_EQUAL(0.5 * at_full_speed, demand_at(0.5F), 1e-4);
+    DOUBLES_EQUAL(0.5 * at_full_speed, demand_at(1.0F), 1e-4);
+    DOUBLES_EQUAL(0.5 * at_full_speed, demand_at(not_a_number), 1e-4);
+    DOUBLES_EQUAL(0.0, demand_at(-0.1F), 0.0);
+}
+
 TEST(FeedLawAlone, counts_a_share_of_cutting_below_a_twentieth_as_that) {
     DOUBLES_EQUAL(static_cast<double>(demand_for(960.0F, 0.05F)), static_cast<double>(demand_for(960.0F, 0.01F)), 0.0);
     CHECK(demand_for(960.0F, 0.05F) > 1.1F);

@@ -72,7 +72,9 @@ class FeedLaw {
     [[nodiscard]] static bool guards_against_a_step(const Parameters& parameters, const ControlInput<Scalar>& input);
     /// Of the limit: such that the largest step of the depth is survived.
     [[nodiscard]] static Scalar share_before_a_step(const Parameters& parameters);
-    /// Takes in a fresh estimate. Out of the cut there is no demand: override_max. `contact_feed_mm`: ContactFeed.
+    /// Takes in a fresh estimate. Out of the cut there is no demand: override_max. Between two estimates the demand
+    /// falls with the spindle's speed by more than 5 %, so that the feed per tooth does not grow; it does not rise with
+    /// it. `contact_feed_mm`: ContactFeed.
     void follow(const Parameters& parameters, const ControlInput<Scalar>& input, CutState state,
                 Scalar contact_feed_mm);
     [[nodiscard]] Scalar demand() const { return demand_; }
@@ -93,9 +95,11 @@ class FeedLaw {
                                                          const ControlInput<Scalar>& input, Scalar contact_feed_mm);
     [[nodiscard]] static Scalar recovery_in(const Parameters& parameters, const ControlInput<Scalar>& input,
                                             const StepMotion<Scalar>& motion);
+    void slow_down_with(Scalar spindle_speed_rad_s);
 
     Scalar override_ratio_;
     Scalar demand_{0};
+    Scalar speed_of_demand_rad_s_{0};
     Scalar since_estimate_s_{0};
 };
 

@@ -44,11 +44,14 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
     const Estimate& cut = input.cut;
     if (is_out_of_cut(state)) {
         demand_ = parameters.override_max;
+        speed_of_demand_rad_s_ = Scalar(0);
         return;
     }
     if (!cut.fresh || !applies_to(cut)) {
+        slow_down_with(cut.spindle_speed_rad_s);
         return;
     }
+    speed_of_demand_rad_s_ = cut.spindle_speed_rad_s;
     const Scalar share = input.way.known ? parameters.setpoint_share : share_before_a_step(parameters);
     demand_ = override_for(parameters, input, {share, cut.tooth_force_N, cut.cutting_share});
     if (state == CutState::entry) {
@@ -61,6 +64,16 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
         demand_ = not_below_safe_feed(parameters, input, demand_, {safe_entry(parameters, input), cut.tooth_force_N});
         const Scalar of_heaviest = override_before_heaviest(parameters, input, contact_feed_mm);
         demand_ = demand_ < of_heaviest ? demand_ : of_heaviest;
+    }
+}
+
+template <typename Scalar>
+void FeedLaw<Scalar>::slow_down_with(Scalar spindle_speed_rad_s) {
+    constexpr Scalar tolerated_share = literal<Scalar>(0.95L);
+    if (spindle_speed_rad_s < tolerated_share * speed_of_demand_rad_s_) {
+        const Scalar share = spindle_speed_rad_s / speed_of_demand_rad_s_;
+        demand_ = share > Scalar(0) ? share * demand_ : Scalar(0);
+        speed_of_demand_rad_s_ = spindle_speed_rad_s;
     }
 }
 

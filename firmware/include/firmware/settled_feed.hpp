@@ -5,8 +5,8 @@
 
 namespace millforce::firmware {
 
-/// Whether a force that is known late belongs to the present feed: the feed has stayed within 5 % for as long as the
-/// force is late. Late by 0 s: always.
+/// Whether a force that is known late belongs to the present feed per tooth: that has stayed within 5 % for as long as
+/// the force is late. Late by 0 s: always.
 ///
 /// follow() with each sample. Cost: two comparisons. One thread.
 template <typename Scalar>
@@ -14,12 +14,12 @@ class SettledFeed {
   public:
     explicit SettledFeed(Scalar late_s) : late_s_(late_s), settled_s_(late_s) {}
 
-    void follow(Scalar feed_mm_s, Scalar dt_s) {
+    void follow(Scalar feed_per_tooth_mm, Scalar dt_s) {
         constexpr Scalar tolerated_share = estimation::literal<Scalar>(0.05L);
-        const Scalar change = feed_mm_s - feed_mm_s_;
-        const Scalar tolerated = tolerated_share * feed_mm_s_;
+        const Scalar change = feed_per_tooth_mm - feed_per_tooth_mm_;
+        const Scalar tolerated = tolerated_share * feed_per_tooth_mm_;
         if (!(change <= tolerated && -change <= tolerated)) {
-            feed_mm_s_ = feed_mm_s;
+            feed_per_tooth_mm_ = feed_per_tooth_mm;
             settled_s_ = Scalar(0);
         }
         settled_s_ += dt_s;
@@ -29,7 +29,7 @@ class SettledFeed {
   private:
     Scalar late_s_;
     Scalar settled_s_;
-    Scalar feed_mm_s_{0};
+    Scalar feed_per_tooth_mm_{0};
 };
 
 }  // namespace millforce::firmware

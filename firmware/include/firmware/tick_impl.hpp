@@ -82,7 +82,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     input_.motion_is_unseen = false;
     input_.height_is_known = hal::knows_velocity(sample, 2);
     input_.dt_s = dt_s;
-    settled_feed_.follow(estimator_.estimate().feed_mm_s, dt_s);
+    settled_feed_.follow(estimator_.estimate().feed_per_tooth_mm, dt_s);
     watch_sample(sample, signals, dt_s);
 }
 

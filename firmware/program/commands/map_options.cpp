@@ -39,8 +39,7 @@ void add_map(Command& command, MapOptions& options) {
         .needs(program);
     command
         .option("--learn", options.learn,
-                "Write the part map that this run leaves behind: what was estimated along its path; with --tools "
-                "a folder for T7.map, T12.map, …")
+                "Write the part map of what this run estimated along its path; with --tools a folder of them")
         .value_name("PART.map")
         .needs(program);
 }

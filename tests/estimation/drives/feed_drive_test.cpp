@@ -118,15 +118,33 @@ TEST(FeedDrive, says_nothing_at_rest_where_it_is_far_noisier_than_stated) {
     CHECK_FALSE(tenfold.least_force_at_rest_N(loaded).valid);
 }
 
-TEST(FeedDrive, gives_no_force_while_it_is_not_trusted) {
+TEST(FeedDrive, gives_no_force_from_air_that_cannot_be_until_air_that_can) {
     auto p = paper_axis();
     FeedDrive<double> axis(p);
-    const auto in_air = moving(5.0, p.positive.at(0.3) + p.K_x3_A + p.gravity_A);
-    axis.distrust();
+    const double friction_A = p.positive.at(0.3) + p.K_x3_A;
+    const auto in_air = moving(5.0, friction_A + p.gravity_A);
+    axis.rezero(moving(5.0, 10.0 * friction_A + p.gravity_A));
     CHECK_FALSE(axis.force_N(in_air).valid);
     CHECK_FALSE(axis.least_force_at_rest_N(moving(0.0, p.gravity_A + 10.0 * p.K_x3_A)).valid);
     axis.rezero(in_air);
     CHECK(axis.force_N(in_air).valid);
+}
+
+/// A week of cuts in one direction, then the friction grows by a twentieth.
+TEST(FeedDrive, follows_the_friction_of_one_direction_however_long_the_other_was_not_used) {
+    const auto p = paper_axis();
+    FeedDrive<double> axis(p);
+    const double friction_A = p.positive.at(0.6) + p.K_x3_A;
+    const auto mill_for = [&](int minutes, double scale) {
+        for (int minute = 0; minute < minutes; ++minute) {
+            axis.predict(60.0);
+            axis.rezero(moving(10.0, p.gravity_A + scale * friction_A));
+        }
+    };
+    mill_for(10'000, 1.0);
+    DOUBLES_EQUAL(1.0, axis.friction_scale(true), 1e-6);
+    mill_for(10, 1.05);
+    DOUBLES_EQUAL(1.05, axis.friction_scale(true), 0.01);
 }
 
 TEST(FeedDrive, doubts_its_friction_beyond_the_feeds_of_the_calibration) {

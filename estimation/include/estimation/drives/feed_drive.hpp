@@ -40,13 +40,17 @@ class FrictionScale {
           limit_(square(relative_sd)),
           walk_per_s_(square(walk_per_sqrt_s)) {}
 
+    /// Each up to what its calibration leaves open: a direction that is not used must not end the tracking of the
+    /// other. The shared part stays behind rather than grow past what both bear.
     void predict(Scalar dt_s) {
         const Scalar growth = walk_per_s_ * dt_s;
-        if (own_[0] + growth < limit_ && own_[1] + growth < limit_) {
-            own_[0] += growth;
-            own_[1] += growth;
-            shared_ += correlation * growth;
+        bool both_grow = true;
+        for (Scalar& own : own_) {
+            const bool grows = own + growth < limit_;
+            own = grows ? own + growth : own;
+            both_grow = both_grow && grows;
         }
+        shared_ = both_grow ? shared_ + correlation * growth : shared_;
     }
 
     /// Whether a scale seen in air lies within what the calibration leaves open.
@@ -208,8 +212,6 @@ class FeedDrive {
         }
     }
     [[nodiscard]] bool is_implausible() const { return is_implausible_; }
-    /// Its current contradicts other signals: no force either, until one in air is plausible.
-    void distrust() { is_implausible_ = true; }
 
     [[nodiscard]] Scalar friction_scale(bool positive_direction) const {
         return friction_scale_.value(positive_direction ? 1U : 0U);
