@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/bounds.hpp"
 #include "loop/simulation.hpp"
+#include "sim/converter_load.hpp"
 #include "sim/without_axis_currents.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -80,6 +81,19 @@ TEST(ChangingMachine, breaks_no_tooth_where_the_operator_halves_the_spindles_spe
     const Scenario scenario = part("depth_ramp", true, 1.3);
     ConstantFeed constant(scenario.parameters, 0.6);
     CHECK(simulate(scenario, constant, "constant", speed_turned_to(0.5, 0.5)).result.figures.teeth_broken > 0);
+}
+
+/// The load is told 0.2 s late, the speed at once.
+TEST(ChangingMachine, holds_the_limit_at_half_the_spindles_speed_where_a_converter_tells_the_load_late) {
+    for (const char* name : {"depth_ramp", "width_step"}) {
+        for (const double cutting_force_scale : {1.0, 1.3}) {
+            for (const double ramp_s : {0.5, 2.0}) {
+                const Scenario scenario =
+                    millforce::test::with_converter_load(part(name, false, cutting_force_scale), 0.1, 0.1);
+                CHECK(milled(scenario, speed_turned_to(0.5, ramp_s)).peak_over_limit < largest_peak_over_limit);
+            }
+        }
+    }
 }
 
 TEST(ChangingMachine, slows_down_and_holds_the_limit_while_the_edges_wear_within_a_part) {
