@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 using namespace millforce::sim;
 
@@ -22,28 +23,31 @@ Scenario part(const std::string& name, bool has_axes, double cutting_force_scale
     return scenario;
 }
 
+using Interference = decltype(SimulationSettings::interfere);
+
+SimulationSettings with(Interference interfere) {
+    SimulationSettings settings;
+    settings.longest_run_s = 90.0;
+    settings.interfere = std::move(interfere);
+    return settings;
+}
+
 /// The operator turns the speed's override from 1 to `ratio` within `ramp_s`, in the cut. The feed in mm/min stays.
 SimulationSettings speed_turned_to(double ratio, double ramp_s) {
     constexpr double begins_s = 8.0;
-    SimulationSettings settings;
-    settings.longest_run_s = 90.0;
-    settings.interfere = [=](MillingPlant& plant, MillingPlant::Command& command) {
+    return with([=](MillingPlant& plant, MillingPlant::Command& command) {
         const double turned = std::clamp((plant.time_s() - begins_s) / ramp_s, 0.0, 1.0);
         command.spindle_speed_rad_s *= 1.0 + (ratio - 1.0) * turned;
-    };
-    return settings;
+    });
 }
 
 /// The edges wear evenly along the first 150 mm of the path.
 SimulationSettings worn_to(double of_section, double of_edge) {
     constexpr double path_mm = 150.0;
-    SimulationSettings settings;
-    settings.longest_run_s = 90.0;
-    settings.interfere = [=](MillingPlant& plant, MillingPlant::Command& command) {
+    return with([=](MillingPlant& plant, MillingPlant::Command& command) {
         const double worn = std::min(command.path_mm / path_mm, 1.0);
         plant.set_wear(1.0 + (of_section - 1.0) * worn, 1.0 + (of_edge - 1.0) * worn);
-    };
-    return settings;
+    });
 }
 
 RunFigures milled(const Scenario& scenario, const SimulationSettings& settings = {}) {
