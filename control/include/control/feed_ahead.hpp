@@ -29,9 +29,9 @@
 ///
 ///   F_at/F_most ≤ κ ≤ (F_at + σ)/F_least
 ///
-/// κ changes only as far as these bounds ask; in a cut that stays the same they are σ apart. Where e exceeds the feed
-/// per tooth, teeth may miss the cut, and the least F lacks their edge forces: f/(f + e N n) of the teeth cut at least,
-/// and one of them.
+/// κ changes only as far as these bounds ask; in a cut that stays the same they are σ apart. Where κ is
+/// below lowest_hardness by 4 σ, the map is refuted. Where e exceeds the feed per tooth, teeth may miss the cut, and
+/// the least F lacks their edge forces: f/(f + e N n) of the teeth cut at least, and one of them.
 ///
 /// At every place the feed may then be v_i. Now it may be the largest v from which the machine, with its acceleration
 /// a, slows down to each of them, d_i ahead. What is asked for acts a reaction time T later, while the tool goes on at
@@ -94,7 +94,7 @@ struct FeedAheadSettings {
     Scalar farthest_off_mm{Scalar(1.5F)};
     Scalar assumed_hardness = literal<Scalar>(1.3L);
     /// Softer than that it is taken for a shallower cut, whose teeth carry more for the same mean force.
-    Scalar lowest_hardness = literal<Scalar>(0.6L);
+    Scalar lowest_hardness = literal<Scalar>(0.65L);
     Scalar highest_hardness{2};
     Scalar hardness_band{Scalar(1.25F)};  ///< ratio by which a force may differ from the map's with the measured κ
     Scalar direction_band = literal<Scalar>(0.2L);  ///< share of F_ax/F_at that the law's r_1 leaves open
@@ -176,6 +176,7 @@ class FeedAhead {
 
     static constexpr Scalar significance{4};        // standard deviations
     static constexpr int enough_disagreements = 3;  // in a rapid one window is longer than disagreement_mm
+    static constexpr int enough_estimates = 20;     // for the averages to have their noise, and no more
 
     [[nodiscard]] const Stretch<Scalar>& at(std::size_t i) const { return window_[(first_ + i) % Capacity]; }
     [[nodiscard]] Scalar end_mm(std::size_t i) const { return at(i + 1).begin_mm; }
@@ -205,6 +206,7 @@ class FeedAhead {
     Scalar measured_N_{0};               // averages of F_at,
     Scalar lowest_N_{0};                 // of the least at κ = 1 that the map may mean,
     Scalar highest_N_{0};                // and of the most
+    int estimates_ = 0;                  // of this program in the averages
     Scalar agreed_mm_{0};
     Scalar disagreed_mm_{0};
     int disagreements_ = 0;  // estimates in a row

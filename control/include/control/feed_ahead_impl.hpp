@@ -17,6 +17,7 @@ FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::restart() {
     empty();
+    estimates_ = 0;
     agreed_mm_ = Scalar(0);
     disagreed_mm_ = Scalar(0);
     disagreements_ = 0;
@@ -163,8 +164,12 @@ void FeedAhead<Scalar, Capacity>::measure_hardness(const Step& now, const Range&
     average(measured_N_, now.tangential_N);
     average(lowest_N_, expected_N.low);
     average(highest_N_, expected_N.high);
+    const Scalar noise_N = noise_of_average * now.tangential_sd_N;
+    estimates_ = estimates_ < enough_estimates ? estimates_ + 1 : estimates_;
+    const bool is_too_soft = measured_N_ + significance * noise_N < settings_.lowest_hardness * lowest_N_;
+    is_refuted_ = is_refuted_ || (estimates_ == enough_estimates && is_too_soft);
     const Scalar least = measured_N_ / highest_N_;
-    const Scalar most = (measured_N_ + noise_of_average * now.tangential_sd_N) / lowest_N_;
+    const Scalar most = (measured_N_ + noise_N) / lowest_N_;
     hardness_ = estimation::clamp(estimation::clamp(hardness_, least, most), settings_.lowest_hardness,
                                   settings_.highest_hardness);
     hardening_ = Scalar(1) - Scalar(1) / hardness_;
