@@ -30,9 +30,9 @@ struct Drive {
 
 /// A machine that starts to follow each answer `reaction_s` later, with the acceleration that was declared. The answers
 /// come once a millisecond, which is part of the reaction.
-Drive drive_along(const std::vector<Stretch<float>>& stretches, float reaction_s) {
+Drive drive_along(const std::vector<Stretch<float>>& stretches, float reaction_s, float told_reaction_s) {
     constexpr float dt_s = 0.001F;
-    const FeedAheadSettings<float> settings = exact(reaction_s);
+    const FeedAheadSettings<float> settings = exact(told_reaction_s);
     Ahead ahead = with(stretches, settings);
     std::deque<float> on_its_way(static_cast<std::size_t>(std::lround(reaction_s / dt_s)) - 1, 0.0F);
     Drive drive;
@@ -40,7 +40,11 @@ Drive drive_along(const std::vector<Stretch<float>>& stretches, float reaction_s
     float feed_mm_s = 0.0F;
     const float largest_change = settings.acceleration_mm_s2 * dt_s;
     while (position_mm < stretches.back().begin_mm - 1.0F && drive.time_s < 60.0F) {
-        on_its_way.push_back(ahead.step(at(position_mm)).feed_mm_s);
+        Ahead::Step now = at(position_mm);
+        now.dt_s = dt_s;
+        now.feed_mm_s = feed_mm_s;
+        now.asked_feed_mm_s = on_its_way.back();
+        on_its_way.push_back(ahead.step(now).feed_mm_s);
         feed_mm_s += std::clamp(on_its_way.front() - feed_mm_s, -largest_change, largest_change);
         on_its_way.pop_front();
         position_mm += feed_mm_s * dt_s;
@@ -48,6 +52,10 @@ Drive drive_along(const std::vector<Stretch<float>>& stretches, float reaction_s
         drive.highest_excess = std::max(drive.highest_excess, feed_mm_s / feed_of_map_at(stretches, position_mm));
     }
     return drive;
+}
+
+Drive drive_along(const std::vector<Stretch<float>>& stretches, float reaction_s) {
+    return drive_along(stretches, reaction_s, reaction_s);
 }
 
 }  // namespace
@@ -87,6 +95,16 @@ TEST(FeedAhead, a_machine_is_never_faster_than_the_map_whatever_lies_ahead) {
     }
 }
 
+TEST(FeedAhead, a_machine_that_answers_20_percent_later_or_30_sooner_than_told_is_no_faster_either) {
+    const std::vector<Stretch<float>> gap = {cut_from(0.0F), air_from(20.0F), cut_from(25.0F, 8.0F), air_from(60.0F),
+                                             air_from(61.0F)};
+    for (const auto& stretches : {wall, gap}) {
+        CHECK_COMPARE(drive_along(stretches, 0.06F, 0.05F).highest_excess, <=, 1.01F);
+        CHECK_COMPARE(drive_along(stretches, 0.035F, 0.05F).highest_excess, <=, 1.01F);
+    }
+    CHECK_COMPARE(drive_along(wall, 0.1F, 0.05F).highest_excess, >, 1.2F);
+}
+
 TEST(FeedAhead, a_gap_is_used_as_far_as_the_acceleration_lets_it) {
     const std::vector<Stretch<float>> gap = {cut_from(0.0F), air_from(20.0F), cut_from(60.0F), air_from(80.0F)};
     const std::vector<Stretch<float>> no_gap = {cut_from(0.0F), air_from(80.0F)};
@@ -99,7 +117,12 @@ TEST(FeedAhead, brakes_earlier_where_the_machine_answers_later_or_the_place_is_l
     const auto feed_with = [](float reaction_s, float farthest_off_mm) {
         FeedAheadSettings<float> settings = exact(reaction_s);
         settings.farthest_off_mm = farthest_off_mm;
-        return with(wall, settings).step(at(wall_mm - 2.5F)).feed_mm_s;
+        Ahead ahead = with(wall, settings);
+        Ahead::Step now = at(wall_mm - 2.5F);
+        now.dt_s = 1.0F;
+        now.feed_mm_s = 20.0F;
+        now.asked_feed_mm_s = 20.0F;
+        return ahead.step(now).feed_mm_s;
     };
     CHECK_COMPARE(feed_with(0.1F, 0.0F), <, feed_with(0.02F, 0.0F));
     CHECK_COMPARE(feed_with(0.02F, 1.0F), <, feed_with(0.02F, 0.0F));
@@ -113,9 +136,34 @@ TEST(FeedAhead, an_exit_counts_as_left_where_no_map_can_be_wrong_about_it) {
     CHECK_COMPARE(ahead.step(at(21.1F)).feed_mm_s, >, 11.0F);
 }
 
+TEST(FeedAhead, a_place_is_passed_once_the_tool_will_be_behind_it_when_the_answer_acts) {
+    Ahead ahead = with({cut_from(0.0F), air_from(20.0F), air_from(60.0F)}, exact(0.1F));
+    Ahead::Step now = at(19.0F);
+    now.dt_s = 1.0F;
+    now.feed_mm_s = 10.0F;
+    now.asked_feed_mm_s = 10.0F;  // a millimetre in the reaction time, 0.7 surely
+    DOUBLES_EQUAL(10.0, static_cast<double>(ahead.step(now).feed_mm_s), 1e-3);
+    now.position_mm = 19.4F;
+    CHECK_COMPARE(ahead.step(now).feed_mm_s, >, 30.0F);
+}
+
+TEST(FeedAhead, a_tool_held_slower_than_asked_is_not_thought_to_go_on_for_ever) {
+    Ahead ahead = with(wall, exact(0.1F));
+    Ahead::Step now = at(30.0F);
+    now.dt_s = 0.001F;
+    now.feed_mm_s = 10.0F;
+    now.asked_feed_mm_s = 40.0F;
+    for (int k = 0; k < 2000; ++k) {
+        (void)ahead.step(now);
+    }
+    // Steady where what is asked for adds as much as leaks: T (u + p)/2 + T (p - u), 1.4 times the reaction time.
+    const double pending_mm = 0.14 * 25.0 + 0.14 * 30.0;
+    DOUBLES_EQUAL(std::sqrt(100.0 + 1000.0 * (10.0 - pending_mm)), static_cast<double>(ahead.step(now).feed_mm_s), 0.5);
+}
+
 TEST(FeedAhead, where_the_window_ends_the_feed_is_down_to_the_blind_one) {
     Ahead ahead = with(wall);
-    Ahead::Step now = at(end_mm - 0.01F);
+    Ahead::Step now = at(end_mm - 0.001F);
     DOUBLES_EQUAL(5.0, static_cast<double>(ahead.step(now).feed_mm_s), 0.1);
     now.position_mm = end_mm;
     CHECK_FALSE(ahead.step(now).known);

@@ -33,16 +33,19 @@
 /// below lowest_hardness by 4 σ, the map is refuted. Where e exceeds the feed per tooth, teeth may miss the cut, and
 /// the least F lacks their edge forces: f/(f + e N n) of the teeth cut at least, and one of them.
 ///
-/// At every place the feed may then be v_i. Now it may be the largest v from which the machine, with its acceleration
-/// a, slows down to each of them, d_i ahead. What is asked for acts a reaction time T later, while the tool goes on at
-/// what was asked for before: a feed that falls by more than d/(e T) would pass the place too fast (e = 2.7). So
+/// At every place the feed may then be v_i. What is asked for now acts a reaction time T later, and until then the tool
+/// goes the pending way s. Its feed is u; p, the feed that it will have by then, follows what is asked for at the
+/// machine's acceleration a:
 ///
-///   (v − v_i) 2.4 T + (v² − v_i²)/(2 a) = d_i − 2 v_i T        v_i where d_i is less than 2 v_i T
-///   v = √((v_i + 2.4 a T)² + 2 a (d_i − 2 v_i T)) − 2.4 a T    the lowest of all i
+///   ds/dt = p − u + [T (u + p)/2 − s]/T
 ///
-/// and at d_i the machine has v_i, to 1 %.
+/// (the last term leads back to a steady change of the feed where a CNC is slower than asked). The feed may be the
+/// largest from which the machine then slows down to each v_i, d_i ahead:
 ///
-/// Each stretch counts from farthest_off_mm before its begin to as far behind its end.
+///   v² = v_i² + 2 a (d_i − s)        v_i² where d_i is less than s        the lowest of all i
+///
+/// T is 1.4 times the reaction time that was told, so that it may be 0.7 to 1.2 times as long. Each stretch counts from
+/// farthest_off_mm before its begin until s/2 has brought the tool as far behind its end.
 ///
 /// The map is used only after the forces have confirmed it. `known` becomes true once measured forces have agreed over
 /// agreement_mm of cut: F_at within what the stretches around the tool may give, with κ between lowest_hardness
@@ -108,6 +111,9 @@ struct FeedAheadStep {
     bool position_known = false;
     Scalar position_mm{0};         ///< along the path
     Scalar travel_mm{0};           ///< since the last step
+    Scalar dt_s{0};                ///< since the last step
+    Scalar feed_mm_s{0};           ///< u, the tool's along the path
+    Scalar asked_feed_mm_s{0};     ///< what was asked for in the last step
     Scalar blind_feed_mm_s{0};     ///< feed that is safe where nothing is known
     Scalar tooth_share{1};         ///< 1/N
     Scalar runout_mm_s{0};         ///< e N n
@@ -181,6 +187,7 @@ class FeedAhead {
     [[nodiscard]] const Stretch<Scalar>& at(std::size_t i) const { return window_[(first_ + i) % Capacity]; }
     [[nodiscard]] Scalar end_mm(std::size_t i) const { return at(i + 1).begin_mm; }
     [[nodiscard]] static bool is_sound(const Step& now);
+    void follow_feed(const Step& now);
     void drop_passed(Scalar behind_mm);
     void compare(const Step& now);
     [[nodiscard]] bool force_agrees(const Step& now, const Expected& expected) const;
@@ -200,6 +207,9 @@ class FeedAhead {
     std::array<Stretch<Scalar>, Capacity> window_{};
     std::size_t first_ = 0;
     std::size_t count_ = 0;
+    Scalar latest_s_;  // T
+    Scalar coming_feed_mm_s_{0};         // p
+    Scalar pending_mm_{0};               // s
     Scalar hardness_;                    // κ
     Scalar hardening_;                   // 1 − 1/κ
     bool is_hardness_measured_ = false;  // κ is known to a tenth

@@ -12,7 +12,7 @@ namespace millforce::control {
 
 template <typename Scalar, std::size_t Capacity>
 FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings)
-    : settings_(settings), hardness_(settings.assumed_hardness), hardening_(Scalar(1) - Scalar(1) / hardness_) {}
+    : settings_(settings), latest_s_(literal<Scalar>(1.4L) * settings.reaction_s), hardness_(settings.assumed_hardness), hardening_(Scalar(1) - Scalar(1) / hardness_) {}
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::restart() {
@@ -52,7 +52,11 @@ bool FeedAhead<Scalar, Capacity>::add(const Stretch<Scalar>& stretch) {
 template <typename Scalar, std::size_t Capacity>
 WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
     WayAhead<Scalar> way;
-    if (!now.position_known || !is_sound(now)) {
+    if (!is_sound(now)) {
+        return way;
+    }
+    follow_feed(now);
+    if (!now.position_known) {
         return way;
     }
     since_estimate_mm_ += now.travel_mm;
@@ -78,8 +82,22 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
 template <typename Scalar, std::size_t Capacity>
 bool FeedAhead<Scalar, Capacity>::is_sound(const Step& now) {
     return estimation::is_finite(now.position_mm) && estimation::is_finite(now.travel_mm) &&
+           estimation::is_finite(now.dt_s) && estimation::is_finite(now.feed_mm_s) && estimation::is_finite(now.asked_feed_mm_s) &&
            estimation::is_finite(now.blind_feed_mm_s) && estimation::is_finite(now.runout_mm_s) &&
            estimation::is_finite(now.mapped_runout_mm_s);
+}
+
+/// What is asked for adds to the way that is pending, what the tool goes takes from it. A CNC that is slower than asked
+/// would add without end: within the reaction time the way falls back to that of a steady change.
+template <typename Scalar, std::size_t Capacity>
+void FeedAhead<Scalar, Capacity>::follow_feed(const Step& now) {
+    using estimation::clamp;
+    const Scalar change_mm_s = settings_.acceleration_mm_s2 * now.dt_s;
+    coming_feed_mm_s_ = clamp(now.asked_feed_mm_s, coming_feed_mm_s_ - change_mm_s, coming_feed_mm_s_ + change_mm_s);
+    const Scalar steady_mm = estimation::halved(latest_s_ * (now.feed_mm_s + coming_feed_mm_s_));
+    const Scalar share = now.dt_s < latest_s_ ? now.dt_s / latest_s_ : Scalar(1);
+    pending_mm_ += now.dt_s * (coming_feed_mm_s_ - now.feed_mm_s);
+    pending_mm_ += share * (steady_mm - pending_mm_);
 }
 
 template <typename Scalar, std::size_t Capacity>
@@ -277,31 +295,29 @@ Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, const Step& now) cons
     return of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
 }
 
-/// In squares of v + 2.4 a T: one root for all.
+/// In squares: one root for all.
 template <typename Scalar, std::size_t Capacity>
 Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     using estimation::square;
     using std::sqrt;
-    constexpr Scalar approach = literal<Scalar>(2.4L);
     const Scalar margin_mm = settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
-    const Scalar twice_T = settings_.reaction_s + settings_.reaction_s;
-    const Scalar lag_mm_s = approach * settings_.acceleration_mm_s2 * settings_.reaction_s;
+    const Scalar acts_mm = now.position_mm + pending_mm_;
+    const Scalar passed_mm = now.position_mm + estimation::halved(pending_mm_);
     const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
-        const Scalar spare_mm = begin_mm - margin_mm - now.position_mm - feed_mm_s * twice_T;
-        const Scalar there = square(feed_mm_s + lag_mm_s);
-        return spare_mm > Scalar(0) ? there + twice_a * spare_mm : there;
+        const Scalar spare_mm = begin_mm - margin_mm - acts_mm;
+        return spare_mm > Scalar(0) ? square(feed_mm_s) + twice_a * spare_mm : square(feed_mm_s);
     };
     const std::size_t last = count_ - 1;  // its begin is where the map ends
     Scalar fastest = square_before(now.blind_feed_mm_s, at(last).begin_mm);
     for (std::size_t i = 0; i < last; ++i) {
-        if (end_mm(i) + margin_mm < now.position_mm) {
+        if (end_mm(i) + margin_mm < passed_mm) {
             continue;
         }
         const Scalar here = square_before(feed_at(i, now), at(i).begin_mm);
         fastest = here < fastest ? here : fastest;
     }
-    return sqrt(fastest) - lag_mm_s;
+    return sqrt(fastest);
 }
 
 }  // namespace millforce::control

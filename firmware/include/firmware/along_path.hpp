@@ -73,6 +73,9 @@ class AlongPath {
         now.position_known = is_known_;
         now.position_mm = path_mm_;
         now.travel_mm = travel_mm_;
+        now.dt_s = tick.step_s();
+        now.feed_mm_s = tick.path_speed_mm_s();
+        now.asked_feed_mm_s = tick.asked_feed_mm_s();
         const Scalar teeth_per_s = teeth_ * estimate.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
         now.blind_feed_mm_s = entry_feed_per_tooth_mm_ * teeth_per_s;
         now.tooth_share = tooth_share_;

@@ -108,6 +108,13 @@ class ForceControlTick {
     /// themselves, and may not raise the feed in that state.)
     [[nodiscard]] estimation::EngagementEstimate<Scalar> engagement() const;
     [[nodiscard]] const control::ControlOutput<Scalar>& control() const { return control_; }
+    /// Since the last sample.
+    [[nodiscard]] Scalar step_s() const { return input_.dt_s; }
+    [[nodiscard]] Scalar path_speed_mm_s() const { return input_.path_speed_mm_s; }
+    /// By the last answer. A rapid has a feed of its own: the present one.
+    [[nodiscard]] Scalar asked_feed_mm_s() const {
+        return input_.rapid ? input_.path_speed_mm_s : control_.ratio * input_.programmed_feed_mm_s;
+    }
     /// R_a or R_z (the tool's `measure`) of the surface in work; not valid without a model or without both forces.
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return surface_.prediction(); }
 

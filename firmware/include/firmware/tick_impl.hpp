@@ -208,8 +208,9 @@ bool ForceControlTick<Scalar, WideBand>::belongs_to_this_feed() const {
     return feed_is_settled() || control_.state != control::CutState::in_cut;
 }
 
-/// In a mapped cut the map stands for the caution: what the forces determine by themselves counts as it is. Elsewhere
-/// the map knows the arc, and with it the tooth's share of F_at.
+/// In a mapped cut the map stands for the caution. What the forces determine by themselves counts half: their depth
+/// trusts the tool's K_s, the map's the blank, and one is off where the other need not be. Elsewhere the map knows the
+/// arc, and with it the tooth's share of F_at.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     using estimation::square;
@@ -221,20 +222,22 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     cut.tooth_force_valid = true;
     cut.forecast = Scalar(1);
-    if (e.tooth_force_N.valid && !cut.tooth_force_is_bound) {
-        cut.tooth_force_N = e.tooth_force_N.value;
-        return;
-    }
+    const Scalar by_map_per_N = input_.way.tooth_per_tangential * e.runout_factor;
     const Scalar now_N = e.newest_tangential_N;
     const Scalar sd_N = sqrt(e.tangential_N.variance);
+    // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
+    const Scalar smooth_N = input_.way.tangential_N > Scalar(0)
+                                ? estimation::clamp(input_.way.tangential_N, now_N - sd_N, now_N + sd_N)
+                                : now_N;
+    if (e.tooth_force_N.valid && !cut.tooth_force_is_bound) {
+        cut.tooth_force_N = estimation::halved(e.tooth_force_N.value + by_map_per_N * smooth_N);
+        return;
+    }
     const Scalar caution_N =
         controller_.parameters().caution_sd * sqrt(e.tangential_N.variance + square(e.tangential_gain_doubt * now_N));
-    // The map's force stands on some ten estimates whose windows overlap: its noise is half of one's.
     const Scalar tangential_N =
-        input_.way.tangential_N > Scalar(0)
-            ? estimation::clamp(input_.way.tangential_N, now_N - sd_N, now_N + sd_N) + estimation::halved(caution_N)
-            : now_N + caution_N;
-    const Scalar by_map_N = input_.way.tooth_per_tangential * tangential_N * e.runout_factor;
+        smooth_N + (input_.way.tangential_N > Scalar(0) ? estimation::halved(caution_N) : caution_N);
+    const Scalar by_map_N = by_map_per_N * tangential_N;
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < cut.least_tooth_force_N);
     cut.tooth_force_N = by_map_N > cut.least_tooth_force_N ? by_map_N : cut.least_tooth_force_N;
 }

@@ -35,6 +35,9 @@ struct TickOfTest {
     [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return now; }
     [[nodiscard]] bool has_new_estimate() const { return true; }
     [[nodiscard]] bool feed_is_settled() const { return true; }
+    [[nodiscard]] Scalar step_s() const { return estimation::literal<Scalar>(0.001L); }
+    [[nodiscard]] Scalar path_speed_mm_s() const { return Scalar(10); }
+    [[nodiscard]] Scalar asked_feed_mm_s() const { return Scalar(10); }
     void set_way_ahead(const control::WayAhead<Scalar>& ahead) { way = ahead; }
 };
 
