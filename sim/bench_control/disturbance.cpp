@@ -4,6 +4,8 @@
 #include <numbers>
 #include <random>
 
+#include "bench_control/drawn_within.hpp"
+
 namespace millforce::sim {
 
 namespace {
@@ -19,10 +21,7 @@ void raise(double& top_mm, double deepest_mm, double oversize) {
 Disturbance drawn_disturbance(std::uint64_t seed) {
     std::seed_seq mixed{seed, std::uint64_t{0x51ed270b}};
     std::mt19937_64 random(mixed);
-    // Not std::uniform_real_distribution: its numbers differ between libraries.
-    const auto within = [&](double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
-    };
+    const auto within = [&](double low, double high) { return drawn_within(low, high, random); };
     Disturbance d;
     d.cutting_force_scale = within(0.7, 1.3);
     d.friction_scale = within(0.8, 1.2);

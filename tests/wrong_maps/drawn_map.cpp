@@ -3,18 +3,10 @@
 
 #include <cmath>
 
+#include "bench_control/drawn_within.hpp"
 #include "wrong_maps/wrong_maps.hpp"
 
 namespace millforce::test {
-
-namespace {
-
-/// Not std::uniform_real_distribution: its numbers differ between libraries.
-double drawn_within(double low, double high, std::mt19937_64& random) {
-    return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
-}
-
-}  // namespace
 
 std::string_view name_of(MapError error) {
     switch (error) {
@@ -41,7 +33,7 @@ std::string_view name_of(MapError error) {
 }
 
 host::PartMap drawn_map(MapError error, const host::PartMap& map, const host::PartMap& other, std::mt19937_64& random) {
-    const double drawn = drawn_within(-1.0, 1.0, random);
+    const double drawn = sim::drawn_within(-1.0, 1.0, random);
     switch (error) {
         case MapError::none:
             break;

@@ -207,7 +207,7 @@ class FeedAhead {
     std::array<Stretch<Scalar>, Capacity> window_{};
     std::size_t first_ = 0;
     std::size_t count_ = 0;
-    Scalar latest_s_;  // T
+    Scalar latest_s_;                    // T
     Scalar coming_feed_mm_s_{0};         // p
     Scalar pending_mm_{0};               // s
     Scalar hardness_;                    // κ

@@ -12,7 +12,10 @@ namespace millforce::control {
 
 template <typename Scalar, std::size_t Capacity>
 FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings)
-    : settings_(settings), latest_s_(literal<Scalar>(1.4L) * settings.reaction_s), hardness_(settings.assumed_hardness), hardening_(Scalar(1) - Scalar(1) / hardness_) {}
+    : settings_(settings),
+      latest_s_(literal<Scalar>(1.4L) * settings.reaction_s),
+      hardness_(settings.assumed_hardness),
+      hardening_(Scalar(1) - Scalar(1) / hardness_) {}
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::restart() {
@@ -82,9 +85,9 @@ WayAhead<Scalar> FeedAhead<Scalar, Capacity>::step(const Step& now) {
 template <typename Scalar, std::size_t Capacity>
 bool FeedAhead<Scalar, Capacity>::is_sound(const Step& now) {
     return estimation::is_finite(now.position_mm) && estimation::is_finite(now.travel_mm) &&
-           estimation::is_finite(now.dt_s) && estimation::is_finite(now.feed_mm_s) && estimation::is_finite(now.asked_feed_mm_s) &&
-           estimation::is_finite(now.blind_feed_mm_s) && estimation::is_finite(now.runout_mm_s) &&
-           estimation::is_finite(now.mapped_runout_mm_s);
+           estimation::is_finite(now.dt_s) && estimation::is_finite(now.feed_mm_s) &&
+           estimation::is_finite(now.asked_feed_mm_s) && estimation::is_finite(now.blind_feed_mm_s) &&
+           estimation::is_finite(now.runout_mm_s) && estimation::is_finite(now.mapped_runout_mm_s);
 }
 
 /// What is asked for adds to the way that is pending, what the tool goes takes from it. A CNC that is slower than asked
