@@ -17,7 +17,7 @@ namespace {
 
 constexpr double plot_width = 760.0;
 constexpr double plot_left = 250.0;
-constexpr double plot_right = 24.0;
+constexpr double plot_right = 42.0;
 constexpr double plot_top = 56.0;
 constexpr double row_height = 24.0;
 constexpr const char* ink = "#808080";
@@ -25,17 +25,28 @@ constexpr const char* ours_colour = "#2f7fd0";
 constexpr const char* rival_colour = "#c9731a";
 constexpr const char* other_colour = "#3fa37c";
 
+std::string ratio_words(double value) {
+    return std::isinf(value) ? "∞" : fmt::format("{:.1f}", value);
+}
+
+std::string percent_words(double value) {
+    return fmt::format("{:.0f} %", 100.0 * value);
+}
+
 std::string colour_of(const Contender& contender) {
     return contender.kind == Contender::Kind::ours ? ours_colour : rival_colour;
 }
 
-/// Rows of names on the left, a common scale above; values beyond it stand at its end.
+/// Rows of names on the left, a common scale above. What is beyond it stands at its end, a mark as an arrow with its
+/// number.
 class RowPlot {
   public:
-    RowPlot(std::string title, double low, double high, std::size_t rows)
+    /// `words`: of a value, as the scale has it.
+    RowPlot(std::string title, double low, double high, std::size_t rows, std::string (*words)(double))
         : title_(std::move(title)),
           low_(low),
           high_(high),
+          words_(words),
           height_(plot_top + row_height * static_cast<double>(rows) + 30.0) {
         text(plot_left, 18.0, "start", title_);
     }
@@ -46,9 +57,9 @@ class RowPlot {
     }
     [[nodiscard]] static double y(std::size_t row) { return plot_top + row_height * (static_cast<double>(row) + 0.5); }
 
-    void tick(double value, const std::string& label) {
+    void tick(double value) {
         line(x(value), plot_top - 4.0, x(value), height_ - 26.0, 0.6, ink, 0.4);
-        text(x(value), plot_top - 9.0, "middle", label);
+        text(x(value), plot_top - 9.0, "middle", words_(value));
     }
     void reference(double value) { line(x(value), plot_top - 4.0, x(value), height_ - 26.0, 1.6, ink, 1.0); }
     void name(std::size_t row, const std::string& words) { text(plot_left - 10.0, y(row) + 4.0, "end", words); }
@@ -56,6 +67,12 @@ class RowPlot {
         line(x(from), y(row), std::max(x(to), x(from) + 0.5), y(row), thickness, colour, thickness > 4.0 ? 0.55 : 1.0);
     }
     void mark(std::size_t row, double value, const std::string& colour) {
+        if (value > high_) {
+            svg_ += fmt::format("<path d=\"M{0:.1f} {1:.1f}v10l7 -5z\" fill=\"{2}\"/>\n", x(value) - 4.0, y(row) - 5.0,
+                                colour);
+            text(plot_width, y(row) + 4.0, "end", words_(value));
+            return;
+        }
         svg_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"/>\n", x(value), y(row), colour);
     }
     void note(const std::string& words) { text(plot_left, height_ - 8.0, "start", words); }
@@ -88,6 +105,7 @@ class RowPlot {
     std::string title_;
     double low_;
     double high_;
+    std::string (*words_)(double);
     double height_;
     std::string svg_;
 };
@@ -113,9 +131,9 @@ std::vector<ContenderFigures> without_bound(const std::vector<ContenderFigures>&
 constexpr const char* spread_note = "dot: median; thick: middle half of the runs; thin: 5 to 95 %";
 
 BenchPlot time_plot(const std::vector<ContenderFigures>& contenders) {
-    RowPlot plot("Time over the clairvoyant bound", 1.0, 4.0, contenders.size());
+    RowPlot plot("Time over the clairvoyant bound", 1.0, 4.0, contenders.size(), ratio_words);
     for (const double value : {1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0}) {
-        plot.tick(value, fmt::format("{:.1f}", value));
+        plot.tick(value);
     }
     for (std::size_t row = 0; row < contenders.size(); ++row) {
         plot.name(row, std::string(contenders[row].contender->title));
@@ -126,9 +144,9 @@ BenchPlot time_plot(const std::vector<ContenderFigures>& contenders) {
 }
 
 BenchPlot peak_plot(const std::vector<ContenderFigures>& contenders) {
-    RowPlot plot("Largest force on a tooth, % of its limit", 0.3, 1.6, contenders.size());
+    RowPlot plot("Largest force on a tooth, % of its limit", 0.3, 1.6, contenders.size(), percent_words);
     for (const double value : {0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6}) {
-        plot.tick(value, fmt::format("{:.0f} %", 100.0 * value));
+        plot.tick(value);
     }
     plot.reference(1.0);
     for (std::size_t row = 0; row < contenders.size(); ++row) {
@@ -162,9 +180,9 @@ double time_of(std::string_view name, const PartFigures& part, const std::vector
 }
 
 BenchPlot part_plot(const std::vector<ContenderFigures>& contenders, const std::vector<PartFigures>& parts) {
-    RowPlot plot("Median time over the bound, by part", 1.0, 4.0, parts.size());
+    RowPlot plot("Median time over the bound, by part", 1.0, 4.0, parts.size(), ratio_words);
     for (const double value : {1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0}) {
-        plot.tick(value, fmt::format("{:.1f}", value));
+        plot.tick(value);
     }
     const auto mark = [&](std::size_t row, double value, const char* colour) {
         if (!std::isnan(value)) {

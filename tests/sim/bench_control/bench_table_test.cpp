@@ -94,6 +94,16 @@ TEST(BenchTable, the_plots_draw_what_it_holds) {
     CHECK_TRUE(test::contains(plots[2].svg, ">pocket_6</text>"));
 }
 
+TEST(BenchTable, a_time_beyond_the_scale_of_a_plot_is_told_beside_an_arrow) {
+    auto runs = known_runs();
+    runs[5].time_s = 6.3 * 30.0;
+    const auto figures = figures_of_runs(runs);
+    const auto plots = bench_plots(figures, figures_of_parts(runs, figures));
+    CHECK_TRUE(test::contains(plots[2].svg, ">6.3</text>"));
+    CHECK_TRUE(test::contains(plots[2].svg, "<path"));
+    CHECK_FALSE(test::contains(plots[0].svg, "<path"));
+}
+
 TEST_GROUP(TuningCost){};
 
 TEST(TuningCost, is_the_mean_logarithm_of_the_times_of_safe_runs) {
