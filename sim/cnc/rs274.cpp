@@ -412,7 +412,10 @@ GcodeProgram moves_of_canonical(std::string_view text, const std::string& file, 
         }
         begin = end + 1;
     }
-    return {reader.take_moves(), {fmt::format("{}: read by LinuxCNC's interpreter, rs274", file)}};
+    return {reader.take_moves(),
+            {fmt::format("{}: read by LinuxCNC's interpreter, rs274, without line numbers: no controller can follow a "
+                         "part map of it",
+                         file)}};
 }
 
 GcodeProgram read_by_rs274(const std::string& file, const GcodeSettings& settings) {
