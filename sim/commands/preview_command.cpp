@@ -99,6 +99,14 @@ double write_map_of_tool(const PreviewOptions& options, const Scenario& scenario
 
 /// T7.map, T12.map, … in the folder.
 double write_maps_of_tools(const PreviewOptions& options, const Scenario& scenario) {
+    const std::vector<host::NumberedTool> tools = host::read_tool_folder(options.tools.folder);
+    for (const std::uint32_t number : options.without_tools) {
+        if (std::ranges::find(tools, number, &host::NumberedTool::number) != tools.end()) {
+            throw host::InputError(
+                fmt::format("--without-tool {}: {} has its file, expected the number of another tool", number,
+                            options.tools.folder));
+        }
+    }
     require_tools_of(scenario, options.without_tools);
     const std::filesystem::path folder = host::results_folder(options.output, "T1.map");
     const std::vector<MapOfTool> maps = preview_of_tools(scenario, options.stock_tolerance_mm);
@@ -106,7 +114,6 @@ double write_maps_of_tools(const PreviewOptions& options, const Scenario& scenar
         throw host::InputError(
             fmt::format("{}: it uses no tool of {}, expected an M6 with one", options.part, options.tools.folder));
     }
-    const std::vector<host::NumberedTool> tools = host::read_tool_folder(options.tools.folder);
     double in_cut_mm = 0.0;
     for (const MapOfTool& of_tool : maps) {
         const auto tool = std::ranges::find(tools, of_tool.number, &host::NumberedTool::number);
@@ -154,7 +161,8 @@ void add_preview(host::Command& program) {
             "--without-tool", options->without_tools,
             "Tool of the program that has no file, such as a drill: in the maps of the others its cut is left standing")
         .one_each_time()
-        .value_name("NUMBER");
+        .value_name("NUMBER")
+        .within(1.0, 4294967295.0);
     command.option("-o,--output", options->output, "Part map to write; with --tools the folder of the maps")
         .required()
         .value_name("PART.map");

@@ -368,4 +368,6 @@ TEST(MapsOfTools, preview_of_a_tool_that_the_folder_lacks_is_refused_and_writes_
     CHECK_FALSE(std::filesystem::exists(inputs.path("maps/T3.map")));
     inputs.write("part.ngc", "T3 M6\nS4000 M3\nG1 X10 F600\nM30\n");
     is_refused(preview, "part.ngc: it uses no tool of ");
+    preview.back() = "12";
+    is_refused(preview, "--without-tool 12: ");
 }
