@@ -32,6 +32,7 @@ struct GcodeSettings {
     /// Position of the tip before the first move.
     Eigen::Vector3d start_mm = Eigen::Vector3d(0.0, 0.0, 50.0);
     std::size_t max_moves = 4'000'000;
+    bool may_change_tool = false;  ///< else another tool after a cut is refused
 };
 
 /// The moves of a program, each beginning where the one before ends; and what was left out of it, in words.

@@ -23,6 +23,7 @@ class Interpreter {
     Interpreter(std::string_view file_name, const GcodeSettings& settings)
         : file_name_(file_name),
           max_moves_(settings.max_moves),
+          may_change_tool_(settings.may_change_tool),
           position_mm_(settings.start_mm),
           start_height_mm_(settings.start_mm.z()) {}
 
@@ -65,6 +66,7 @@ class Interpreter {
 
     std::string_view file_name_;
     std::size_t max_moves_;
+    bool may_change_tool_;
     std::vector<Move> moves_;
     std::vector<std::string> notes_;
     Eigen::Vector3d position_mm_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "cnc/gcode_interpreter.hpp"
 #include "cutting/angle_units.hpp"
@@ -141,8 +143,9 @@ void Interpreter::choose_coordinates(const GcodeWord& word) {
 }
 
 void Interpreter::follow_tool(const SortedBlock& block) {
+    constexpr auto largest_tool = static_cast<double>(std::numeric_limits<std::uint32_t>::max());
     if (const GcodeWord* word = block.address('T')) {
-        if (!(word->value >= 0.0) || word->value != std::floor(word->value)) {
+        if (!(word->value >= 0.0 && word->value <= largest_tool) || word->value != std::floor(word->value)) {
             fail(*word, "a tool number");
         }
         selected_tool_ = word->value;
@@ -151,12 +154,15 @@ void Interpreter::follow_tool(const SortedBlock& block) {
     if (change == nullptr) {
         return;
     }
-    if (has_cut_ && selected_tool_ != tool_) {
-        fail(*change,
-             fmt::format("no other tool than T{}: a scenario has one; split the program at the change", tool_));
+    if (!may_change_tool_ && has_cut_ && selected_tool_ != tool_) {
+        fail(*change, fmt::format("no other tool than T{}: a scenario has one; split the program at the change (its "
+                                  "maps: preview --tools)",
+                                  tool_));
     }
     tool_ = selected_tool_;
-    note("M6: the tool is the scenario's");
+    if (!may_change_tool_) {
+        note("M6: the tool is the scenario's");
+    }
 }
 
 }  // namespace millforce::sim::gcode

@@ -37,6 +37,7 @@ Move Interpreter::next_move(MoveKind kind, const Eigen::Vector3d& target_mm) con
     move.end_mm = target_mm;
     move.spindle_speed_rad_s = spindle_on_ ? spindle_speed_rad_s_ : 0.0;
     move.line = line_;
+    move.tool = static_cast<std::uint32_t>(tool_);
     return move;
 }
 

@@ -28,7 +28,8 @@ struct Move {
     double feed_mm_s = 0.0;                               ///< Programmed feed along the path; 0 for rapid and dwell.
     double spindle_speed_rad_s = 0.0;                     ///< Clockwise (M3), 0: stopped.
     double dwell_s = 0.0;
-    std::size_t line = 0;  ///< 1-based line of the part program.
+    std::size_t line = 0;    ///< 1-based line of the part program.
+    std::uint32_t tool = 0;  ///< Number of the last M6; 0: none yet.
 };
 
 bool is_arc(const Move& move);

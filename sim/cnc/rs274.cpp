@@ -215,7 +215,10 @@ std::optional<Command> command_of(std::string_view line) {
 class CanonicalReader {
   public:
     CanonicalReader(const std::string& file, const GcodeSettings& settings)
-        : file_(file), max_moves_(settings.max_moves), position_mm_(settings.start_mm) {}
+        : file_(file),
+          max_moves_(settings.max_moves),
+          may_change_tool_(settings.may_change_tool),
+          position_mm_(settings.start_mm) {}
 
     void run(const Command& command) {
         if (command.name == "USE_LENGTH_UNITS") {
@@ -302,7 +305,7 @@ class CanonicalReader {
     }
 
     void change_tool(double tool) {
-        if (has_cut_ && tool != tool_) {
+        if (!may_change_tool_ && has_cut_ && tool != tool_) {
             fail(fmt::format("T{}, expected no other tool than T{}: a scenario has one", tool, tool_));
         }
         tool_ = tool;
@@ -315,6 +318,7 @@ class CanonicalReader {
         move.end_mm = end_mm;
         move.spindle_speed_rad_s = spindle_on_ ? spindle_speed_rad_s_ : 0.0;
         move.feed_mm_s = kind == MoveKind::rapid || kind == MoveKind::dwell ? 0.0 : feed_mm_s_;
+        move.tool = static_cast<std::uint32_t>(tool_);
         return move;
     }
 
@@ -371,6 +375,7 @@ class CanonicalReader {
 
     std::string file_;
     std::size_t max_moves_;
+    bool may_change_tool_;
     std::vector<Move> moves_;
     Eigen::Vector3d position_mm_;
     double mm_per_unit_ = 1.0;
@@ -407,7 +412,10 @@ GcodeProgram moves_of_canonical(std::string_view text, const std::string& file, 
         }
         begin = end + 1;
     }
-    return {reader.take_moves(), {fmt::format("{}: read by LinuxCNC's interpreter, rs274", file)}};
+    return {reader.take_moves(),
+            {fmt::format("{}: read by LinuxCNC's interpreter, rs274, without line numbers: no controller can follow a "
+                         "part map of it",
+                         file)}};
 }
 
 GcodeProgram read_by_rs274(const std::string& file, const GcodeSettings& settings) {

@@ -80,13 +80,21 @@ void read_profile(Table& root, Scenario& scenario) {
     table.reject_unknown_keys();
 }
 
-void read_cutter(Table& root, const firmware::ToolParameters<float>& tool, Cutter& cutter) {
-    Table table = root.table("cutter");
-    constexpr CutterType types[] = {CutterType::end_mill, CutterType::face_mill, CutterType::ball_end_mill};
-    cutter.type = types[table.choice("type", {"end_mill", "face_mill", "ball_end_mill"}, 0)];
+Cutter end_mill_of(const firmware::ToolParameters<float>& tool) {
+    Cutter cutter;
+    cutter.type = CutterType::end_mill;
     cutter.teeth = tool.teeth;
     cutter.diameter_mm = static_cast<double>(tool.diameter_mm);
     cutter.flute_length_mm = static_cast<double>(tool.flute_length_mm);
+    cutter.helix_rad = static_cast<double>(tool.helix_deg) * degree;
+    return cutter;
+}
+
+void read_cutter(Table& root, const firmware::ToolParameters<float>& tool, Cutter& cutter) {
+    Table table = root.table("cutter");
+    constexpr CutterType types[] = {CutterType::end_mill, CutterType::face_mill, CutterType::ball_end_mill};
+    cutter = end_mill_of(tool);
+    cutter.type = types[table.choice("type", {"end_mill", "face_mill", "ball_end_mill"}, 0)];
     cutter.helix_rad = table.number("helix_deg", 0.0, 60.0, static_cast<double>(tool.helix_deg)) * degree;
     cutter.rake_rad = table.number("rake_deg", -30.0, 30.0, 8.0) * degree;
     cutter.lead_angle_rad = table.number("lead_angle_deg", 10.0, 90.0, 90.0) * degree;
@@ -186,6 +194,13 @@ void tilt(CuttingCoefficients& k, const PlantDeviation& deviation) {
     k.size_effect.radial_exponent += radial_shift;
 }
 
+void read_stock_of(Table& root, const std::string& file, StockSettings& stock) {
+    if (!root.has("stock")) {
+        throw host::InputError(file + ": no table [stock]");
+    }
+    read_stock(root, stock);
+}
+
 }  // namespace
 
 void StockSettings::move_by(double x_mm, double y_mm) {
@@ -239,10 +254,23 @@ Scenario read_part(const std::string& program_path, const std::string& stock_pat
     host::TomlFile file = host::TomlFile::open(stock_path);
     Table root = file.root();
     read_cutter(root, scenario.parameters.tool, scenario.cutter);
-    if (!root.has("stock")) {
-        throw host::InputError(stock_path + ": no table [stock]");
+    read_stock_of(root, stock_path, scenario.stock);
+    return scenario;
+}
+
+Scenario read_part_of_tools(const std::string& program_path, const std::string& stock_path,
+                            const std::vector<firmware::NumberedTool>& tools) {
+    Scenario scenario;
+    scenario.program_file = program_path;
+    host::TomlFile file = host::TomlFile::open(stock_path);
+    Table root = file.root();
+    if (root.has("cutter")) {
+        throw host::InputError(stock_path + ": table [cutter], expected none with --tools: each tool is an end mill");
     }
-    read_stock(root, scenario.stock);
+    for (const firmware::NumberedTool& tool : tools) {
+        scenario.numbered_cutters.push_back({tool.number, end_mill_of(tool.parameters)});
+    }
+    read_stock_of(root, stock_path, scenario.stock);
     return scenario;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cutting/cutting_force.hpp"
+#include "firmware/parameter_block.hpp"
 #include "firmware/parameters.hpp"
 #include "machine/machine_plant.hpp"
 
@@ -73,6 +74,12 @@ struct PlantDeviation {
 /// latter.
 enum class Interpreter { automatic, own, rs274 };
 
+/// A cutter under the number by which a part program calls it.
+struct NumberedCutter {
+    std::uint32_t number = 0;
+    Cutter cutter{};
+};
+
 struct Scenario {
     std::string name;
     std::string title;
@@ -90,6 +97,7 @@ struct Scenario {
     ProfileSettings profile{};
 
     Cutter cutter{};
+    std::vector<NumberedCutter> numbered_cutters{};  ///< of a program that changes its tool: preview_of_tools() alone
     CuttingCoefficients coefficients{};
     CuttingForceOptions cutting_options{};
     PlantDeviation deviation{};
@@ -107,6 +115,10 @@ Scenario read_scenario(const std::string& path);
 /// A part program on the [stock] of a TOML file (its other tables may hold anything), cut with the tool of a tool.toml:
 /// what geometry needs, and no more. Throws InputError.
 Scenario read_part(const std::string& program_path, const std::string& stock_path, const std::string& tool_path);
+
+/// The same for a program that changes its tool. Each is an end mill: no table [cutter].
+Scenario read_part_of_tools(const std::string& program_path, const std::string& stock_path,
+                            const std::vector<firmware::NumberedTool>& tools);
 
 /// Puts the deviation into the plant's settings, and the seed. Called once before a run.
 Scenario deviated(const Scenario& scenario, const PlantDeviation& deviation, std::uint64_t seed);

@@ -184,6 +184,7 @@ GcodeProgram program_of(const Scenario& scenario) {
     }
     GcodeSettings settings;
     settings.start_mm = {scenario.stock.start_x_mm, scenario.stock.start_y_mm, scenario.stock.start_z_mm};
+    settings.may_change_tool = !scenario.numbered_cutters.empty();
     switch (scenario.interpreter) {
         case Interpreter::own:
             return read_by_ourselves(scenario.program_file, settings);

@@ -29,6 +29,15 @@ StockWorkpiece::StockWorkpiece(const StockSettings& settings, const Cutter& cutt
     }
 }
 
+void StockWorkpiece::change_tool(const Cutter& cutter) {
+    if (last_tip_mm_) {
+        map_.remove(cutter_, removed_up_to_mm_, *last_tip_mm_);
+    }
+    last_tip_mm_.reset();
+    cutter_ = cutter;
+    look_ahead_ = LookAhead(cutter, map_.cell_mm());
+}
+
 bool StockWorkpiece::move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double) {
     const double engagement_step_mm = 0.35 * map_.cell_mm();
     if (last_tip_mm_ && (tip_mm - *last_tip_mm_).norm() < engagement_step_mm) {

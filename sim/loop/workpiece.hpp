@@ -34,6 +34,8 @@ class Workpiece {
 class StockWorkpiece : public Workpiece {
   public:
     StockWorkpiece(const StockSettings& settings, const Cutter& cutter);
+    /// The next place is that of another tool, wherever it is.
+    void change_tool(const Cutter& cutter);
     bool move_to(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& direction, double path_mm) override;
 
   private:

@@ -61,6 +61,16 @@ TEST(Output, an_input_is_not_overwritten_by_whatever_name) {
                                  {"tool.toml", "would be overwritten"})
                          .c_str());
     STRCMP_EQUAL(conditions.c_str(), in.read("cuts.csv").c_str());
+    const std::string stock =
+        "[stock]\nmin_x_mm = 0\nmin_y_mm = -10\nmax_x_mm = 10\nmax_y_mm = 10\ntop_mm = 0\ncell_mm = 0.5\n"
+        "start_x_mm = -20\nstart_y_mm = 0\nstart_z_mm = 5\n";
+    in.write("part.ngc", "S4000 M3\nG1 X10 F600\nM30\n");
+    in.write("stock.toml", stock);
+    STRCMP_EQUAL("", not_refused(run_millforce({"preview", in.name("part.ngc"), "--stock", in.name("stock.toml"),
+                                                "--tool", in.name("tool.toml"), "-o", in.name("stock.toml")}),
+                                 {"stock.toml", "would be overwritten"})
+                         .c_str());
+    STRCMP_EQUAL(stock.c_str(), in.read("stock.toml").c_str());
 }
 
 TEST(Output, a_table_without_rows_and_a_folder_in_place_of_a_file_are_refused) {

@@ -338,3 +338,36 @@ TEST(MapsOfTools, each_tool_leaves_the_map_of_its_own_path_in_the_folder_of_lear
     words.back() = inputs.name("part.ngc");
     is_refused(words, "part.ngc: cannot create the folder");
 }
+
+TEST(MapsOfTools, preview_makes_one_for_each_tool_that_the_program_uses) {
+    inputs.write("part.ngc", "G21 G90 G94\nT7 M6\nS4000 M3\nG1 X10 F600\nT12 M6\nG1 X-10\nM5\nM30\n");
+    std::vector<std::string> preview{"preview", inputs.name("part.ngc"), "--stock", inputs.name("stock.toml"),
+                                     "--tools", inputs.name("tools"),    "-o",      inputs.name("maps")};
+    const Ended ended = run_millforce(preview);
+    LONGS_EQUAL(0, ended.exit_code);
+    CHECK(contains(ended.out, "T7.map: 30 mm of path, ") && contains(ended.out, "T12.map: 20 mm of path, "));
+    Program served(serve({"maps/T7.map", "maps/T12.map"}));
+    CHECK(served.says("maps/T12.map: looks ahead in part.ngc, 20 mm of path, with T12\n"));
+    served.interrupt(SIGTERM);
+    served.wait();
+    inputs.write("tools/T12.toml", with(tool_text, "diameter_mm = 10", "diameter_mm = 8"));
+    is_refused(serve({"maps/T7.map", "maps/T12.map"}), "maps/T12.map: made for another tool ('T12') than those of ");
+    preview.insert(preview.end(), {"--tool", inputs.name("tool.toml")});
+    is_refused(preview, "--tool, --tools: both were given, expected one of the two");
+}
+
+TEST(MapsOfTools, preview_of_a_tool_that_the_folder_lacks_is_refused_and_writes_nothing) {
+    inputs.write("part.ngc", "T7 M6\nS4000 M3\nG1 X10 F600\nT3 M6\nG1 X5\nM30\n");
+    std::vector<std::string> preview{"preview", inputs.name("part.ngc"), "--stock", inputs.name("stock.toml"),
+                                     "--tools", inputs.name("tools"),    "-o",      inputs.name("maps")};
+    is_refused(preview, "part.ngc:5: a feed of T3, which has no file: expected T3.toml, or --without-tool 3");
+    CHECK_FALSE(std::filesystem::exists(inputs.path("maps")));
+    preview.insert(preview.end(), {"--without-tool", "3"});
+    LONGS_EQUAL(0, run_millforce(preview).exit_code);
+    CHECK(std::filesystem::exists(inputs.path("maps/T7.map")));
+    CHECK_FALSE(std::filesystem::exists(inputs.path("maps/T3.map")));
+    inputs.write("part.ngc", "T3 M6\nS4000 M3\nG1 X10 F600\nM30\n");
+    is_refused(preview, "part.ngc: it uses no tool of ");
+    preview.back() = "12";
+    is_refused(preview, "--without-tool 12: ");
+}

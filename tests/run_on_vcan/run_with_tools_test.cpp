@@ -58,6 +58,24 @@ M30
 constexpr std::size_t line_of_first_slot = 4;
 constexpr std::size_t line_of_second_slot = 9;
 
+/// Tool 12 widens the slot of tool 7 by 6 mm: in steel alone it would meet a full slot.
+const std::string widened_slot = R"(G21 G90 G94
+T7 M6
+S4000 M3
+G0 X-8 Z-5
+G1 X26 F1500
+G0 Z5
+G0 X-20 Y6
+T12 M6
+G4 P5
+G0 X-8 Z-5
+G1 X26
+G0 Z5
+M5
+M30
+)";
+constexpr std::size_t line_of_widening = 11;
+
 const std::string wide_stock = R"([stock]
 min_x_mm = 0
 min_y_mm = -12
@@ -225,6 +243,13 @@ TEST_GROUP(RunWithMapsOfTools) {
     [[nodiscard]] double time_s() const {
         return std::stod(member(folder.text("out/summary.json"), "time_s"));
     }
+    /// In the middle of the line's block.
+    [[nodiscard]] static double immersion_in(const host::PartMap& map, std::size_t line) {
+        const auto of_line = [line](const host::MapPlace& place) { return place.line == line; };
+        const auto begin = std::ranges::find_if(map, of_line);
+        const auto middle = begin + std::ranges::count_if(map, of_line) / 2;
+        return immersion_of(*middle);
+    }
     [[nodiscard]] bool cuts_in(const std::string& map, std::size_t line) const {
         const host::PartMap places = host::read_part_map(folder.file(map)).map;
         return std::ranges::any_of(
@@ -246,4 +271,33 @@ TEST(RunWithMapsOfTools, each_tool_looks_ahead_in_its_own_map_and_leaves_its_own
 
     mill({"--map", folder.file("seen/T7.map"), "--map", folder.file("seen/T12.map")});
     CHECK_COMPARE(time_s(), <, 0.92 * blind_s);
+}
+
+TEST(RunWithMapsOfTools, those_of_preview_hold_what_the_tool_before_has_left) {
+    const std::string plant_program = test::with(test::with(widened_slot, "T7 M6", "(T7)"), "T12 M6", "(T12)");
+    folder.write("part.ngc", widened_slot);
+    folder.write("plant.ngc", plant_program);  // the plant has one tool, which goes by both numbers
+    folder.write("scenario.toml", test::with(part_scenario, "part.ngc", "plant.ngc") + wide_stock);
+    mill({"--learn", folder.file("seen")});
+    const double blind_s = time_s();
+
+    const test::Ended preview =
+        test::run_millforce({"preview", folder.file("part.ngc"), "--stock", folder.file("stock.toml"), "--tools",
+                             folder.file("tools"), "-o", folder.file("drawn")});
+    STRCMP_EQUAL("", preview.error.c_str());
+    const host::PartMap widening = host::read_part_map(folder.file("drawn/T12.map")).map;
+    DOUBLES_EQUAL(6.0 / 5.0, immersion_in(widening, line_of_widening), 0.05);
+
+    const std::string says = mill({"--map", folder.file("drawn/T7.map"), "--map", folder.file("drawn/T12.map")});
+    CHECK(has(says, "T7.map: looks ahead in part.ngc, ") && has(says, "T12.map: looks ahead in part.ngc, "));
+    CHECK_FALSE(has(folder.text("run.jsonl"), "map_refuted"));
+    CHECK_COMPARE(time_s(), <, 0.85 * blind_s);
+
+    for (const std::string tool : {"T7", "T12"}) {
+        const test::Ended join = test::run_millforce(
+            {"map", "join", folder.file("drawn/" + tool + ".map"), folder.file("seen/" + tool + ".map"), "--tool",
+             folder.file("tools/" + tool + ".toml"), "-o", folder.file(tool + ".joined")});
+        STRCMP_EQUAL("", join.error.c_str());
+        LONGS_EQUAL(0, join.exit_code);
+    }
 }

@@ -101,6 +101,7 @@ extern template Option Command::option(const std::string&, std::uint64_t&, const
 extern template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
 extern template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
 extern template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+extern template Option Command::option(const std::string&, std::vector<std::uint32_t>&, const std::string&);
 extern template Option Command::option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
 
 /// --tool and --tools, of which one must be given: ToolChoice::require_one().

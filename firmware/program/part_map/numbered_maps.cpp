@@ -34,7 +34,9 @@ std::uint32_t number_of_map(const std::string& map_file, const MapOrigin& origin
     if (named != of_geometry.end()) {
         return *named;
     }
-    if (of_geometry.empty()) {
+    const bool has_name = std::ranges::any_of(
+        tools, [&](const firmware::NumberedTool& tool) { return origin.tool == fmt::format("T{}", tool.number); });
+    if (has_name || of_geometry.empty()) {
         throw InputError(
             fmt::format("{}: made for another tool ('{}') than those of {}", map_file, origin.tool, folder));
     }

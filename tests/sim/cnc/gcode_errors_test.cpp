@@ -41,7 +41,7 @@ TEST(GcodeErrors, unknown_words_and_codes) {
                   "part.ngc:3:1: found 'G55', expected G54: one system of coordinates in a program");
     check_refusal("T1 M6\nG1 X1\nT2 M6",
                   "part.ngc:4:4: found 'M6', expected no other tool than T1: a scenario has one; split the program at "
-                  "the change");
+                  "the change (its maps: preview --tools)");
     check_refusal("M4", "part.ngc:2:1: found 'M4', expected M3: the cutter is right-handed and cuts clockwise only");
     check_refusal("M48", "part.ngc:2:1: found 'M48', expected one of M0 M1 M2 M3 M5 M6 M7 M8 M9 M30 M52");
     check_refusal("M3.5", "part.ngc:2:1: found 'M3.5', expected one of M0 M1 M2 M3 M5 M6 M7 M8 M9 M30 M52");

@@ -110,7 +110,7 @@ TEST(Rs274, reads_subroutines_and_variables) {
         "[7]\nM2\n");
     const GcodeProgram program = read_by_rs274(file.name());
     DOUBLES_EQUAL(14.0, way_mm(program, MoveKind::feed_line), 1e-9);
-    CHECK(contains(program.notes.at(0), "read by LinuxCNC's interpreter"));
+    CHECK(contains(program.notes.at(0), "read by LinuxCNC's interpreter, rs274, without line numbers"));
 }
 
 TEST(Rs274, comes_to_the_same_moves_as_our_own_reader) {

@@ -50,7 +50,13 @@ TEST(NumberOfMap, is_that_of_its_name_else_of_the_only_tool_with_its_geometry) {
     std::vector<firmware::NumberedTool> tools = tools_of({7});
     tools.push_back({12, tools_of({12}, 3).front().parameters});
     UNSIGNED_LONGS_EQUAL(7, number_of_map("part.map", origin_with("endmill"), "tools", tools));
-    UNSIGNED_LONGS_EQUAL(7, number_of_map("part.map", origin_with("T12"), "tools", tools));
+    UNSIGNED_LONGS_EQUAL(7, number_of_map("part.map", origin_with("T15"), "tools", tools));
+}
+
+TEST(NumberOfMap, is_not_that_of_another_tool_where_the_one_of_its_name_has_become_another) {
+    std::vector<firmware::NumberedTool> tools = tools_of({7});
+    tools.push_back({12, tools_of({12}, 3).front().parameters});
+    STRCMP_CONTAINS("part.map: made for another tool ('T12') than those of tools", refusal("T12", tools).c_str());
 }
 
 TEST(NumberOfMap, is_refused_in_words_where_no_tool_or_more_than_one_may_be_meant) {
