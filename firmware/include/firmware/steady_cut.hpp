@@ -27,7 +27,8 @@ namespace millforce::firmware {
 ///
 /// Doubt outlasts the cut, until re-zeroing in air finds the currents as they should be.
 ///
-/// Not seen: a drift of a machine that knows no force along the feed, and one before ₀.
+/// Not seen: a drift of a machine that knows no force along the feed, and one before ₀. Where the width is not known,
+/// or is no longer: lone_fall.hpp.
 ///
 /// Cost: some 40 operations, two square roots and two divisions an estimate. No heap. One thread.
 template <typename Scalar>

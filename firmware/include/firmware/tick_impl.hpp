@@ -332,6 +332,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     if (air_periods_ >= enough) {
         was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
         steady_cut_.clear();
+        lone_fall_.clear();
         slow_fall_.clear();
         air_periods_ = enough;
     } else {
@@ -389,8 +390,10 @@ void ForceControlTick<Scalar, WideBand>::allow_for_drift() {
         steady_cut_.follow(e);
     } else if (!control::is_cutting(control_.state)) {
         steady_cut_.leave_cut();
+        lone_fall_.leave_cut();
     }
-    const Scalar largest_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
+    const Scalar by_steady_cut_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
+    const Scalar largest_N = lone_fall_.largest_force_N(e, by_steady_cut_N, is_in_cut());
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || largest_N > cut.tooth_force_N;
     cut.tooth_force_N = largest_N;
     if (!e.x_N.valid && !e.y_N.valid && !input_.way.known) {
