@@ -35,9 +35,13 @@ CutEstimate<float> with_known_width(CutEstimate<float> e) {
     return e;
 }
 
+float per_root_feed(const CutEstimate<float>& e) {
+    return e.feed_per_tooth_mm > 0.0F ? 1.0F / std::sqrt(e.feed_per_tooth_mm) : 0.0F;
+}
+
 void follow(LoneFall& fall, const CutEstimate<float>& e, int times = 2 * settled) {
     for (int k = 0; k < times; ++k) {
-        static_cast<void>(fall.largest_force_N(e, e.tooth_force_N.value, true));
+        static_cast<void>(fall.largest_force_N(e, e.tooth_force_N.value, per_root_feed(e), true));
     }
 }
 
@@ -48,7 +52,7 @@ LoneFall in_cut() {
 }
 
 double possible_N(LoneFall& fall, const CutEstimate<float>& e) {
-    return static_cast<double>(fall.largest_force_N(e, e.tooth_force_N.value, false));
+    return static_cast<double>(fall.largest_force_N(e, e.tooth_force_N.value, per_root_feed(e), false));
 }
 
 }  // namespace
@@ -104,7 +108,10 @@ TEST(LoneFall, sees_a_feed_that_halves_for_no_fall) {
 
 TEST(LoneFall, lowers_no_force) {
     follow(fall, cut_of(0.8F, 1.0F));
-    DOUBLES_EQUAL(900.0, static_cast<double>(fall.largest_force_N(cut_of(0.8F, 1.0F), 900.0F, false)), 1e-3);
+    DOUBLES_EQUAL(
+        900.0,
+        static_cast<double>(fall.largest_force_N(cut_of(0.8F, 1.0F), 900.0F, per_root_feed(cut_of(0.8F, 1.0F)), false)),
+        1e-3);
 }
 
 TEST(LoneFall, compares_with_the_heaviest_cut_since_both_forces_last_changed_at_once) {
@@ -146,6 +153,21 @@ TEST(LoneFall, takes_the_smallest_bound_that_was_found_before_the_fall) {
     follow(fall, better_known);
     follow(fall, cut_of(0.8F, 1.0F));
     DOUBLES_EQUAL(500.0, possible_N(fall, cut_of(0.8F, 1.0F)), 500.0 * believed_first);
+}
+
+TEST(LoneFall, is_not_raised_by_a_bound_that_was_less_well_known_for_a_while) {
+    CutEstimate<float> less_known = cut_of(1.0F, 1.0F);
+    less_known.tooth_force_N.value = 800.0F;
+    follow(fall, less_known);
+    follow(fall, cut_of(0.8F, 1.0F));
+    DOUBLES_EQUAL(600.0, possible_N(fall, cut_of(0.8F, 1.0F)), 600.0 * believed_first);
+}
+
+TEST(LoneFall, sees_a_cut_that_pushes_the_axes_as_one_that_pulls_them) {
+    LoneFall pushed;
+    follow(pushed, cut_of(1.0F, -1.0F));
+    follow(pushed, cut_of(0.8F, -1.0F));
+    DOUBLES_EQUAL(600.0, possible_N(pushed, cut_of(0.8F, -1.0F)), 600.0 * believed_first);
 }
 
 TEST(LoneFall, leaves_a_narrower_cut_of_known_width_as_it_is) {
@@ -211,6 +233,14 @@ TEST(LoneFall, does_not_follow_what_is_not_known) {
     }
 }
 
+TEST(LoneFall, keeps_its_doubt_over_an_estimate_without_feed) {
+    follow(fall, cut_of(0.8F, 1.0F));
+    CutEstimate<float> without_feed = cut_of(0.8F, 1.0F);
+    without_feed.feed_per_tooth_mm = 0.0F;
+    follow(fall, without_feed, 1);
+    DOUBLES_EQUAL(600.0, possible_N(fall, cut_of(0.8F, 1.0F)), 600.0 * believed_first);
+}
+
 TEST(LoneFall, knows_nothing_of_a_cut_before_its_first_estimates) {
     LoneFall fresh;
     follow(fresh, cut_of(1.0F, 1.0F), settled / 4);
@@ -224,6 +254,13 @@ TEST(LoneFall, hears_nothing_of_axes_whose_force_may_be_a_wrong_friction) {
     follow(fall, lost_in_noise);
     DOUBLES_EQUAL(480.0, possible_N(fall, lost_in_noise), 1e-3);
     DOUBLES_EQUAL(480.0, possible_N(fall, cut_of(0.8F, 1.0F)), 1e-3);
+
+    LoneFall never_heard;
+    CutEstimate<float> whole = cut_of(1.0F, 1.0F);
+    whole.feed_N.variance = lost_in_noise.feed_N.variance;
+    follow(never_heard, whole);
+    follow(never_heard, lost_in_noise);
+    DOUBLES_EQUAL(480.0, possible_N(never_heard, cut_of(0.8F, 1.0F)), 1e-3);
 }
 
 TEST(LoneFall, outlasts_the_cut_until_the_currents_are_found_sound) {
@@ -238,7 +275,7 @@ TEST(LoneFall, outlasts_the_cut_until_the_currents_are_found_sound) {
 
 TEST(LoneFall, follows_no_cut_that_begins_or_ends) {
     for (int k = 0; k < 2 * settled; ++k) {
-        static_cast<void>(fall.largest_force_N(cut_of(0.8F, 1.0F), 480.0F, false));
+        static_cast<void>(fall.largest_force_N(cut_of(0.8F, 1.0F), 480.0F, per_root_feed(cut_of(0.8F, 1.0F)), false));
     }
     DOUBLES_EQUAL(480.0, possible_N(fall, cut_of(0.8F, 1.0F)), 1e-3);
 }

@@ -25,7 +25,7 @@ namespace millforce::firmware {
 /// cut, until re-zeroing in air finds the currents as they should be. Where the width is known: steady_cut.hpp. Where
 /// no force along the feed is: slow_fall.hpp.
 ///
-/// Cost: some 30 operations, a square root and four divisions an estimate. No heap. One thread.
+/// Cost: some 30 operations, a square root and two divisions an estimate. No heap. One thread.
 template <typename Scalar>
 class LoneFall {
   public:
@@ -37,20 +37,19 @@ class LoneFall {
     void clear() { *this = LoneFall(); }
 
     /// The tooth force that a new estimate leaves possible, not below the `tooth_force_N` by its own account.
-    /// `follows`: the cut neither begins nor ends.
-    [[nodiscard]] Scalar largest_force_N(const Estimate& e, Scalar tooth_force_N, bool follows) {
-        using std::sqrt;
+    /// `per_root_feed`: 1/√f, 0 without a feed. `follows`: the cut neither begins nor ends.
+    [[nodiscard]] Scalar largest_force_N(const Estimate& e, Scalar tooth_force_N, Scalar per_root_feed, bool follows) {
         const Scalar axes_N = by_axes_N(e);
         if (!e.tangential_N.valid || !(e.tangential_N.value > Scalar(0)) || !(axes_N > Scalar(0)) ||
-            !(e.feed_per_tooth_mm > Scalar(0))) {
+            !(per_root_feed > Scalar(0))) {
             return tooth_force_N;
         }
-        const Scalar root = sqrt(e.feed_per_tooth_mm);
-        const Forces now{e.tangential_N.value / root, axes_N / root, tooth_force_N / root};
+        const Forces now{e.tangential_N.value * per_root_feed, axes_N * per_root_feed, tooth_force_N * per_root_feed};
         if (follows && e.tooth_force_N.valid) {
             follow(now, is_width_known(e));
         }
-        const Scalar possible_N = has_fallen_ ? first_.tooth * share_of_axes(now) * root : Scalar(0);
+        const Scalar root_feed = e.feed_per_tooth_mm * per_root_feed;
+        const Scalar possible_N = has_fallen_ ? first_.tooth * share_of_axes(now) * root_feed : Scalar(0);
         return possible_N > tooth_force_N ? possible_N : tooth_force_N;
     }
 
@@ -85,7 +84,7 @@ class LoneFall {
 
     void follow(const Forces& now, bool width_is_known) {
         constexpr Scalar share{0.0625F};
-        if (estimates_ == 0 || (is_step(now.spindle, mean_.spindle) && is_step(now.axes, mean_.axes))) {
+        if (is_step(now.spindle, mean_.spindle) && is_step(now.axes, mean_.axes)) {
             clear();
             mean_ = now;
         }
@@ -102,12 +101,14 @@ class LoneFall {
 
     void compare(bool width_is_known) {
         constexpr Scalar least_share = estimation::literal<Scalar>(0.05L);
-        const Scalar axes = share_of_axes(mean_);
-        const bool may_fall_alone = width_is_known && !has_fallen_;
-        has_fallen_ = !may_fall_alone && mean_.spindle < (axes - least_share) * first_.spindle;
-        if (may_fall_alone || mean_.spindle > first_.spindle) {
+        if ((width_is_known && !has_fallen_) || mean_.spindle > first_.spindle) {
+            has_fallen_ = false;
             first_ = mean_;
-        } else if (!has_fallen_ && mean_.tooth < axes * first_.tooth) {
+            return;
+        }
+        const Scalar axes = share_of_axes(mean_);
+        has_fallen_ = mean_.spindle < (axes - least_share) * first_.spindle;
+        if (!has_fallen_ && mean_.tooth < axes * first_.tooth) {
             first_.tooth = mean_.tooth / axes;
         }
     }
