@@ -3,6 +3,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <cmath>
+
 using millforce::estimation::CutEstimate;
 using millforce::estimation::Measurement;
 using SteadyCut = millforce::firmware::SteadyCut<float>;
@@ -38,9 +40,13 @@ CutEstimate<float> cut_with_drift(float tangential_N, float feed_N) {
     return e;
 }
 
+float per_root_feed(const CutEstimate<float>& e) {
+    return e.feed_per_tooth_mm > 0.0F ? 1.0F / std::sqrt(e.feed_per_tooth_mm) : 0.0F;
+}
+
 void follow(SteadyCut& cut, const CutEstimate<float>& e, int times) {
     for (int k = 0; k < times; ++k) {
-        cut.follow(e);
+        cut.follow(e, per_root_feed(e));
     }
 }
 
@@ -104,7 +110,7 @@ TEST(SteadyCut, begins_anew_where_both_forces_change_at_once) {
     SteadyCut cut = in_steady_cut();
     const CutEstimate<float> other = cut_with_drift(200.0F, 110.0F);
     for (int k = 0; k < 4 * settled; ++k) {
-        cut.follow(other);
+        cut.follow(other, per_root_feed(other));
         DOUBLES_EQUAL(400.0, largest_N(cut, other), 1e-3);
     }
 }

@@ -4,6 +4,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
+
 using namespace millforce;
 using namespace millforce::test;
 using control::CutState;
@@ -28,6 +30,12 @@ hal::DriveSample at_rest(int index) {
     sample.axis_velocity_mm_s = {};
     sample.axis_current_A = {};
     return sample;
+}
+
+/// From the third second on the spindle's current loses half of what the cut asks for within 2.5 s.
+hal::DriveSample fading(int index) {
+    const int faded = std::clamp(index - 3000, 0, 2500);
+    return with_share_of_force(index, 1.0F - 0.5F * static_cast<float>(faded) / 2500.0F);
 }
 
 control::WayAhead<float> with_cut(bool may_cut) {
@@ -78,4 +86,19 @@ TEST(TickInDoubt, shows_an_engagement_in_the_cut_alone_and_while_it_is_held) {
     }
     CHECK(tick.control().state == CutState::hold);
     CHECK(tick.engagement().immersion_valid);
+}
+
+/// Forces along the feed that stay contradict it. The axes of this cut do not determine its width: the tooth force is a
+/// bound, some twice F_at.
+TEST(TickInDoubt, hardly_speeds_up_on_a_spindle_current_that_fades_while_the_axes_carry_what_they_did) {
+    float before = 0.0F;
+    float highest = 0.0F;
+    for (int k = 0; k < 7000; ++k) {
+        step_and_work(tick, fading(k), program());
+        before = k == 3000 ? tick.control().ratio : before;
+        highest = k > 3000 ? std::max(highest, tick.control().ratio) : highest;
+    }
+    CHECK(tick.control().fault == control::Fault::none);
+    CHECK(before > 0.5F);
+    CHECK(highest < 1.15F * before);
 }

@@ -27,9 +27,10 @@ namespace millforce::firmware {
 ///
 /// Doubt outlasts the cut, until re-zeroing in air finds the currents as they should be.
 ///
-/// Not seen: a drift of a machine that knows no force along the feed, and one before ₀.
+/// Not seen: a drift of a machine that knows no force along the feed, and one before ₀. Where the width is not known,
+/// or is no longer: lone_fall.hpp.
 ///
-/// Cost: some 40 operations, two square roots and two divisions an estimate. No heap. One thread.
+/// Cost: some 40 operations, two divisions an estimate. No heap. One thread.
 template <typename Scalar>
 class SteadyCut {
   public:
@@ -38,8 +39,9 @@ class SteadyCut {
     /// Re-zeroing in air has found the currents to be as they should.
     void clear() { *this = {}; }
 
-    /// A new estimate in a cut that neither begins nor ends.
-    void follow(const estimation::CutEstimate<Scalar>& e);
+    /// A new estimate in a cut that neither begins nor ends. `per_root_feed`: 1/√f, since a force grows with the feed
+    /// by a power between 0, of edge force alone, and 0.8, by 1/2 roughly; 0 without a feed.
+    void follow(const estimation::CutEstimate<Scalar>& e, Scalar per_root_feed);
     /// The tooth force that the new estimate leaves possible, not below `tooth_force_N`.
     [[nodiscard]] Scalar largest_force_N(const estimation::CutEstimate<Scalar>& e, Scalar tooth_force_N) const;
 
@@ -47,8 +49,6 @@ class SteadyCut {
     enum Quantity { spindle, axes, immersion, depth, quantities };
     using Cut = Eigen::Matrix<Scalar, quantities, 1, Eigen::DontAlign>;
 
-    [[nodiscard]] static Scalar by_feed(const estimation::Measurement<Scalar>& force_N,
-                                        const estimation::CutEstimate<Scalar>& e);
     [[nodiscard]] bool is_step(const Cut& cut) const;
     void begin(const estimation::CutEstimate<Scalar>& e);
     [[nodiscard]] bool has_moved(const estimation::EngagementEstimate<Scalar>& engagement) const;

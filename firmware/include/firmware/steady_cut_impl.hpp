@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-
 #include "estimation/number/literal.hpp"
 #include "firmware/steady_cut.hpp"
 
@@ -25,34 +23,26 @@ Scalar SteadyCut<Scalar>::largest_force_N(const estimation::CutEstimate<Scalar>&
 }
 
 template <typename Scalar>
-void SteadyCut<Scalar>::follow(const estimation::CutEstimate<Scalar>& e) {
+void SteadyCut<Scalar>::follow(const estimation::CutEstimate<Scalar>& e, Scalar per_root_feed) {
     constexpr Scalar well_known_sd = estimation::literal<Scalar>(0.2L);
     const bool is_known = e.engagement.immersion_valid && e.engagement.radial_immersion_sd < well_known_sd &&
                           e.engagement.depth_valid && e.feed_N.valid;
-    if (!is_known || !(e.tangential_N.value > Scalar(0)) || !(e.feed_per_tooth_mm > Scalar(0))) {
+    if (!is_known || !(e.tangential_N.value > Scalar(0)) || !(per_root_feed > Scalar(0))) {
         return;
     }
-    const Cut cut{by_feed(e.tangential_N, e), by_feed(e.feed_N, e), e.engagement.radial_immersion,
+    const Scalar axes_N = e.feed_N.value < Scalar(0) ? -e.feed_N.value : e.feed_N.value;
+    const Cut cut{e.tangential_N.value * per_root_feed, axes_N * per_root_feed, e.engagement.radial_immersion,
                   e.engagement.axial_depth_mm};
     if (estimates_ == 0 || is_step(cut)) {
         mean_ = cut;
         estimates_ = 0;
         is_doubtful_ = false;
     }
-    mean_ += (cut - mean_) / Scalar(settled);
+    mean_ += (cut - mean_) * Scalar(1.0F / settled);
     if (estimates_ < settled && ++estimates_ == settled) {
         begin(e);
     }
     is_doubtful_ = estimates_ == settled && has_moved(e.engagement);
-}
-
-/// A force grows with the feed by a power between 0, of edge force alone, and 0.8: by 1/2, roughly.
-template <typename Scalar>
-Scalar SteadyCut<Scalar>::by_feed(const estimation::Measurement<Scalar>& force_N,
-                                  const estimation::CutEstimate<Scalar>& e) {
-    using std::sqrt;
-    const Scalar size_N = force_N.value < Scalar(0) ? -force_N.value : force_N.value;
-    return size_N / sqrt(e.feed_per_tooth_mm);
 }
 
 template <typename Scalar>

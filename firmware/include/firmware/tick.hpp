@@ -7,6 +7,7 @@
 #include "estimation/cut_estimator.hpp"
 #include "firmware/carried_immersion.hpp"
 #include "firmware/load_answer.hpp"
+#include "firmware/lone_fall.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/settled_feed.hpp"
 #include "firmware/signal_supervisor.hpp"
@@ -147,6 +148,7 @@ class ForceControlTick {
     WideBand wide_band_;
     CarriedImmersion<Scalar> drops_{};
     SteadyCut<Scalar> steady_cut_{};
+    LoneFall<Scalar> lone_fall_{};
     SlowFall<Scalar> slow_fall_;
     LoadAnswer<Scalar> load_answer_;
     SurfaceMonitor<Scalar> surface_;

@@ -45,11 +45,11 @@ ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& p
       contact_torque_Nm_(contact_torque_Nm(parameters)),
       settled_feed_(load_delay_s(parameters.machine)) {}
 
-/// Over the window, or over the last tooth period alone where that is larger.
+/// Over the window, or over the last tooth period alone where that is larger. One that is not valid is 0, and so is its
+/// variance.
 template <typename Scalar>
 static const estimation::Measurement<Scalar>& newest_tangential(const estimation::CutEstimate<Scalar>& e) {
-    const bool tooth_is_higher = e.tooth_tangential_N.valid && e.tooth_tangential_N.value > e.tangential_N.value;
-    return tooth_is_higher ? e.tooth_tangential_N : e.tangential_N;
+    return e.tooth_tangential_N.value > e.tangential_N.value ? e.tooth_tangential_N : e.tangential_N;
 }
 
 /// The sign of a cut: the newest force, or that of the last revolutions where it lies more of its standard deviations
@@ -59,8 +59,7 @@ static const estimation::Measurement<Scalar>& clearest_tangential(const estimati
     using std::sqrt;
     const estimation::Measurement<Scalar>& newest = newest_tangential(e);
     const estimation::Measurement<Scalar>& steady = e.steady_tangential_N;
-    const bool steady_is_clearer =
-        steady.valid && steady.value * sqrt(newest.variance) > newest.value * sqrt(steady.variance);
+    const bool steady_is_clearer = steady.value * sqrt(newest.variance) > newest.value * sqrt(steady.variance);
     return steady_is_clearer ? steady : newest;
 }
 
@@ -335,6 +334,7 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     if (air_periods_ >= enough) {
         was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
         steady_cut_.clear();
+        lone_fall_.clear();
         slow_fall_.clear();
         air_periods_ = enough;
     } else {
@@ -386,14 +386,19 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
 /// Of currents, within the cut.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::allow_for_drift() {
+    using std::sqrt;
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     control::CutEstimateForControl<Scalar>& cut = input_.cut;
+    const bool has_feed = e.feed_per_tooth_mm > Scalar(0);
+    const Scalar per_root_feed = has_feed ? Scalar(1) / sqrt(e.feed_per_tooth_mm) : Scalar(0);
     if (is_in_cut()) {
-        steady_cut_.follow(e);
+        steady_cut_.follow(e, per_root_feed);
     } else if (!control::is_cutting(control_.state)) {
         steady_cut_.leave_cut();
+        lone_fall_.leave_cut();
     }
-    const Scalar largest_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
+    const Scalar by_steady_cut_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
+    const Scalar largest_N = lone_fall_.largest_force_N(e, by_steady_cut_N, per_root_feed, is_in_cut());
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || largest_N > cut.tooth_force_N;
     cut.tooth_force_N = largest_N;
     if (!e.x_N.valid && !e.y_N.valid && !input_.way.known) {

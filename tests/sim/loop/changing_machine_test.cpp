@@ -112,8 +112,8 @@ TEST(ChangingMachine, slows_down_and_holds_the_limit_while_the_edges_wear_within
     }
 }
 
-/// Edge forces that are twice those of the tool's file pass for a wider cut, on whose teeth the force is spread: the
-/// limit is passed by a fifth.
+/// Edge forces that are twice those of the tool's file pass for a deeper cut, whose helix spreads the force over more
+/// teeth: the limit is passed by a fifth.
 TEST(ChangingMachine, breaks_no_tooth_where_a_worn_edge_doubles_its_force) {
     for (const char* name : {"depth_ramp", "width_step"}) {
         for (const bool has_axes : {true, false}) {
@@ -122,4 +122,22 @@ TEST(ChangingMachine, breaks_no_tooth_where_a_worn_edge_doubles_its_force) {
             CHECK(worn.peak_over_limit < 1.3);
         }
     }
+}
+
+/// In a steel that is 30 % harder as well, the worn edges alone load a tooth with 115 % of its limit at the lowest
+/// feed.
+TEST(ChangingMachine, takes_no_worn_edge_for_a_depth_that_the_flutes_do_not_reach) {
+    Scenario scenario = part("depth_ramp", true, 1.3);
+    CHECK(milled(scenario, worn_to(1.3, 2.0)).peak_over_limit > 1.3);
+    scenario.parameters.tool.flute_length_mm = 10.0F;  // a millimetre more than the deepest cut
+    CHECK(milled(scenario, worn_to(1.3, 2.0)).peak_over_limit < 1.17);
+}
+
+TEST(ChangingMachine, loses_no_time_by_flutes_that_are_hardly_longer_than_the_cut_is_deep) {
+    Scenario scenario = part("depth_ramp", true);
+    const RunFigures with_long_flutes = milled(scenario);
+    scenario.parameters.tool.flute_length_mm = 10.0F;
+    const RunFigures figures = milled(scenario);
+    CHECK(bounds_hold(figures));
+    CHECK(figures.time_s < 1.01 * with_long_flutes.time_s);
 }

@@ -68,13 +68,6 @@ template <typename Scalar>
 [[nodiscard]] EngagementEstimate<Scalar> better_of_sides(const EngagementEstimate<Scalar>& down,
                                                          const EngagementEstimate<Scalar>& up) {
     const Scalar advantage = up.misfit - down.misfit;
-    if (down.immersion_valid != up.immersion_valid) {
-        const EngagementEstimate<Scalar>& only = down.immersion_valid ? down : up;
-        const EngagementEstimate<Scalar>& other = down.immersion_valid ? up : down;
-        if (other.misfit - only.misfit > threshold_of_95_percent<Scalar>) {
-            return only;
-        }
-    }
     if (advantage > threshold_of_95_percent<Scalar>) {
         return down;
     }
