@@ -67,7 +67,7 @@ TwinSearch::TwinSearch(const DrawnCut& seen, const Recording& recording)
     if (!air_is_right()) {
         return;
     }
-    nodes_.reserve(2 * (arcs + 1));
+    nodes_.reserve(std::size_t{2} * (arcs + 1));
     for (const bool is_up : {false, true}) {
         for (int arc = 0; arc <= arcs; ++arc) {
             const double range_rad = std::numbers::pi - smallest_engagement_rad;
