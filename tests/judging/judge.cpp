@@ -3,18 +3,43 @@
 
 #include "firmware/tick.hpp"
 #include "judging/recording.hpp"
+#include "judging/twin.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace millforce::judging {
 
 namespace {
 
 constexpr double detection_revolutions = 2.0;
-constexpr double misfit_of_the_right_model = 3.84;  // in 95 of 100 windows
 
-void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, Verdict& verdict) {
+/// Searches only where it is asked.
+class Twins {
+  public:
+    Twins(const DrawnCut& drawn, const Recording& recording) : drawn_(drawn), recording_(recording) {}
+    std::vector<Twin> at(std::size_t sample) {
+        if (!search_) {
+            search_.emplace(drawn_, recording_);
+        }
+        return search_->twins_at(sample);
+    }
+
+  private:
+    const DrawnCut& drawn_;
+    const Recording& recording_;
+    std::optional<TwinSearch> search_;
+};
+
+bool any_has_immersion(const std::vector<Twin>& twins, double radial_immersion, double tolerance) {
+    return std::ranges::any_of(
+        twins, [=](const Twin& twin) { return std::abs(twin.cut.radial_immersion - radial_immersion) <= tolerance; });
+}
+
+void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, std::size_t sample, Twins& twins,
+          Verdict& verdict) {
     const estimation::EngagementEstimate<float> e = tick.engagement();
     const auto within = [](double value, double centre, double sd) { return std::abs(value - centre) <= sd; };
     const double immersion = drawn.cut.radial_immersion;
@@ -25,13 +50,11 @@ void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, 
     const auto sd_mm = static_cast<double>(e.axial_depth_sd_mm);
     ++verdict.looks;
     verdict.last_has_immersion = e.immersion_valid;
-    const auto misfit = static_cast<double>(e.misfit);
-    verdict.largest_misfit = std::max(verdict.largest_misfit, misfit);
     if (e.immersion_valid) {
         ++verdict.immersions;
         const bool is_beyond = !within(immersion, estimate, 3.0 * sd);
         verdict.immersions_beyond += is_beyond ? 1 : 0;
-        verdict.beyond_explained += is_beyond && misfit < misfit_of_the_right_model ? 1 : 0;
+        verdict.beyond_with_twin += is_beyond && any_has_immersion(twins.at(sample), estimate, 3.0 * sd) ? 1 : 0;
         verdict.last_immersion_covers = immersion >= static_cast<double>(e.radial_immersion_low) &&
                                         immersion <= static_cast<double>(e.radial_immersion_high);
     }
@@ -44,27 +67,31 @@ void look(const firmware::ForceControlTick<float>& tick, const DrawnCut& drawn, 
     }
 }
 
-/// The override at which a tooth of the true cut is 5 % beyond its limit: as much as a gain's doubt of 2 % and the
-/// caution for the rest may miss.
-double allowed_override(const DrawnCut& drawn) {
-    constexpr double most_mm = 1.0;
-    constexpr double tolerated_share = 1.05;
-    const double tolerated_N = tolerated_share * static_cast<double>(drawn.stated.tool.tooth_force_limit_N);
-    const double allowed_mm = feed_per_tooth_at_limit_mm(drawn.cut, tolerated_N, most_mm);
-    return drawn.override * allowed_mm / drawn.cut.feed_per_tooth_mm;
+bool any_twin_allows(const std::vector<Twin>& twins, const DrawnCut& drawn, double override_ratio) {
+    constexpr std::size_t most_tried = 24;
+    const std::size_t step = twins.size() / most_tried + 1;
+    for (std::size_t i = 0; i < twins.size(); i += step) {
+        if (allowed_override(twins[i].cut, drawn) >= override_ratio) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace
 
 Verdict judge(const DrawnCut& drawn) {
     const Recording recording = record(drawn);
-    const double allowed = allowed_override(drawn);
+    const double allowed = allowed_override(drawn.cut, drawn);
     const double samples_per_turn = 1000.0 / drawn.turns_per_s;
     const auto first = recording.whole_from + static_cast<std::size_t>(4.0 * samples_per_turn);
     const auto every = static_cast<std::size_t>(4.0 * samples_per_turn);
     firmware::ForceControlTick<float> tick(drawn.stated);
+    Twins twins(drawn, recording);
     Verdict verdict;
     double above = 0.0;
+    double fastest = allowed;  // at a look
+    std::size_t fastest_at = 0;
     for (std::size_t i = 0; i < recording.samples.size(); ++i) {
         hal::ProgramStatus program = recording.program;
         program.rapid = i < recording.rapid_end;
@@ -72,14 +99,19 @@ Verdict judge(const DrawnCut& drawn) {
         if (i < first) {
             continue;
         }
-        if ((i - first) % every == 0) {
-            look(tick, drawn, verdict);
-        }
         const double ratio = output.hold ? 0.0 : static_cast<double>(output.ratio);
+        if ((i - first) % every == 0) {
+            look(tick, drawn, i, twins, verdict);
+            fastest_at = ratio > fastest ? i : fastest_at;
+            fastest = std::max(fastest, ratio);
+        }
         above = ratio > allowed ? above + 1.0 : 0.0;
         verdict.revolutions_above = std::max(verdict.revolutions_above, above / samples_per_turn);
         verdict.largest_excess = std::max(verdict.largest_excess, ratio / allowed);
         verdict.has_fault = verdict.has_fault || output.fault != 0;
+    }
+    if (verdict.revolutions_above > detection_revolutions && fastest_at > 0) {
+        verdict.is_right_for_a_twin = any_twin_allows(twins.at(fastest_at), drawn, fastest);
     }
     return verdict;
 }
@@ -92,13 +124,13 @@ void Tally::add(const Verdict& v) {
     depths_cover += v.last_has_depth && v.last_depth_covers ? 1 : 0;
     immersions += v.immersions;
     immersions_beyond += v.immersions_beyond;
-    beyond_explained += v.beyond_explained;
+    beyond_with_twin += v.beyond_with_twin;
     depths += v.depths;
     depths_beyond += v.depths_beyond;
     depths_beyond_flute += v.depths_beyond_flute;
     const bool is_too_fast = v.revolutions_above > detection_revolutions;
     cuts_too_fast += is_too_fast ? 1 : 0;
-    too_fast_explained += is_too_fast && v.largest_misfit < misfit_of_the_right_model ? 1 : 0;
+    too_fast_with_twin += is_too_fast && v.is_right_for_a_twin ? 1 : 0;
     largest_excess = is_too_fast ? std::max(largest_excess, v.largest_excess) : largest_excess;
     faults += v.has_fault ? 1 : 0;
 }

@@ -32,10 +32,10 @@ Tally tally_of(const firmware::Parameters<float>& files, Wrong wrong, int cuts, 
 void print(Wrong wrong, const Tally& t) {
     fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} ({:.2f}) | {} | {} |\n", name_of(wrong),
                percent(t.cuts_with_immersion, t.cuts), percent(t.immersions_cover, t.cuts_with_immersion),
-               percent(t.immersions_beyond, t.immersions), percent(t.beyond_explained, t.immersions_beyond),
+               percent(t.immersions_beyond, t.immersions), percent(t.beyond_with_twin, t.immersions_beyond),
                percent(t.cuts_with_depth, t.cuts), percent(t.depths_cover, t.cuts_with_depth),
                percent(t.depths_beyond, t.depths), t.depths_beyond_flute, percent(t.cuts_too_fast, t.cuts),
-               t.largest_excess, percent(t.too_fast_explained, t.cuts_too_fast), percent(t.faults, t.cuts));
+               t.largest_excess, percent(t.too_fast_with_twin, t.cuts_too_fast), percent(t.faults, t.cuts));
 }
 
 }  // namespace
@@ -59,9 +59,10 @@ int main(int argc, char** argv) {
     work(0);
     other.join();
     fmt::print(
-        "| wrong | R_r, % of cuts | covered | beyond 3 sd | of these J < 3.84 | a_p, % of cuts | covered | beyond 3 sd "
+        "| wrong | R_r, % of cuts | covered | beyond 3 sd | of these with a twin | a_p, % of cuts | covered | beyond 3 "
+        "sd "
         "| beyond the "
-        "flute | too fast, % of cuts (worst) | of these J < 3.84 | faults, % "
+        "flute | too fast, % of cuts (worst) | of these with a twin | faults, % "
         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (std::size_t i = 0; i < wrongs.size(); ++i) {
         print(wrongs[i], tallies[i]);
