@@ -91,7 +91,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"bus.drive", "current_reversed", "", "The drive counts the current against the machine axis."},
     {"bus.drive", "rated_torque_Nm", "N·m", "Rated torque, the unit of 0x6077; 0: read from 0x6076. For the current see rated_current_A in the drive's table; if that is 0: read from 0x6075."},
     {"bus.drive", "torque_constant_Nm_per_A", "N·m/A", "Torque constant of the motor, for current_source = \"torque\"."},
-    {"bus.drive", "largest_share_of_rated", "1", "A current or torque of more than this multiple of the rated one is not used."},
+    {"bus.drive", "largest_share_of_rated", "1", "A current or torque of more than this multiple of the rated one is not used; best below the drive's limit."},
     {"bus.drive", "velocity_source", "", "Axes: 0x606C (velocity), or the difference of 0x6064 between two SYNCs (position).", may_be_left_out, "velocity|position"},
     {"bus.drive", "velocity_mm_s_per_unit", "mm/s", "Unit of 0x606C; negative: the drive counts against the machine axis."},
     {"bus.drive", "position_mm_per_unit", "mm", "Unit of 0x6064; with both units the two are compared. 0: not known."},

@@ -166,6 +166,22 @@ TEST(DriveBus, a_current_in_milliamperes_instead_of_per_mille_is_out_of_range) {
     CHECK(machine.bus.rejects()[Reject::current_range] >= 4);
 }
 
+TEST(DriveBus, a_drive_at_its_torque_limit_tells_no_current_where_the_largest_share_is_just_below_it) {
+    BusSettings settings = two_drives();
+    settings.drives[0].largest_share_of_rated = 1.45F;
+    TwoDrives machine(settings);
+    machine.run_ms(50);
+    const double limit_A = 1.5 * 1e-3 * machine.spindle().object(object::rated_current_mA, 0);
+    for (const double noise : {-0.02, 0.0, 0.02}) {
+        machine.spindle().set_current_A((1.0 + noise) * limit_A);
+        machine.run_ms(5);
+        CHECK_FALSE(has(machine.samples.back(), hal::Present::spindle_current));
+    }
+    machine.spindle().set_current_A(0.9 * limit_A);
+    machine.run_ms(5);
+    CHECK_TRUE(has(machine.samples.back(), hal::Present::spindle_current));
+}
+
 TEST(DriveBus, a_spindle_count_that_jumps_is_withheld_once_and_followed_from_there) {
     BusSettings settings = two_drives();
     settings.drives[0].largest_count_step = 500;
