@@ -147,6 +147,16 @@ TEST(FeedAhead, a_place_is_passed_once_the_tool_will_be_behind_it_when_the_answe
     CHECK_COMPARE(ahead.step(now).feed_mm_s, >, 30.0F);
 }
 
+TEST(FeedAhead, a_tool_that_is_held_passes_no_place_however_fast_it_is_asked_to_go) {
+    Ahead ahead = with({cut_from(0.0F), air_from(20.0F), air_from(60.0F)}, exact(0.1F));
+    Ahead::Step now = at(19.9F);
+    now.dt_s = 0.01F;
+    now.asked_feed_mm_s = 40.0F;
+    for (int k = 0; k < 200; ++k) {
+        DOUBLES_EQUAL(10.0, static_cast<double>(ahead.step(now).feed_mm_s), 1e-3);
+    }
+}
+
 TEST(FeedAhead, a_tool_held_slower_than_asked_is_not_thought_to_go_on_for_ever) {
     Ahead ahead = with(wall, exact(0.1F));
     Ahead::Step now = at(30.0F);

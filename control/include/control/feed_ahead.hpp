@@ -45,7 +45,7 @@
 ///   v² = v_i² + 2 a (d_i − s)        v_i² where d_i is less than s        the lowest of all i
 ///
 /// T is 1.4 times the reaction time that was told, so that it may be 0.7 to 1.2 times as long. Each stretch counts from
-/// farthest_off_mm before its begin until s/2 has brought the tool as far behind its end.
+/// farthest_off_mm before its begin until s/2, and no more than T u/2, has brought the tool as far behind its end.
 ///
 /// The map is used only after the forces have confirmed it. `known` becomes true once measured forces have agreed over
 /// agreement_mm of cut: F_at within what the stretches around the tool may give, with κ between lowest_hardness

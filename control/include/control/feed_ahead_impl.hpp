@@ -306,7 +306,9 @@ Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     const Scalar margin_mm = settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
     const Scalar acts_mm = now.position_mm + pending_mm_;
-    const Scalar passed_mm = now.position_mm + estimation::halved(pending_mm_);
+    const Scalar at_this_feed_mm = latest_s_ * now.feed_mm_s;
+    const Scalar surely_mm = estimation::halved(pending_mm_ < at_this_feed_mm ? pending_mm_ : at_this_feed_mm);
+    const Scalar passed_mm = now.position_mm + surely_mm;
     const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
         const Scalar spare_mm = begin_mm - margin_mm - acts_mm;
         return spare_mm > Scalar(0) ? square(feed_mm_s) + twice_a * spare_mm : square(feed_mm_s);
