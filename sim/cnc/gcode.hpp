@@ -14,6 +14,7 @@ inline constexpr double mm_per_inch = 25.4;
 inline constexpr double largest_coordinate_mm = 1e5;  ///< largest in a part program
 inline constexpr double largest_feed_mm_min = 1e7;    ///< programs that mean "as fast as it goes" write some millions
 inline constexpr double largest_spindle_speed_rpm = 1e6;
+inline constexpr double largest_tool = 4294967295.0;
 inline constexpr double longest_dwell_s = 3600.0;
 
 /// Part programs in plain G-code (RS-274, the common subset), read as if hostile. The codes, with what each does, is

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "cnc/gcode_interpreter.hpp"
 #include "cutting/angle_units.hpp"
@@ -143,7 +142,6 @@ void Interpreter::choose_coordinates(const GcodeWord& word) {
 }
 
 void Interpreter::follow_tool(const SortedBlock& block) {
-    constexpr auto largest_tool = static_cast<double>(std::numeric_limits<std::uint32_t>::max());
     if (const GcodeWord* word = block.address('T')) {
         if (!(word->value >= 0.0 && word->value <= largest_tool) || word->value != std::floor(word->value)) {
             fail(*word, "a tool number");

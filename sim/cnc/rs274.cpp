@@ -305,6 +305,9 @@ class CanonicalReader {
     }
 
     void change_tool(double tool) {
+        if (!(tool >= 0.0 && tool <= largest_tool)) {
+            fail(fmt::format("tool {}, expected one from 0 to {}", tool, largest_tool));
+        }
         if (!may_change_tool_ && has_cut_ && tool != tool_) {
             fail(fmt::format("T{}, expected no other tool than T{}: a scenario has one", tool, tool_));
         }
@@ -332,9 +335,17 @@ class CanonicalReader {
             }
             has_cut_ = true;
         }
+        require_within_reach(move.end_mm);
         position_mm_ = move.end_mm;
         if (length_mm(move) > 0.0) {
             append(move);
+        }
+    }
+
+    /// The way of an arc may lie further out than its ends.
+    void require_within_reach(const Eigen::Vector3d& place_mm) const {
+        if (!(place_mm.cwiseAbs().maxCoeff() <= largest_coordinate_mm)) {
+            fail("a position beyond 100000 mm");
         }
     }
 

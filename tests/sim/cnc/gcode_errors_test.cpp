@@ -49,6 +49,14 @@ TEST(GcodeErrors, unknown_words_and_codes) {
                   "part.ngc:2:1: found 'O100', expected a program without O-words: let the CAM system post it whole");
 }
 
+TEST(GcodeErrors, an_arc_whose_way_lies_further_out_than_its_ends) {
+    const auto refusal_of = [](const char* arc) { return refusal_of_body(std::string("G0 X99999\n") + arc); };
+    const std::string outwards = refusal_of("G18 G2 Z8 K4");
+    const std::string inwards = refusal_of("G18 G3 Z8 K4");
+    CHECK_TRUE(outwards.empty() != inwards.empty());
+    CHECK_TRUE((outwards + inwards).find("a way within 100000 mm of the origin") != std::string::npos);
+}
+
 TEST(GcodeErrors, two_words_of_one_group) {
     check_refusal("G0 G1 X1", "part.ngc:2:4: found 'G1', expected no second word of the group of 'G0' in one block");
     check_refusal("G1 X1 X2", "part.ngc:2:7: found 'X2', expected no second word of the group of 'X1' in one block");

@@ -90,6 +90,8 @@ TEST(Canonical, what_the_plant_does_not_have_and_rubbish_are_refused_or_skipped)
     CHECK(contains(refusal("1 N..... STRAIGHT_TRAVERSE(1e9, 0, 0)"), "beyond 100000 mm"));
     CHECK(contains(refusal("1 N..... RIGID_TAP(1, 0, 0)"), "RIGID_TAP"));
     CHECK(contains(refusal("1 N..... SET_FEED_RATE(1e308)"), "a feed of 1e+308 mm/min"));
+    CHECK(contains(refusal("1 N..... CHANGE_TOOL(1e30)"), "expected one from 0 to 4294967295"));
+    CHECK(contains(refusal("1 N..... CHANGE_TOOL(-1)"), "tool -1"));
     CHECK(contains(refusal("1 N..... SET_SPINDLE_SPEED(0, 1e7)"), "a spindle speed of 10000000 rev/min"));
     CHECK(contains(refusal("1 N..... DWELL(-1)"), "a dwell of -1 s"));
     CHECK(contains(refusal("1 N..... DWELL(1e9)"), "a dwell of 1000000000 s"));
