@@ -17,6 +17,11 @@ inline constexpr double largest_spindle_speed_rpm = 1e6;
 inline constexpr double largest_tool = 4294967295.0;
 inline constexpr double longest_dwell_s = 3600.0;
 
+/// The way of an arc may lie further out than its ends: asked of each move's end.
+[[nodiscard]] inline bool is_within_reach(const Eigen::Vector3d& place_mm) {
+    return place_mm.cwiseAbs().maxCoeff() <= largest_coordinate_mm;
+}
+
 /// Part programs in plain G-code (RS-274, the common subset), read as if hostile. The codes, with what each does, is
 /// ignored for or is refused with: sim/cnc/README.md.
 ///

@@ -71,8 +71,8 @@ void Interpreter::append(const Move& move, const GcodeWord& subject) {
     if (moves_.size() >= max_moves_) {
         fail(subject, fmt::format("a program of at most {} moves", max_moves_));
     }
-    if (!(move.end_mm.cwiseAbs().maxCoeff() <= largest_coordinate_mm)) {
-        fail(subject, "a way within 100000 mm of the origin");  // an arc's may lie further out than its ends
+    if (!is_within_reach(move.end_mm)) {
+        fail(subject, "a way within 100000 mm of the origin");
     }
     moves_.push_back(move);
 }

@@ -335,17 +335,12 @@ class CanonicalReader {
             }
             has_cut_ = true;
         }
-        require_within_reach(move.end_mm);
+        if (!is_within_reach(move.end_mm)) {
+            fail("a position beyond 100000 mm");
+        }
         position_mm_ = move.end_mm;
         if (length_mm(move) > 0.0) {
             append(move);
-        }
-    }
-
-    /// The way of an arc may lie further out than its ends.
-    void require_within_reach(const Eigen::Vector3d& place_mm) const {
-        if (!(place_mm.cwiseAbs().maxCoeff() <= largest_coordinate_mm)) {
-            fail("a position beyond 100000 mm");
         }
     }
 

@@ -162,7 +162,7 @@ void add_preview(host::Command& program) {
             "Tool of the program that has no file, such as a drill: in the maps of the others its cut is left standing")
         .one_each_time()
         .value_name("NUMBER")
-        .within(1.0, 4294967295.0);
+        .within(1.0, largest_tool);
     command.option("-o,--output", options->output, "Part map to write; with --tools the folder of the maps")
         .required()
         .value_name("PART.map");

@@ -29,9 +29,9 @@
 ///
 ///   F_at/F_most ≤ κ ≤ (F_at + σ)/F_least
 ///
-/// κ changes only as far as these bounds ask; in a cut that stays the same they are σ apart. Where κ is
-/// below lowest_hardness by 4 σ, the map is refuted. Where e exceeds the feed per tooth, teeth may miss the cut, and
-/// the least F lacks their edge forces: f/(f + e N n) of the teeth cut at least, and one of them.
+/// κ changes only as far as these bounds ask; in a cut that stays the same they are σ apart. Where κ is below
+/// lowest_hardness by 4 σ, the map is refuted. Where e exceeds the feed per tooth, teeth may miss the cut, and the
+/// least F lacks their edge forces: f/(f + e N n) of the teeth cut at least, and one of them.
 ///
 /// At every place the feed may then be v_i. What is asked for now acts a reaction time T later, and until then the tool
 /// goes the pending way s. Its feed is u; p, the feed that it will have by then, follows what is asked for at the

@@ -6,6 +6,7 @@
 
 #include "estimation/cut_estimate.hpp"
 #include "estimation/number/literal.hpp"
+#include "firmware/steady_cut.hpp"
 
 namespace millforce::firmware {
 
@@ -46,7 +47,7 @@ class LoneFall {
         }
         const Forces now{e.tangential_N.value * per_root_feed, axes_N * per_root_feed, tooth_force_N * per_root_feed};
         if (follows && e.tooth_force_N.valid) {
-            follow(now, is_width_known(e));
+            follow(now, is_width_known(e.engagement) && !e.tooth_force_is_bound);
         }
         const Scalar root_feed = e.feed_per_tooth_mm * per_root_feed;
         const Scalar possible_N = has_fallen_ ? first_.tooth * share_of_axes(now) * root_feed : Scalar(0);
@@ -68,12 +69,6 @@ class LoneFall {
     [[nodiscard]] static Scalar by_axes_N(const Estimate& e) {
         using std::sqrt;
         return e.feed_N.valid ? size(e.feed_N.value) - sqrt(e.feed_N.variance) : Scalar(0);
-    }
-
-    [[nodiscard]] static bool is_width_known(const Estimate& e) {
-        constexpr Scalar well_known_sd = estimation::literal<Scalar>(0.2L);
-        return e.engagement.immersion_valid && e.engagement.radial_immersion_sd < well_known_sd &&
-               !e.tooth_force_is_bound;
     }
 
     [[nodiscard]] static bool is_step(Scalar now, Scalar mean) { return size(now - mean) > Scalar(0.25F) * mean; }

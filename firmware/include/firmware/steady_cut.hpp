@@ -6,8 +6,16 @@
 #include <cstdint>
 
 #include "estimation/cut_estimate.hpp"
+#include "estimation/number/literal.hpp"
 
 namespace millforce::firmware {
+
+/// The radial immersion is known well enough to stand for the cut's width.
+template <typename Scalar>
+[[nodiscard]] bool is_width_known(const estimation::EngagementEstimate<Scalar>& engagement) {
+    constexpr Scalar well_known_sd = estimation::literal<Scalar>(0.2L);
+    return engagement.immersion_valid && engagement.radial_immersion_sd < well_known_sd;
+}
 
 /// The tooth force of a cut that seems to change slowly in width and depth at once.
 ///

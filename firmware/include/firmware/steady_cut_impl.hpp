@@ -24,9 +24,7 @@ Scalar SteadyCut<Scalar>::largest_force_N(const estimation::CutEstimate<Scalar>&
 
 template <typename Scalar>
 void SteadyCut<Scalar>::follow(const estimation::CutEstimate<Scalar>& e, Scalar per_root_feed) {
-    constexpr Scalar well_known_sd = estimation::literal<Scalar>(0.2L);
-    const bool is_known = e.engagement.immersion_valid && e.engagement.radial_immersion_sd < well_known_sd &&
-                          e.engagement.depth_valid && e.feed_N.valid;
+    const bool is_known = is_width_known(e.engagement) && e.engagement.depth_valid && e.feed_N.valid;
     if (!is_known || !(e.tangential_N.value > Scalar(0)) || !(per_root_feed > Scalar(0))) {
         return;
     }
