@@ -101,6 +101,10 @@ const CeilingWords& words_of(control::Limit limit) {
          "<code>declared_axial_depth_mm</code> or <code>depth_step_ratio = 1</code> for a part without steps lift it."},
         {"a load that was asked", "load_period_s",
          "The spindle's load, which comes seldom, had not changed as the feed did, or had stood still for 2 s."},
+        {"the spindle's torque", "",
+         "The spindle had lost more than 5 % of its speed in a cut: its drive was at its torque limit. From then on "
+         "the "
+         "force was kept below the one at which it did."},
     };
     static_assert(sizeof words / sizeof words[0] == control::limit_count);
     return words[static_cast<unsigned>(limit) % control::limit_count];
