@@ -37,7 +37,8 @@
 ///
 /// At the feed of an entry the tool may meet anything: surge, turn and a step of the depth hold it no lower. A program
 /// that has run at proven_override without a broken tooth has met at that feed whatever comes without warning: none of
-/// these, nor air, entry and exit, hold it lower. The force, which is measured, may.
+/// these, nor air, entry and exit, hold it lower. The force, which is measured, may. So it is at depth_step_share times
+/// safe_override, at which whatever comes is survived.
 ///
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the
