@@ -10,6 +10,8 @@
 #include "bench_control/bench_assets.hpp"
 #include "bench_control/part_program.hpp"
 #include "bench_control/text_file.hpp"
+#include "commission/tooth_force_advice.hpp"
+#include "estimation/cutting/cutting_law.hpp"
 #include "parameters/parameter_files.hpp"
 
 namespace millforce::sim {
@@ -21,24 +23,47 @@ double tooth_force_limit_N(double diameter_mm) {
     return std::min(70.0 * diameter_mm, 19000.0 / diameter_mm);
 }
 
-/// An end mill of its diameter, with the cutting law that was calibrated for 10 mm: edge and steel are the same. What
-/// its chip space takes grows with the diameter.
+/// What its chip space takes.
+double largest_feed_per_tooth_mm(const BenchPart& part) {
+    return 0.02 * part.tool_diameter_mm;
+}
+
+/// What `millforce init` advises to one who knows the deepest cut of the part.
+double entry_feed_per_tooth_mm(const BenchPart& part, const estimation::CuttingLaw<double>& law) {
+    return host::entry_feed_per_tooth_mm(law, tooth_force_limit_N(part.tool_diameter_mm), part.depth_mm,
+                                         largest_feed_per_tooth_mm(part));
+}
+
+estimation::CuttingLaw<double> calibrated_law() {
+    estimation::CuttingLaw<double> law;
+    law.k_s_N_per_mm2 = 1688.3;
+    law.k_1 = 0.4012;
+    law.K_te_N_per_mm = 21.73;
+    law.K_re_N_per_mm = 27.73;
+    law.K_s_relative_sd = 0.15;
+    return law;
+}
+
+/// An end mill of its diameter, with the cutting law that was calibrated for 10 mm: edge and steel are the same.
 std::string tool_text(const BenchPart& part) {
     const double d = part.tool_diameter_mm;
+    const estimation::CuttingLaw<double> law = calibrated_law();
+    const double entry_mm = entry_feed_per_tooth_mm(part, law);
     return fmt::format(
         "# SPDX-License-Identifier: Apache-2.0\n"
         "name = \"{}_tool\"\n"
         "description = \"Carbide end mill, Ø{:g} mm, {} flutes, in SM45C\"\n\n"
         "[tool]\nteeth = {}\ndiameter_mm = {:g}\nhelix_deg = 30.0\nflute_length_mm = {:.1f}\nside = \"{}\"\n"
         "runout_um = 6.0\ntooth_force_limit_N = {:.0f}\n\n"
-        "[cutting]\nk_s_N_per_mm2 = 1688.3\nk_1 = 0.4012\nK_te_N_per_mm = 21.73\nK_re_N_per_mm = 27.73\n"
-        "K_s_relative_sd = 0.15\nK_s_exponent_sd = 0.0386\nr_1_relative_sd = 0.05\nr_1_exponent_sd = 0.0443\n"
+        "[cutting]\nk_s_N_per_mm2 = {:g}\nk_1 = {:g}\nK_te_N_per_mm = {:g}\nK_re_N_per_mm = {:g}\n"
+        "K_s_relative_sd = {:g}\nK_s_exponent_sd = 0.0386\nr_1_relative_sd = 0.05\nr_1_exponent_sd = 0.0443\n"
         "reference_chip_thickness_mm = 0.4335\nminimum_chip_thickness_mm = 0.0070\n"
         "maximum_chip_thickness_mm = 0.1445\n\n"
         "[control]\nsetpoint_share = 0.97\nentry_feed_per_tooth_mm = {:.4f}\nair_feed_per_tooth_mm = {:.4f}\n"
         "max_feed_per_tooth_mm = {:.3f}\nhighest_programmed_feed_mm_s = {:.3f}\n",
         part.name, d, part.teeth, part.teeth, d, 2.2 * d, part.shape == "one_way" ? "up" : "down",
-        tooth_force_limit_N(d), 0.0018 * d, 0.0018 * d, 0.02 * d, programmed_feed_mm_min(part) / 60.0);
+        tooth_force_limit_N(d), law.k_s_N_per_mm2, law.k_1, law.K_te_N_per_mm, law.K_re_N_per_mm, law.K_s_relative_sd,
+        entry_mm, entry_mm, largest_feed_per_tooth_mm(part), programmed_feed_mm_min(part) / 60.0);
 }
 
 std::string box_text(std::string_view heading, const StockBox& box) {

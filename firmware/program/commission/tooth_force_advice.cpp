@@ -43,6 +43,12 @@ double feed_for_tooth_force_mm(const estimation::CuttingLaw<double>& law, double
     return low;
 }
 
+double entry_feed_per_tooth_mm(const estimation::CuttingLaw<double>& law, double limit_N, double deepest_cut_mm,
+                               double largest_mm) {
+    const double hardest = 1.0 + 2.0 * law.K_s_relative_sd;
+    return feed_for_tooth_force_mm(law, limit_N / hardest, deepest_cut_mm, largest_mm);
+}
+
 ToothForceAdvice advise_tooth_force(const ToothForceQuestion& question) {
     ToothForceAdvice advice;
     const double core_mm = core_share * question.diameter_mm;

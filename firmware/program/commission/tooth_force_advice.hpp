@@ -49,4 +49,9 @@ double straight_tooth_force_N(const estimation::CuttingLaw<double>& law, double 
 double feed_for_tooth_force_mm(const estimation::CuttingLaw<double>& law, double force_N, double depth_mm,
                                double largest_mm);
 
+/// That feed for a slot of the deepest cut, where a tooth may carry `limit_N`, in all but one of 40 workpieces: K_s two
+/// standard deviations above its mean.
+double entry_feed_per_tooth_mm(const estimation::CuttingLaw<double>& law, double limit_N, double deepest_cut_mm,
+                               double largest_mm);
+
 }  // namespace millforce::host
