@@ -24,8 +24,12 @@ using enum Contender::Kind;
 
 constexpr std::array all_contenders{
     Contender{"ours", "millforce, without a map", ours},
-    Contender{"ours_proven", "millforce, told the safe constant feed", ours, BenchMachine::currents, false, true},
+    Contender{"ours_told", "millforce, told the safe constant feed", ours, BenchMachine::currents, false, 1.5F},
+    Contender{"ours_told_130", "millforce, told that feed, depth_step_share 1.3", ours, BenchMachine::currents, false,
+              1.3F},
     Contender{"ours_map", "millforce, map from geometry", ours, BenchMachine::currents, true},
+    Contender{"ours_map_told_130", "millforce, map, told that feed, depth_step_share 1.3", ours, BenchMachine::currents,
+              true, 1.3F},
     Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, BenchMachine::spindle_alone, true},
     Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, BenchMachine::converter, true},
     Contender{"constant", "Constant feed, safe everywhere", rival},
@@ -50,8 +54,9 @@ std::unique_ptr<OverrideSource> controller_of(const Contender& contender, const 
             make_rule(contender.name, found->second, 0.5 * part.part.tool_diameter_mm));
     }
     firmware::Parameters<float> parameters = plant.parameters;
-    if (contender.knows_feed) {
-        parameters.tool.control.proven_override = static_cast<float>(part.feed_ratio);
+    if (contender.share_in_a_step > 0.0F) {
+        parameters.tool.control.safe_override = static_cast<float>(part.feed_ratio);
+        parameters.tool.control.depth_step_share = contender.share_in_a_step;
     }
     if (contender.has_map) {
         return std::make_unique<MappedController>(parameters, part.map);

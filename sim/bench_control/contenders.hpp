@@ -24,8 +24,9 @@ struct Contender {
     std::string_view title;
     Kind kind;
     BenchMachine machine = BenchMachine::currents;
-    bool has_map = false;     ///< from geometry: program, drawn blank, tool
-    bool knows_feed = false;  ///< ours: that the program has run at the constant feed which the load controls drive on
+    bool has_map = false;  ///< from geometry: program, drawn blank, tool
+    /// depth_step_share of ours that is told the constant feed on which the load controls drive; 0: it is not.
+    float share_in_a_step = 0.0F;
 };
 
 /// Ours, the rules of load_rules.hpp by their names, and "plan", the clairvoyant bound.

@@ -143,6 +143,7 @@ void read_operation(Table& root, firmware::ToolParameters<float>& tool) {
     read("surge_radial_immersion", control.surge_radial_immersion, 0.0, 2.0);
     read("depth_step_ratio", control.depth_step_ratio, 1.0, 10.0);
     read("proven_override", control.proven_override, 0.0, 10.0);
+    read("safe_override", control.safe_override, 0.0, 10.0);
     read("caution_sd", control.caution_sd, 0.0, 4.0);
     read("turn_radial_immersion", control.turn_radial_immersion, 0.0, 2.0);
     read("turn_travel_mm", control.turn_travel_mm, 0.0, 1e3);

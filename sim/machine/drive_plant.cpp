@@ -40,7 +40,7 @@ void SpindlePlant::advance(double dt_s, double commanded_speed_rad_s, double cut
     const double constant = torque_constant(speed_rad_s_);
     const double gain_A_s = settings_.inertia_kg_m2 * loop_rad_s / constant;
     const double error = commanded_speed_rad_s - speed_rad_s_;
-    const double limit_A = current_limit_of_rated * settings_.rated_current_A;
+    const double limit_A = settings_.largest_current_of_rated * settings_.rated_current_A;
     const double wanted_A = gain_A_s * error + integral_A_;
     if (std::abs(wanted_A) < limit_A) {
         integral_A_ += gain_A_s * loop_rad_s / 4.0 * error * dt_s;

@@ -13,10 +13,11 @@ namespace millforce::sim {
 /// Spindle motor with current loop, PI speed loop, field weakening and a bearing friction that falls as it warms:
 ///     J dω/dt = K_T(ω) I − T_cut − T_idle,   K_T(ω) = K_T min(1, ω_b/|ω|),
 ///     T_idle = (T_0 + c |ω|) (1 + e exp(−t/τ)) · scale, against the turning; at rest it holds up to T_0.
-/// The current is limited to 2.5 times the rated one. Steps of 0.25 ms and below are stable with loops up to 100 Hz.
+/// At its torque limit the spindle loses speed. Steps of 0.25 ms and below are stable with loops up to 100 Hz.
 struct SpindlePlantSettings {
     double torque_constant_Nm_per_A = 0.7;
     double rated_current_A = 12.0;
+    double largest_current_of_rated = 2.5;  ///< the drive's torque limit
     double inertia_kg_m2 = 0.004;
     double base_speed_rad_s = 628.3;
     double speed_loop_bandwidth_hz = 25.0;  ///< tens of Hz, as industrial spindles have

@@ -106,7 +106,7 @@
       underlay: (context, area, graph, axis) =>
         drawStrip(context, area, graph, axis, axis.runs[0].states, (digit) => `state-${data.state_names[digit]}`),
       note: (row, axis) => {
-        const digit = (text) => parseInt(text[row >> 1], 16);
+        const digit = (text) => parseInt(text[row >> 1], 36);
         const { states, limits } = axis.runs[0];
         if (states[row >> 1] === ".") return "";
         const limit = digit(limits) > 0 ? `, held by ${data.limit_names[digit(limits)]}` : "";

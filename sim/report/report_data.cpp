@@ -14,8 +14,8 @@ namespace millforce::sim {
 namespace {
 
 constexpr double band_sd = 1.959964;  ///< two-sided 95 % of the normal distribution
-constexpr char digits[] = "0123456789abcdef";
-static_assert(control::state_count <= 16 && control::limit_count <= 16);
+constexpr char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+static_assert(control::state_count < sizeof digits && control::limit_count < sizeof digits);
 
 using Position = double (*)(const TracePoint&);
 

@@ -129,6 +129,34 @@ TEST(CeilingsAhead, a_force_that_is_there_holds_a_proven_program_at_its_limit) {
                   static_cast<double>(force_at(output.ratio, input)), 0.1);
 }
 
+TEST(CeilingsAhead, what_may_come_without_warning_is_survived_at_depth_step_share_times_a_safe_feed) {
+    Parameters p = immediate();
+    p.entry_travel_mm = 5.0F;
+    p.surge_radial_immersion = 2.0F;
+    p.depth_step_ratio = 10.0F;
+    p.depth_step_share = 1.4F;
+    p.safe_override = 0.5F;
+    Controller controller(p);
+    check_ratio(0.7F, repeat(controller, in_air(), 2000));
+    Input input = in_contact();
+    input.cut.surge_ratio = 50.0F;
+    check_ratio(0.7F, repeat(controller, input, 100));
+    check_ratio(0.7F, repeat(controller, input, 2000));
+    input.cut.tooth_force_N = 5000.0F;
+    CHECK_COMPARE(repeat(controller, input, 2000).ratio, <, 0.5F);
+}
+
+TEST(CeilingsAhead, a_cut_of_unknown_immersion_is_milled_at_the_safe_feed_itself) {
+    Parameters p = immediate();
+    p.safe_override = 0.5F;
+    Controller controller(p);
+    Input input = in_contact();
+    input.cut.tooth_force_is_bound = true;
+    input.cut.tooth_force_N = 9000.0F;
+    input.cut.least_tooth_force_N = 500.0F;
+    check_ratio(0.5F, repeat(controller, input, 2000));
+}
+
 TEST(CeilingsAhead, an_unknown_immersion_slows_a_proven_program_by_the_least_force_alone) {
     Parameters p = immediate();
     p.proven_override = 0.8F;

@@ -80,6 +80,40 @@ TEST(Ceilings, a_load_that_has_not_answered_bounds_the_feed_of_a_cut_with_or_wit
     }
 }
 
+TEST(Ceilings, a_spindle_that_loses_its_speed_gets_the_lowest_feed_and_then_no_force_as_large_with_or_without_a_map) {
+    for (const bool has_map : {false, true}) {
+        Controller controller(immediate());
+        bring_into_cut(controller);
+        Input light = in_contact();
+        light.cut.tooth_force_N = 300.0F;
+        light.way.known = has_map;
+        light.way.feed_mm_s = 100.0F;
+        CHECK_COMPARE(repeat(controller, light, 200).ratio, >, 1.2F);
+        Input slow = light;
+        slow.cut.spindle_speed_rad_s *= 0.9F;
+        const Output lost = repeat(controller, slow, 50);
+        check_ratio(immediate().override_min, lost);
+        const Output regained = repeat(controller, light, 400);
+        CHECK(regained.limit == Limit::spindle_torque);
+        STRCMP_EQUAL("spindle_torque", name(regained.limit));
+        check_ratio(std::pow(0.9F, 1.0F / light.cut.feed_exponent), regained, 1e-3);
+    }
+}
+
+TEST(Ceilings, a_spindle_that_stalls_is_a_fault_where_the_tool_is_fed_and_none_where_it_rests) {
+    for (const float feed_mm_s : {0.0F, 20.0F}) {
+        Controller controller(immediate());
+        bring_into_cut(controller);
+        Input stalled = in_contact();
+        stalled.path_speed_mm_s = feed_mm_s;
+        for (const float share : {0.9F, 0.6F, 0.3F}) {
+            stalled.cut.spindle_speed_rad_s = share * in_contact().cut.spindle_speed_rad_s;
+            controller.step(stalled);
+        }
+        CHECK_EQUAL(feed_mm_s > 0.0F, controller.step(stalled).fault == Fault::spindle_stopped);
+    }
+}
+
 TEST(Ceilings, forces_that_contradict_the_law_raise_nothing_and_still_lower) {
     Controller controller(immediate());
     bring_into_cut(controller);

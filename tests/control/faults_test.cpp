@@ -266,7 +266,7 @@ TEST(Faults, each_parameter_below_its_range_or_not_finite_is_a_bad_configuration
           &Parameters::entry_revolutions, &Parameters::entry_travel_mm, &Parameters::exit_travel_mm,
           &Parameters::contact_significance, &Parameters::surge_radial_immersion, &Parameters::turn_radial_immersion,
           &Parameters::turn_travel_mm, &Parameters::overload_revolutions, &Parameters::no_estimate_hold_s,
-          &Parameters::Ra_limit_um, &Parameters::proven_override}) {
+          &Parameters::Ra_limit_um, &Parameters::proven_override, &Parameters::safe_override}) {
         for (const float value : {-0.01F, not_a_number, beyond_all}) {
             CHECK_TRUE(is_refused(not_negative, value));
         }

@@ -43,7 +43,7 @@ Input plausible(Dice& dice) {
     input.programmed_feed_mm_s = dice.between(5.0F, 40.0F);
     input.path_speed_mm_s = dice.between(0.0F, 40.0F);
     input.cut.feed_mm_s = input.path_speed_mm_s;
-    input.cut.spindle_speed_rad_s = dice.between(100.0F, 1000.0F);
+    input.cut.spindle_speed_rad_s = dice.between(400.0F, 1000.0F);  // none that stalls
     input.cut.tooth_force_N *= dice.between(0.2F, 2.5F);
     input.cut.cutting_share = dice.between(0.3F, 1.0F);
     input.cut.fresh = !dice.one_in(3);

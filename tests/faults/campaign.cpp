@@ -205,9 +205,30 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
     return outcome;
 }
 
+namespace {
+
+/// Currents as noisy as drives have them, 0.3 to 3 % of the rated one, and as the machine's file then states.
+Part with_drawn_noise(const Part& part, std::uint64_t seed) {
+    std::seed_seq mixed{seed, std::uint64_t{0x4e01}};
+    std::mt19937_64 random(mixed);
+    const double share = 0.003 * std::pow(10.0, std::uniform_real_distribution<double>()(random));
+    Part drawn = part;
+    drawn.scenario.deviation.current_noise_share = share;
+    auto& machine = drawn.stated.machine;
+    const auto noise_A = static_cast<float>(share) * machine.spindle_rated_current_A;
+    machine.spindle.current_sd_A = part.is_load_seldom ? machine.spindle.current_sd_A : noise_A;
+    for (std::size_t k = 0; k < machine.axes.size(); ++k) {
+        machine.axes[k].current_sd_A = static_cast<float>(share) * machine.axis_rated_current_A[k];
+    }
+    return drawn;
+}
+
+}  // namespace
+
 Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed) {
-    const Seat seat = seat_on(path, part, fault, seed);
-    return mill_with_controller(part, *seat.controller, fault, seed, seat.begin);
+    const Part drawn = with_drawn_noise(part, seed);
+    const Seat seat = seat_on(path, drawn, fault, seed);
+    return mill_with_controller(drawn, *seat.controller, fault, seed, seat.begin);
 }
 
 void Tally::add(const Outcome& outcome) {

@@ -18,7 +18,7 @@
 
 namespace millforce::faults {
 
-/// What stands between the machine and the tick. The same material, friction and noise in all of them.
+/// What stands between the machine and the tick. A seed has the same material, friction and noise in all of them.
 enum class Path : std::uint8_t {
     tick,  ///< nothing: samples and overrides in memory
     can,   ///< drives, CNC and CanController on a bus in memory

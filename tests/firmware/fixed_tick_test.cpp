@@ -11,6 +11,7 @@
 #include "control/feed_controller_impl.hpp"
 #include "control/feed_law_impl.hpp"
 #include "control/path_turn_impl.hpp"
+#include "control/spindle_torque_impl.hpp"
 #include "estimation/cut_estimator_impl.hpp"
 #include "estimation/cutting/peak_table_impl.hpp"
 #include "estimation/number/circle.hpp"

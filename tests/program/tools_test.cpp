@@ -161,7 +161,7 @@ TEST(Tools, of_a_folder_become_a_block_for_flash_that_is_printed_as_their_files)
     const Ended written =
         run_millforce(inputs.with_tools({"parameters", "--write-block", inputs.name("parameters.bin")}));
     LONGS_EQUAL(0, written.exit_code);
-    CHECK(contains(written.out, "1840 bytes, tools 7 12"));
+    CHECK(contains(written.out, "1848 bytes, tools 7 12"));
     const Ended read = run_millforce({"parameters", "--read-block", inputs.name("parameters.bin")});
     LONGS_EQUAL(0, read.exit_code);
     const std::size_t first = read.out.find("# T7.toml");

@@ -25,6 +25,8 @@
 ///   turn       the same with turn_ratio, for turn_travel_mm after a sharp turn of the path (limit surge)
 ///   way ahead  where a part map is known: its feed (feed_ahead.hpp). It replaces air, entry, exit, surge,
 ///              turn and fading, which guard a tool that does not see. The force, which is measured, stays.
+///   spindle    override_min while the spindle loses its speed, then what holds F_at below that at the loss
+///              (spindle_torque.hpp, limit spindle_torque)
 ///   load       where a spindle load comes seldom: the feed that it has answered (limit load_unanswered)
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   blind      override_min out of the cut without F_at, unless the spindle stands or turns backwards: the tool may
@@ -35,7 +37,8 @@
 ///
 /// At the feed of an entry the tool may meet anything: surge, turn and a step of the depth hold it no lower. A program
 /// that has run at proven_override without a broken tooth has met at that feed whatever comes without warning: none of
-/// these, nor air, entry and exit, hold it lower. The force, which is measured, may.
+/// these, nor air, entry and exit, hold it lower. The force, which is measured, may. So it is at depth_step_share times
+/// safe_override, at which whatever comes is survived.
 ///
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the
@@ -74,10 +77,12 @@ class Ceilings {
     /// Where the rest of the controller stands in this step.
     struct Situation {
         CutState state = CutState::air;
-        bool has_cut = false;       ///< CutStates::has_cut
-        Scalar override_ratio{0};   ///< override of the last step
-        Scalar force_demand{0};     ///< FeedLaw::demand
-        Scalar contact_feed_mm{0};  ///< ContactFeed::feed_per_tooth_mm
+        bool has_cut = false;            ///< CutStates::has_cut
+        Scalar override_ratio{0};        ///< override of the last step
+        Scalar force_demand{0};          ///< FeedLaw::demand
+        Scalar contact_feed_mm{0};       ///< ContactFeed::feed_per_tooth_mm
+        bool spindle_is_slow = false;    ///< SpindleTorque::is_slow
+        Scalar largest_tangential_N{0};  ///< SpindleTorque::largest_tangential_N
     };
 
     /// The state has changed, at this override.
@@ -96,6 +101,7 @@ class Ceilings {
     [[nodiscard]] bool runs_free(const ControlInput<Scalar>& input, CutState state) const;
     void follow_surge(const Parameters& parameters, const ControlInput<Scalar>& input, const Situation& situation);
     void follow_turn(const Parameters& parameters, const ControlInput<Scalar>& input, bool turned);
+    void follow_spindle(const Parameters& parameters, const ControlInput<Scalar>& input, const Situation& situation);
     void follow_surface(const ControlInput<Scalar>& input);
 
     [[nodiscard]] Ceiling<Scalar> lowest_in_feed(const Parameters& parameters, const ControlInput<Scalar>& input,
@@ -119,6 +125,7 @@ class Ceilings {
     Scalar turn_travel_left_mm_{0};
     Scalar turn_ceiling_{0};
     Scalar surface_ceiling_{0};
+    Scalar spindle_ceiling_{0};
 };
 
 extern template class Ceilings<float>;

@@ -28,12 +28,14 @@ void Ceilings<Scalar>::follow(const Parameters& parameters, const ControlInput<S
     if (is_out_of_cut(situation.state)) {
         surge_ceiling_ = parameters.override_max;
         surface_ceiling_ = parameters.override_max;
+        spindle_ceiling_ = parameters.override_max;
         trend_.clear();
         return;
     }
     follow_surge(parameters, input, situation);
     follow_turn(parameters, input, motion.turned);
     follow_surface(input);
+    follow_spindle(parameters, input, situation);
 }
 
 template <typename Scalar>
@@ -117,6 +119,25 @@ void Ceilings<Scalar>::follow_surface(const ControlInput<Scalar>& input) {
     if (input.cut.fresh && predicts_a_ceiling(surface)) {
         const Scalar ceiling = surface.feed_ceiling_mm_s / input.programmed_feed_mm_s;
         surface_ceiling_ = surface.in_range || ceiling < surface_ceiling_ ? ceiling : surface_ceiling_;
+    }
+}
+
+template <typename Scalar>
+void Ceilings<Scalar>::follow_spindle(const Parameters& parameters, const ControlInput<Scalar>& input,
+                                      const Situation& situation) {
+    const CutEstimateForControl<Scalar>& cut = input.cut;
+    const Scalar largest_N = situation.largest_tangential_N;
+    if (situation.spindle_is_slow) {
+        spindle_ceiling_ = parameters.override_min;
+    } else if (!(largest_N > Scalar(0))) {
+        spindle_ceiling_ = parameters.override_max;
+    } else if (cut.fresh && FeedLaw<Scalar>::applies_to(cut)) {
+        const Scalar share = cut.tangential_N / largest_N;
+        spindle_ceiling_ =
+            share > Scalar(0)
+                ? FeedLaw<Scalar>::override_for(parameters, input,
+                                                {Scalar(1), share * parameters.tooth_force_limit_N, cut.cutting_share})
+                : parameters.override_max;
     }
 }
 
@@ -217,6 +238,7 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     if (!input.way.known) {
         lower_by_surge(lowest, parameters, input, situation);
     }
+    lowest.lower_to(spindle_ceiling_, Limit::spindle_torque);
     if (input.cut.answered_feed_mm_s > Scalar(0)) {
         lowest.lower_to(input.cut.answered_feed_mm_s / input.programmed_feed_mm_s, Limit::load_unanswered);
     }

@@ -61,7 +61,7 @@ enum class Fault : std::uint8_t {
     none = 0,
     overload = 1,     ///< the tooth's force stayed above the stop level: the feed is held before the tooth breaks
     stale_input = 2,  ///< no drive sample with encoder and spindle current within the time limit, or their clock stands
-    spindle_stopped = 3,  ///< the spindle, or its encoder, stands while the tool is in cut
+    spindle_stopped = 3,  ///< the spindle, or its encoder, stands while the tool is in cut; or the spindle stalls
     bad_configuration = 4,
     // Signals that contradict each other or physics: firmware/signal_supervisor.hpp says when.
     signal_stuck = 5,       ///< a motor current shows the same value for far longer than it ever did
@@ -93,11 +93,12 @@ enum class Limit : std::uint8_t {
     feed_mismatch = 13,    ///< held where it was: the axes are faster than programmed feed and largest override allow
     depth_step = 14,       ///< as `surge`, of the depth: by depth_step_ratio
     load_unanswered = 15,  ///< the spindle's load, which comes seldom, has not changed as the feed did, or for 2 s
+    spindle_torque = 16,   ///< the spindle loses its speed in the cut, or has lost it at a force as large
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
 inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::idle_torque) + 1U;
-inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::load_unanswered) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::spindle_torque) + 1U;
 
 constexpr const char* name(CutState state) {
     constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
@@ -123,10 +124,10 @@ constexpr const char* name(Fault fault) {
 }
 
 constexpr const char* name(Limit limit) {
-    constexpr const char* names[limit_count] = {"none",        "force",          "override_max", "override_min",
-                                                "air_feed",    "entry_feed",     "surge",        "operator_limit",
-                                                "no_estimate", "feed_per_tooth", "roughness",    "law_misfit",
-                                                "way_ahead",   "feed_mismatch",  "depth_step",   "load_unanswered"};
+    constexpr const char* names[limit_count] = {
+        "none",      "force",          "override_max", "override_min",    "air_feed",      "entry_feed",
+        "surge",     "operator_limit", "no_estimate",  "feed_per_tooth",  "roughness",     "law_misfit",
+        "way_ahead", "feed_mismatch",  "depth_step",   "load_unanswered", "spindle_torque"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

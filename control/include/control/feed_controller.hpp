@@ -8,6 +8,7 @@
 #include "control/feed_controller_data.hpp"
 #include "control/feed_law.hpp"
 #include "control/path_turn.hpp"
+#include "control/spindle_torque.hpp"
 #include "estimation/number/fixed_point.hpp"
 
 /// The feed override that holds the largest force on a tooth at its limit. One step, of any length up to 1 s:
@@ -55,6 +56,7 @@ class FeedController {
     Parameters parameters_;
     PathTurn<Scalar> turn_{};
     CutStates<Scalar> states_{};
+    SpindleTorque<Scalar> spindle_{};
     FeedLaw<Scalar> law_;
     ContactFeed<Scalar> contact_feed_{};
     Ceilings<Scalar> ceilings_{};

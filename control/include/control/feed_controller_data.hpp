@@ -47,6 +47,10 @@ struct FeedControllerParameters {
     /// Override at which the program has run before, and no contact broke a tooth: what may come without warning holds
     /// the feed no lower. 0: not known.
     Scalar proven_override{0};
+    /// Override at which no tooth of the program exceeds its limit, in the hardest batch of its material. No force
+    /// grows faster than the feed: at depth_step_share times that override, whatever comes loads a tooth with that
+    /// share of its limit at most. 0: not known.
+    Scalar safe_override{0};
     Scalar turn_radial_immersion{2};  ///< immersion assumed after a sharp turn of the path; 0: none
     Scalar turn_travel_mm{2};         ///< travel after a turn for which that immersion is assumed
     Scalar overload_share{
@@ -148,10 +152,13 @@ template <typename Scalar>
     return ratio > parameters.override_max ? parameters.override_max : ratio;
 }
 
-/// What may come without warning holds a proven program no lower than it has run. NaN becomes that override.
+/// What may come without warning holds a program no lower than it has run, nor than a safe one survives. NaN becomes
+/// that override.
 template <typename Scalar>
 [[nodiscard]] Scalar not_below_proven(const FeedControllerParameters<Scalar>& parameters, Scalar ratio) {
-    return ratio > parameters.proven_override ? ratio : parameters.proven_override;
+    const Scalar survived = parameters.depth_step_share * parameters.safe_override;
+    const Scalar proven = survived > parameters.proven_override ? survived : parameters.proven_override;
+    return ratio > proven ? ratio : proven;
 }
 
 /// A feed or a speed that can be divided by: > 0, neither infinite nor NaN.

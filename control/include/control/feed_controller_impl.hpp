@@ -31,7 +31,7 @@ static bool is_sound(const FeedControllerParameters<Scalar>& p) {
            is_not_negative(p.entry_travel_mm) && is_not_negative(p.exit_travel_mm) && is_positive(p.contact_force_N) &&
            is_not_negative(p.contact_significance) && is_not_negative(p.surge_radial_immersion) &&
            is_positive(p.surge_share) && is_finite(p.depth_step_ratio) && p.depth_step_ratio >= Scalar(1) &&
-           is_positive(p.depth_step_share) && is_not_negative(p.proven_override) &&
+           is_positive(p.depth_step_share) && is_not_negative(p.proven_override) && is_not_negative(p.safe_override) &&
            is_not_negative(p.turn_radial_immersion) && is_not_negative(p.turn_travel_mm) &&
            is_positive(p.overload_share) && is_not_negative(p.overload_revolutions) &&
            is_not_negative(p.no_estimate_hold_s) && is_not_negative(p.Ra_limit_um) && is_positive(p.stale_s) &&
@@ -59,6 +59,10 @@ ControlOutput<Scalar> FeedController<Scalar>::step(const ControlInput<Scalar>& i
     const StepMotion<Scalar> motion = motion_of(input);
     const CutState last_state = states_.state();
     states_.step(parameters_, input, motion);
+    spindle_.follow(input.cut, states_.state(), motion.dt_s);
+    if (spindle_.stalls() && motion.path_speed_mm_s > Scalar(0)) {
+        states_.enter_fault(Fault::spindle_stopped);
+    }
     if (states_.state() != last_state) {
         ceilings_.enter_state(law_.override_ratio());
     }
@@ -92,8 +96,13 @@ Ceiling<Scalar> FeedController<Scalar>::wanted(const ControlInput<Scalar>& input
     if (feed_and_speed_are_known(input)) {
         follow_law(input);
     }
-    const typename Ceilings<Scalar>::Situation situation{states_.state(), states_.has_cut(), law_.override_ratio(),
-                                                         law_.demand(), contact_feed_.feed_per_tooth_mm()};
+    const typename Ceilings<Scalar>::Situation situation{states_.state(),
+                                                         states_.has_cut(),
+                                                         law_.override_ratio(),
+                                                         law_.demand(),
+                                                         contact_feed_.feed_per_tooth_mm(),
+                                                         spindle_.is_slow(),
+                                                         spindle_.largest_tangential_N()};
     ceilings_.follow(parameters_, input, motion, situation);
     return ceilings_.lowest(parameters_, input, situation);
 }

@@ -58,8 +58,9 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
         const SafeFeed contact{safe_contact(parameters, input, contact_feed_mm), cut.least_tooth_force_N};
         demand_ = not_below_safe_feed(parameters, input, demand_, contact);
     } else if (cut.tooth_force_is_bound) {
-        demand_ =
-            not_below_safe_feed(parameters, input, demand_, {parameters.proven_override, cut.least_tooth_force_N});
+        const bool is_safe = parameters.safe_override > parameters.proven_override;
+        const Scalar steady = is_safe ? parameters.safe_override : parameters.proven_override;
+        demand_ = not_below_safe_feed(parameters, input, demand_, {steady, cut.least_tooth_force_N});
     } else if (guards_against_a_step(parameters, input)) {
         demand_ = not_below_safe_feed(parameters, input, demand_, {safe_entry(parameters, input), cut.tooth_force_N});
         const Scalar of_heaviest = override_before_heaviest(parameters, input, contact_feed_mm);

@@ -16,6 +16,7 @@
 #include "control/src/feed_controller.cpp"
 #include "control/src/feed_law.cpp"
 #include "control/src/path_turn.cpp"
+#include "control/src/spindle_torque.cpp"
 #include "estimation/src/cut_estimator_fixed.cpp"
 #include "estimation/src/cut_estimator_float.cpp"
 #include "estimation/src/cutting_law.cpp"

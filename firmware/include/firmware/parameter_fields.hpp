@@ -25,7 +25,7 @@ struct ParameterName {
 
 /// How many fields for_each_parameter visits.
 inline constexpr std::size_t machine_parameter_count = 194;
-inline constexpr std::size_t tool_parameter_count = 128;
+inline constexpr std::size_t tool_parameter_count = 129;
 inline constexpr std::size_t parameter_count = machine_parameter_count + tool_parameter_count;
 
 /// A field's value out of a float within the field's range.
@@ -333,6 +333,7 @@ void visit_control(Tool& tool, Visit& visit) {
     field("depth_step_ratio", control.depth_step_ratio, 1.0F, 10.0F);
     field("depth_step_share", control.depth_step_share, 0.1F, 10.0F);
     field("proven_override", control.proven_override, 0.0F, 10.0F);
+    field("safe_override", control.safe_override, 0.0F, 10.0F);
     field("turn_radial_immersion", control.turn_radial_immersion, 0.0F, 2.0F);
     field("turn_travel_mm", control.turn_travel_mm, 0.0F, 1000.0F);
     field("overload_share", control.overload_share, 1.0F, 10.0F);

@@ -239,6 +239,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"control", "depth_step_ratio", "1", "Largest ratio of two axial depths that may follow each other without warning; 1: the depth never steps. With declared_axial_depth_mm it is 1."},
     {"control", "depth_step_share", "1", "Share of the tooth's limit that such a step may reach: below break_share."},
     {"control", "proven_override", "1", "Override at which this program has run before without breaking a tooth at any contact: what may come without warning holds the feed no lower. 0: not known."},
+    {"control", "safe_override", "1", "Override at which no tooth of this program exceeds its limit, in the hardest batch of its material: 1 where its F is such a feed. What may come without warning holds the feed no lower than depth_step_share times that. 0: not known."},
     {"control", "turn_radial_immersion", "1", "Largest immersion that may come after a sharp turn of the path; 0: a turn changes nothing."},
     {"control", "turn_travel_mm", "mm", "Travel after a sharp turn for which turn_radial_immersion is expected."},
     {"control", "overload_share", "1", "Share of the tooth's limit above which a tooth is overloaded: the feed is held and the fault latched."},

@@ -76,7 +76,7 @@ const charts = (() => {
       if (digits[first] !== ".") {
         const x = graph.toDomXCoord((first * axis.length) / axis.buckets);
         const width = graph.toDomXCoord((end * axis.length) / axis.buckets) - x;
-        context.fillStyle = colour(colourOf(parseInt(digits[first], 16)));
+        context.fillStyle = colour(colourOf(parseInt(digits[first], 36)));
         context.globalAlpha = 0.1;
         context.fillRect(x, area.y, width, area.h);
         context.globalAlpha = 1;

@@ -21,7 +21,7 @@
   /** What the strip of a chart shows at a row; "" where there was no sample. */
   const stripText = (digits, names, row) => {
     const digit = digits[row >> 1];
-    return digit === "." ? "" : words(names[parseInt(digit, 16)]);
+    return digit === "." ? "" : words(names[parseInt(digit, 36)]);
   };
 
   function stripLegend(host, digits, names, colourOf) {

@@ -8,8 +8,8 @@ namespace millforce::host {
 
 namespace {
 
-constexpr char digits[] = "0123456789abcdef";
-static_assert(control::state_count <= 16 && control::limit_count <= 16);
+constexpr char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+static_assert(control::state_count < sizeof digits && control::limit_count < sizeof digits);
 
 /// Both ends of each bin's range.
 void write_ranges(JsonWriter& json, const char* key, const RunHistory& history, ValueRange RunBin::*range, int places,

@@ -78,11 +78,11 @@ const CeilingWords& words_of(control::Limit limit) {
         {"largest override", "override_max", "The machine takes no higher feed override."},
         {"smallest override", "override_min",
          "Some other ceiling asked for less than the smallest override that is sent."},
-        {"feed in air", "air_feed_per_tooth_mm",
+        {"feed in air", "air_feed_per_tooth_mm, safe_override",
          "In air the feed stays so low that the tool may meet the workpiece at any moment."},
         {"entry feed", "entry_feed_per_tooth_mm",
          "From contact until the engagement is known, and while plunging, the feed stays low."},
-        {"what may come", "surge_radial_immersion, turn_radial_immersion",
+        {"what may come", "surge_radial_immersion, turn_radial_immersion, safe_override",
          "More material might have come without warning, at a wall or after a turn of the path, faster than the feed "
          "can fall."},
         {"the operator", "", "The operator's own override or feed hold was lower, or the tool is set to monitor_only."},
@@ -96,11 +96,16 @@ const CeilingWords& words_of(control::Limit limit) {
          "By the part map a place ahead needed a lower feed, and the machine had to brake for it."},
         {"axes too fast", "",
          "The axes moved faster than the programmed feed and the override allow, so the feed was not raised."},
-        {"a step of the depth", "depth_step_ratio, depth_step_share",
+        {"a step of the depth", "depth_step_ratio, depth_step_share, safe_override",
          "The depth might have grown without warning, faster than the feed can fall. A part map, "
-         "<code>declared_axial_depth_mm</code> or <code>depth_step_ratio = 1</code> for a part without steps lift it."},
+         "<code>declared_axial_depth_mm</code> or <code>depth_step_ratio = 1</code> for a part without steps lift it; "
+         "<code>safe_override</code> for a program whose F is safe raises it."},
         {"a load that was asked", "load_period_s",
          "The spindle's load, which comes seldom, had not changed as the feed did, or had stood still for 2 s."},
+        {"the spindle's torque", "",
+         "The spindle had lost more than 5 % of its speed in a cut: its drive was at its torque limit. From then on "
+         "the "
+         "force was kept below the one at which it did."},
     };
     static_assert(sizeof words / sizeof words[0] == control::limit_count);
     return words[static_cast<unsigned>(limit) % control::limit_count];

@@ -260,6 +260,21 @@ TEST(ClosedLoop, is_no_slower_than_the_constant_feed_that_a_program_has_run_at) 
     }
 }
 
+TEST(ClosedLoop, mills_a_program_whose_feed_is_safe_faster_than_one_that_has_run_at_it_and_breaks_no_tooth) {
+    const auto safe_override = static_cast<float>(safe_constant_override(scenario_named("width_step")));
+    for (const double hardness : {0.7, hardest_material}) {
+        Scenario step = scenario_named("width_step", {hardness, 1.0, 1});
+        step.parameters.tool.control.depth_step_ratio = 2.0F;
+        step.parameters.tool.control.proven_override = safe_override;
+        const RunFigures proven = controlled(step);
+        step.parameters.tool.control.proven_override = 0.0F;
+        step.parameters.tool.control.safe_override = safe_override;
+        const RunFigures safe = controlled(step);
+        LONGS_EQUAL(0, safe.teeth_broken);
+        CHECK_COMPARE(safe.time_s, <, 0.9 * proven.time_s);
+    }
+}
+
 /// Not in an interrupted cut: there both take 14 to 16 s from seed to seed, as a force at a threshold decides.
 TEST(ClosedLoop, mills_in_fixed_point_as_in_float) {
     for (const char* name : {"slot_entry", "depth_ramp"}) {
