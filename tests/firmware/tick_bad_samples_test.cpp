@@ -8,7 +8,7 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "firmware/tick_bench.hpp"
+#include "firmware/tick_milling.hpp"
 
 namespace hal = millforce::hal;
 using namespace millforce::test;
@@ -19,6 +19,7 @@ using millforce::firmware::step_and_work;
 
 namespace {
 
+constexpr Load below_zero{-1.0F, 0.0F};
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 bool is_sound(const hal::FeedOverride& output) {
@@ -78,6 +79,37 @@ TEST(TickOnBadSamples, does_not_raise_the_feed_while_samples_are_missing) {
         const auto output = tick.step_without_sample(static_cast<float>(k) * 0.001F, 0.001F, program());
         CHECK(output.ratio <= before);
         before = output.ratio;
+    }
+}
+
+TEST(TickOnBadSamples, counts_no_revolutions_across_a_sample_without_a_count) {
+    for (const bool has_gaps : {false, true}) {
+        Milling milling;
+        milling.rest(300);
+        for (int k = 0; k < 10; ++k) {
+            milling.missing = has_gaps ? hal::mask(hal::Present::spindle_count) : std::uint8_t{0};
+            milling.mill(below_zero, 1);
+            milling.missing = 0;
+            milling.has_time_to_work = false;
+            milling.mill(below_zero, 20);
+            milling.has_time_to_work = true;
+            milling.mill(below_zero, 30);
+        }
+        CHECK((milling.tick().control().fault == Fault::none) == has_gaps);
+    }
+}
+
+TEST(TickOnBadSamples, lowers_the_feed_no_further_while_samples_are_missing) {
+    Parameters p = with_all_currents();
+    p.tool.control.slew_down_per_s = 0.5F;
+    p.tool.tooth_force_limit_N = 300.0F;
+    Milling milling{Tick(p)};
+    const float before = milling.mill(air, 200).enter_the_cut(whole, 200).ratio();
+    const float now = milling.mill(whole, 20).ratio();
+    CHECK(now < before);
+    for (int k = 1; k < 40; ++k) {
+        milling.tick().step_without_sample(static_cast<float>(k) * 0.001F, 0.001F, program());
+        CHECK(milling.ratio() == now);
     }
 }
 

@@ -33,6 +33,20 @@ inline Parameters machine_and_tool() {
     return p;
 }
 
+/// So well known that one solution is like the next.
+inline Parameters well_known_machine() {
+    Parameters p = machine_and_tool();
+    p.machine.spindle.current_sd_A = 0.02F;
+    p.machine.spindle.inertia_kg_m2 = 0.0005F;
+    for (auto& axis : p.machine.axes) {
+        axis.friction_relative_sd = 0.01F;
+        axis.friction_ripple_A = 0.01F;
+        axis.current_sd_A = 0.02F;
+        axis.gain_relative_sd = 0.01F;
+    }
+    return p;
+}
+
 /// A straight way along +x at 1 kHz and 4000 rpm: 0.2 s of air, then a cut with F_at = 250 N, F_ax = −150 N.
 inline hal::DriveSample sample_of(int index, std::uint32_t first_time_us = 0) {
     const Parameters p = machine_and_tool();

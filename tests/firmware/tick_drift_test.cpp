@@ -1,107 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/tick.hpp"
-#include "firmware/tick_bench.hpp"
+#include "firmware/tick_milling.hpp"
 
 #include <CppUTest/TestHarness.h>
-
-#include <algorithm>
 
 using namespace millforce;
 using namespace millforce::test;
 using control::CutState;
-using firmware::step_and_work;
-using Tick = firmware::ForceControlTick<float>;
 
 namespace {
 
-/// Shares of what the spindle's current and that of the axis have beyond air in the cut of tick_bench.hpp.
-struct Load {
-    float spindle = 1.0F;
-    float axis = 1.0F;
-};
+constexpr Load axis_faded{1.0F, -0.2F};
 
-constexpr Load air{0.0F, 0.0F};
-constexpr Load whole{1.0F, 1.0F};
-constexpr Load faded{0.75F, 1.0F};  // the spindle's current has, the axis carries what it did
-constexpr Load lighter{0.65F, 0.65F};
-
-hal::DriveSample loaded(int index, Load load) {
-    hal::DriveSample sample = sample_of(1200 + index);  // 80 revolutions later, in the cut
-    const hal::DriveSample idle = sample_of(0);
-    sample.time_us = static_cast<std::uint32_t>(index) * 1000U;
-    sample.spindle_current_A =
-        idle.spindle_current_A + load.spindle * (sample.spindle_current_A - idle.spindle_current_A);
-    sample.axis_current_A[0] = idle.axis_current_A[0] + load.axis * (sample.axis_current_A[0] - idle.axis_current_A[0]);
-    return sample;
-}
-
-hal::DriveSample at_rest(int index) {
-    hal::DriveSample sample = loaded(index, air);
-    sample.axis_velocity_mm_s = {};
-    sample.axis_current_A = {};
-    return sample;
-}
-
-/// Nothing but the force on a tooth limits the feed.
-Parameters with_all_currents() {
-    Parameters p = machine_and_tool();
+/// Knows the width of a cut.
+Parameters sure_machine() {
+    Parameters p = well_known_machine();
     p.tool.control.depth_step_ratio = 1.0F;
     p.tool.control.surge_radial_immersion = 0.0F;
+    p.tool.tooth_force_limit_N = 500.0F;
     return p;
 }
 
-Parameters spindle_alone() {
-    Parameters p = with_all_currents();
-    p.machine.spindle_rated_current_A = 20.0F;
-    for (auto& axis : p.machine.axes) {
-        axis.K_x4_N_per_A = 0.0F;
-    }
-    return p;
-}
-
-const Tick& tick_with_axes() {
-    static const Tick tick(with_all_currents());
+const Tick& tick_of_sure_machine() {
+    static const Tick tick(sure_machine());
     return tick;
 }
 
-const Tick& tick_alone() {
-    static const Tick tick(spindle_alone());
-    return tick;
+/// The axes stand, so the cut does not fade while it ends. Nothing is learnt in the air that follows.
+void leave_at_once(Milling& milling, Load load) {
+    control::WayAhead<float> may_cut;
+    may_cut.may_cut = true;
+    milling.tick().set_way_ahead(may_cut);
+    milling.dwell(load, 60).dwell(air, 100).mill(air, 150);
+    CHECK(milling.state() == CutState::air);
 }
-
-class Milling {
-  public:
-    explicit Milling(const Tick& tick = tick_with_axes()) : tick_(tick) {}
-
-    Milling& mill(Load load, int samples = 1500) { return mill_from(load, load, samples); }
-    /// The load changes evenly.
-    Milling& mill_from(Load from, Load to, int samples) {
-        for (int k = 0; k < samples; ++k) {
-            const float share = static_cast<float>(k) / static_cast<float>(samples);
-            step_and_work(tick_,
-                          loaded(index_++, {from.spindle + share * (to.spindle - from.spindle),
-                                            from.axis + share * (to.axis - from.axis)}),
-                          program());
-        }
-        return *this;
-    }
-    Milling& rest(int samples = 500) {
-        for (int k = 0; k < samples; ++k) {
-            step_and_work(tick_, at_rest(index_++), program());
-        }
-        return *this;
-    }
-    /// Over 6 mm, into air that is too short to learn anything.
-    Milling& leave_the_cut(Load load) { return mill_from(load, air, 300).mill(air, 200); }
-    Milling& enter_the_cut(Load load, int samples = 1500) { return mill_from(air, load, 200).mill(load, samples); }
-
-    [[nodiscard]] float ratio() const { return tick_.control().ratio; }
-    [[nodiscard]] Tick& tick() { return tick_; }
-
-  private:
-    Tick tick_;
-    int index_ = 0;
-};
 
 }  // namespace
 
@@ -181,4 +112,69 @@ TEST(TickInDrift, does_not_speed_up_by_a_depth_that_is_not_the_declared_one) {
     Milling milling{Tick(p)};
     milling.mill(air, 200).enter_the_cut(whole);
     CHECK(milling.tick().control().limit == control::Limit::law_misfit);
+}
+
+TEST(TickInDrift, believes_a_slow_fall_where_the_one_axis_that_is_known_carries_less_too) {
+    for (const std::size_t known : {std::size_t{0}, std::size_t{1}}) {
+        Parameters p = spindle_alone();
+        p.machine.axes[known] = machine_and_tool().machine.axes[known];
+        Milling milling{Tick(p)};
+        milling.is_along_y = known == 1;
+        const float before = milling.mill(air, 200).enter_the_cut(whole).ratio();
+        CHECK(milling.mill_from(whole, lighter, 2500).ratio() > 1.1F * before);
+    }
+}
+
+TEST(TickInDrift, believes_a_slow_fall_of_the_spindle_alone_where_a_map_knows_the_cut) {
+    Milling alone(tick_alone());
+    control::WayAhead<float> way;
+    way.known = true;
+    way.feed_mm_s = 100.0F;
+    alone.tick().set_way_ahead(way);
+    const float before = alone.mill(air, 200).enter_the_cut(whole).ratio();
+    CHECK(alone.mill_from(whole, lighter, 2500).ratio() > 1.1F * before);
+}
+
+TEST(TickInDrift, hardly_speeds_up_where_the_axis_alone_carries_less) {
+    Milling milling(tick_of_sure_machine());
+    const float before = milling.rest().enter_the_cut(wide).ratio();
+    CHECK(milling.mill_from(wide, axis_faded, 2500).mill(axis_faded).ratio() < 1.1F * before);
+    Milling fresh(tick_of_sure_machine());
+    CHECK(fresh.rest().enter_the_cut(axis_faded).ratio() > 1.4F * before);
+}
+
+TEST(TickInDrift, believes_the_axis_in_the_next_cut) {
+    Milling milling(tick_of_sure_machine());
+    const float before = milling.rest().enter_the_cut(wide).ratio();
+    leave_at_once(milling, wide);
+    CHECK(milling.enter_the_cut(axis_faded, 3000).ratio() > 1.4F * before);
+}
+
+TEST(TickInDrift, believes_a_faded_axis_again_once_it_is_found_sound_in_air) {
+    Milling milling(tick_of_sure_machine());
+    const float before = milling.rest().enter_the_cut(wide).ratio();
+    leave_at_once(milling.mill_from(wide, axis_faded, 2500), axis_faded);
+    Milling after_air = milling;
+    CHECK(milling.enter_the_cut(axis_faded, 3000).ratio() < 1.1F * before);
+    after_air.tick().set_way_ahead({});
+    CHECK(after_air.mill(air, 150).enter_the_cut(axis_faded, 3000).ratio() > 1.4F * before);
+}
+
+TEST(TickInDrift, takes_no_held_feed_for_the_end_of_a_cut) {
+    Milling milling(tick_of_sure_machine());
+    const float before = milling.rest().enter_the_cut(wide).ratio();
+    milling.status.feed_hold = true;
+    milling.dwell(wide, 100);
+    milling.status.feed_hold = false;
+    CHECK(milling.mill_from(wide, axis_faded, 200).mill(axis_faded, 3000).ratio() < 1.1F * before);
+}
+
+TEST(TickInDrift, is_in_no_overload_by_a_force_that_doubt_alone_makes_possible) {
+    Parameters p = sure_machine();
+    p.tool.tooth_force_limit_N = 400.0F;
+    Milling milling{Tick(p)};
+    const float before = milling.rest().enter_the_cut(wide).ratio();
+    milling.mill_from(wide, {1.22F, -0.25F}, 2500);
+    CHECK(milling.tick().control().fault == control::Fault::none);
+    CHECK(milling.ratio() < before);
 }

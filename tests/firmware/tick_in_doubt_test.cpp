@@ -1,42 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/tick.hpp"
-#include "firmware/tick_bench.hpp"
+#include "firmware/tick_milling.hpp"
 
 #include <CppUTest/TestHarness.h>
-
-#include <algorithm>
 
 using namespace millforce;
 using namespace millforce::test;
 using control::CutState;
-using firmware::step_and_work;
-using Tick = firmware::ForceControlTick<float>;
 
 namespace {
 
 /// So little of the cut of tick_bench.hpp that it may be drift as well.
-constexpr float hardly_a_cut = 0.03F;
-constexpr double its_force_N = 250.0 * static_cast<double>(hardly_a_cut);
+constexpr Load hardly_a_cut{0.03F, 1.0F};
+constexpr double its_force_N = 250.0 * static_cast<double>(hardly_a_cut.spindle);
 
-hal::DriveSample with_share_of_force(int index, float share) {
-    hal::DriveSample sample = sample_of(index);
-    const float idle_A = sample_of(0).spindle_current_A;
-    sample.spindle_current_A = idle_A + share * (sample.spindle_current_A - idle_A);
-    return sample;
-}
+constexpr Load half_faded{0.5F, 1.0F};
 
-hal::DriveSample at_rest(int index) {
-    hal::DriveSample sample = with_share_of_force(index, 0.0F);
-    sample.axis_velocity_mm_s = {};
-    sample.axis_current_A = {};
-    return sample;
-}
-
-/// From the third second on the spindle's current loses half of what the cut asks for within 2.5 s.
-hal::DriveSample fading(int index) {
-    const int faded = std::clamp(index - 3000, 0, 2500);
-    return with_share_of_force(index, 1.0F - 0.5F * static_cast<float>(faded) / 2500.0F);
-}
+constexpr Load narrow{0.7F, 0.63F};
+constexpr Load heavier{3.0F, 3.0F};
+constexpr Load of_no_cut{1.0F, 4.0F};
 
 control::WayAhead<float> with_cut(bool may_cut) {
     control::WayAhead<float> way;
@@ -47,18 +28,14 @@ control::WayAhead<float> with_cut(bool may_cut) {
 }  // namespace
 
 TEST_GROUP(TickInDoubt) {
-    Tick tick = fresh_tick();
+    Milling milling{fresh_tick()};
 
-    /// What is left of a light cut behind a rest in air.
+    /// What is left of a light cut after a rest in air.
     double force_in_light_cut_N(const control::WayAhead<float>& way) {
-        for (int k = 0; k < 300; ++k) {
-            step_and_work(tick, at_rest(k), program());
-        }
-        tick.set_way_ahead(way);
-        for (int k = 300; k < 2300; ++k) {
-            step_and_work(tick, with_share_of_force(k, hardly_a_cut), program());
-        }
-        return static_cast<double>(tick.estimate().steady_tangential_N.value);
+        milling.rest(300);
+        milling.tick().set_way_ahead(way);
+        milling.mill(hardly_a_cut, 2000);
+        return static_cast<double>(milling.tick().estimate().steady_tangential_N.value);
     }
 };
 
@@ -71,34 +48,82 @@ TEST(TickInDoubt, learns_a_small_force_where_the_map_has_air) {
 }
 
 TEST(TickInDoubt, shows_an_engagement_in_the_cut_alone_and_while_it_is_held) {
+    milling.mill(air, 200);
     bool was_in_entry = false;
-    for (int k = 0; k < 900; ++k) {
-        step_and_work(tick, sample_of(k), program());
-        was_in_entry = was_in_entry || tick.control().state == CutState::entry;
-        CHECK(tick.control().state == CutState::in_cut || !tick.engagement().immersion_valid);
+    for (int k = 0; k < 700; ++k) {
+        milling.mill(whole, 1);
+        was_in_entry = was_in_entry || milling.state() == CutState::entry;
+        CHECK(milling.state() == CutState::in_cut || !milling.tick().engagement().immersion_valid);
+        CHECK(milling.state() == CutState::in_cut || !milling.tick().engagement().depth_valid);
     }
     CHECK(was_in_entry);
-    CHECK(tick.engagement().immersion_valid);
-    hal::ProgramStatus held = program();
-    held.feed_hold = true;
-    for (int k = 900; k < 1000; ++k) {
-        step_and_work(tick, sample_of(k), held);
+    CHECK(milling.tick().engagement().immersion_valid);
+    milling.status.feed_hold = true;
+    milling.mill(whole, 100);
+    CHECK(milling.state() == CutState::hold);
+    CHECK(milling.tick().engagement().immersion_valid);
+}
+
+TEST(TickInDoubt, shows_no_engagement_in_a_cut_that_fades) {
+    Milling sure{Tick(well_known_machine())};
+    sure.mill(air, 200).mill(whole, 1000);
+    CHECK(sure.tick().engagement().immersion_valid);
+    sure.mill_from(whole, {0.8F, 0.8F}, 60);
+    CHECK(sure.state() == CutState::in_cut);
+    CHECK(sure.tick().control().fading);
+    CHECK(sure.tick().estimate().engagement.immersion_valid);
+    CHECK_FALSE(sure.tick().engagement().immersion_valid);
+    CHECK_FALSE(sure.tick().engagement().depth_valid);
+}
+
+TEST(TickInDoubt, does_not_speed_up_by_forces_that_no_cut_has) {
+    milling.mill(air, 200).mill(of_no_cut);
+    CHECK(milling.tick().control().limit == control::Limit::law_misfit);
+}
+
+TEST(TickInDoubt, keeps_the_depth_of_the_cut_where_it_becomes_too_narrow_to_show_it) {
+    Milling sure{Tick(well_known_machine())};
+    sure.mill(air, 200).mill(wide, 800).mill_from(wide, narrow, 300).mill(narrow, 100);
+    CHECK(sure.tick().engagement().depth_is_remembered);
+}
+
+TEST(TickInDoubt, keeps_no_depth_of_an_entry) {
+    Milling sure{Tick(well_known_machine())};
+    sure.mill(air, 200).mill(wide, 200).mill(narrow, 10);
+    CHECK(sure.state() == CutState::entry);
+    sure.mill(narrow, 200);
+    CHECK(sure.state() == CutState::in_cut);
+    CHECK_FALSE(sure.tick().engagement().depth_is_remembered);
+}
+
+TEST(TickInDoubt, slows_down_for_the_worst_tooth_where_the_forces_leave_no_engagement) {
+    Parameters p = with_unclear_torque();
+    p.tool.tooth_force_limit_N = 50.0F;
+    Milling unclear{Tick(p)};
+    unclear.mill(air, 200).mill(whole);
+    CHECK_FALSE(unclear.tick().estimate().tooth_force_N.valid);
+    CHECK(unclear.ratio() < 0.3F);
+}
+
+TEST(TickInDoubt, slows_down_before_a_force_that_grows_by_as_much_as_the_cnc_is_late) {
+    Parameters p = with_all_currents();
+    p.machine.cnc.override_latency_s = 0.01F;
+    Milling prompt{Tick(p)};
+    p.machine.cnc.override_latency_s = 0.1F;
+    Milling late{Tick(p)};
+    for (Milling* each : {&prompt, &late}) {
+        each->rest().enter_the_cut(whole).mill_from(whole, heavier, 60);
     }
-    CHECK(tick.control().state == CutState::hold);
-    CHECK(tick.engagement().immersion_valid);
+    CHECK(late.ratio() < 0.5F * prompt.ratio());
 }
 
 /// Forces along the feed that stay contradict it. The axes of this cut do not determine its width: the tooth force is a
 /// bound, some twice F_at.
 TEST(TickInDoubt, hardly_speeds_up_on_a_spindle_current_that_fades_while_the_axes_carry_what_they_did) {
-    float before = 0.0F;
-    float highest = 0.0F;
-    for (int k = 0; k < 7000; ++k) {
-        step_and_work(tick, fading(k), program());
-        before = k == 3000 ? tick.control().ratio : before;
-        highest = k > 3000 ? std::max(highest, tick.control().ratio) : highest;
-    }
-    CHECK(tick.control().fault == control::Fault::none);
+    milling.mill(air, 200).mill(whole, 2800);
+    const float before = milling.ratio();
     CHECK(before > 0.5F);
-    CHECK(highest < 1.15F * before);
+    milling.watch_highest_ratio().mill_from(whole, half_faded, 2500).mill(half_faded);
+    CHECK(milling.highest_ratio() < 1.15F * before);
+    CHECK(milling.tick().control().fault == control::Fault::none);
 }

@@ -224,73 +224,27 @@ TEST(TickInputs, of_a_dwell_in_which_every_other_tooth_cuts_are_one_cut) {
     }
 }
 
-TEST_GROUP(TickWithMap){static Tick in_cut(const control::WayAhead<float>& way, Tick tick = fresh_tick()){
-    for (int k = 0; k < 1500; ++k){tick.set_way_ahead(k < 400 ? control::WayAhead<float>{} : way);
-step_and_work(tick, sample_of(k), program());
-}
-return tick;
-}
-static float ratio_in_cut(const control::WayAhead<float>& way) {
-    return in_cut(way).control().ratio;
-}
-static control::WayAhead<float> way_with(float tooth_per_tangential) {
-    control::WayAhead<float> way;
-    way.known = true;
-    way.feed_mm_s = 100.0F;
-    way.tooth_per_tangential = tooth_per_tangential;
-    return way;
-}
-}
-;
-
-TEST(TickWithMap, takes_the_tooths_share_of_the_force_from_the_map) {
-    const float light = ratio_in_cut(way_with(2.6F));
-    const float heavy = ratio_in_cut(way_with(5.0F));
-    CHECK(heavy < 0.75F * light);
-}
-
-TEST(TickWithMap, of_which_nothing_is_known_is_without_one) {
-    control::WayAhead<float> unknown = way_with(5.0F);
-    unknown.known = false;
-    CHECK(ratio_in_cut(unknown) == ratio_in_cut({}));
-}
-
-TEST(TickWithMap, that_sees_air_leaves_the_force_as_it_is_measured) {
-    const float by_forces = ratio_in_cut(way_with(0.0F));
-    CHECK(by_forces > 1.1F * ratio_in_cut(way_with(5.0F)));
-    CHECK(by_forces < ratio_in_cut(way_with(0.1F)));  // the least that the forces leave
-}
-
-TEST(TickWithMap, takes_the_maps_force_within_the_noise_of_the_measured_one) {
-    control::WayAhead<float> way = way_with(5.0F);
-    const float as_measured = ratio_in_cut(way);
-    way.tangential_N = 1.0F;
-    CHECK(ratio_in_cut(way) > as_measured);
-    way.tangential_N = 10'000.0F;
-    const float heavier = ratio_in_cut(way);
-    CHECK(heavier < as_measured);
-    CHECK(heavier > 0.6F * as_measured);  // 319 N in place of 296 N
-}
-
-TEST(TickWithMap, believes_no_smaller_tooth_than_the_forces_leave) {
-    Parameters p = machine_and_tool();
-    p.tool.tooth_force_limit_N = 150.0F;
-    const Tick weak_tool(p);
-    const float of_least = in_cut(way_with(0.1F), weak_tool).control().ratio;
-    DOUBLES_EQUAL(static_cast<double>(of_least), static_cast<double>(in_cut(way_with(0.5F), weak_tool).control().ratio),
-                  1e-3);
-    CHECK(of_least < 0.9F * p.machine.cnc.override_max);
-}
-
-TEST(TickWithMap, believes_a_smaller_tooth_than_a_bound) {
-    CHECK(in_cut({}).estimate().tooth_force_is_bound);
-    CHECK(ratio_in_cut(way_with(0.8F)) > 1.8F * ratio_in_cut({}));
-}
-
-TEST(TickWithMap, is_in_no_overload_by_a_force_that_the_map_alone_knows) {
-    const Tick tick = in_cut(way_with(8.0F));
+TEST(TickInputs, of_a_spindle_that_stops_in_the_cut_while_the_axes_rest_hold_the_feed) {
+    mill(tick, 0, 600);
+    for (int k = 600; k < 1200; ++k) {
+        hal::DriveSample sample = in_air(600);
+        sample.time_us = sample_of(k).time_us;
+        sample.axis_velocity_mm_s = {};
+        step_and_work(tick, sample, program());
+    }
     CHECK(tick.control().fault == Fault::none);
-    CHECK(tick.control().ratio == lowest);
+    CHECK(tick.control().state == CutState::hold);
+}
+
+TEST(TickInputs, of_some_revolutions_show_no_contact_while_the_axes_rest) {
+    learn_idle_torque(tick, 400);
+    for (int k = 400; k < 900; ++k) {
+        hal::DriveSample sample = with_force(k, 60.0F);
+        sample.axis_velocity_mm_s = {};
+        sample.axis_current_A = {};
+        step_and_work(tick, sample, program());
+        CHECK(tick.control().state == CutState::air);
+    }
 }
 
 TEST_GROUP(TickOnSpindleAlone){};

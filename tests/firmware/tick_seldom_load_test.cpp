@@ -29,15 +29,26 @@ class Machine {
     hal::FeedOverride run(int samples) {
         hal::FeedOverride output;
         for (const int end = index_ + samples; index_ < end; ++index_) {
-            output = firmware::step_and_work(tick, sample(), program());
+            output = firmware::step_and_work(tick, sample(), status);
             feed_ = output.hold ? 0.0F : feed_mm_s * program_share * output.ratio;
         }
         return output;
     }
 
+    int samples_until_a_fault() {
+        int samples = 0;
+        while (samples < 6000 && tick.control().fault == control::Fault::none) {
+            run(1);
+            ++samples;
+        }
+        return samples;
+    }
+
     firmware::ForceControlTick<float> tick{spindle_with_a_seldom_load()};
+    hal::ProgramStatus status = program();
     bool load_stands_still = false;
-    float program_share = 1.0F;  ///< of the feed
+    std::uint32_t counted_more = 0;  ///< by the encoder
+    float program_share = 1.0F;      ///< of the feed
     float heavier = 1.0F;
 
   private:
@@ -46,6 +57,7 @@ class Machine {
         constexpr float idle_A = 0.95F / 0.7F;
         hal::DriveSample sample = sample_of(index_);
         sample.axis_velocity_mm_s = {feed_, 0.0F, 0.0F};
+        sample.spindle_count += counted_more;
         const float load_A = index_ < 500 ? 0.0F : 3.0F * heavier * (0.2F + 0.8F * feed_ / feed_mm_s);
         if (index_ % period == 0 && !load_stands_still) {
             told_A_ = measured_A_;
@@ -118,4 +130,27 @@ TEST(TickOnSeldomLoad, sees_a_contact_though_the_feed_has_just_changed) {
         CHECK(machine.tick.feed_is_settled() == is_steady);
         CHECK(k < 1000);
     }
+}
+
+TEST(TickOnSeldomLoad, asks_nothing_while_the_feed_is_held) {
+    machine.run(6000);
+    machine.status.feed_hold = true;
+    machine.run(6000);
+    CHECK(machine.tick.control().state == control::CutState::hold);
+    CHECK(machine.tick.control().fault == control::Fault::none);
+}
+
+TEST(TickOnSeldomLoad, begins_to_wait_again_after_a_hold_and_after_a_break_of_the_encoder) {
+    machine.run(6000);
+    machine.load_stands_still = true;
+    machine.run(1500);
+    Machine held = machine;
+    held.status.feed_hold = true;
+    held.run(50);
+    held.status.feed_hold = false;
+    Machine broken = machine;
+    broken.counted_more = 2'000'000;
+    const int waits = machine.samples_until_a_fault();
+    CHECK(held.samples_until_a_fault() > waits + 1400);
+    CHECK(broken.samples_until_a_fault() > waits + 1400);
 }

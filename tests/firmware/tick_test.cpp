@@ -16,20 +16,6 @@ using millforce::firmware::step_and_work;
 
 namespace {
 
-/// So well known that one solution is like the next.
-Parameters well_known_machine() {
-    Parameters p = machine_and_tool();
-    p.machine.spindle.current_sd_A = 0.02F;
-    p.machine.spindle.inertia_kg_m2 = 0.0005F;
-    for (auto& axis : p.machine.axes) {
-        axis.friction_relative_sd = 0.01F;
-        axis.friction_ripple_A = 0.01F;
-        axis.current_sd_A = 0.02F;
-        axis.gain_relative_sd = 0.01F;
-    }
-    return p;
-}
-
 /// With an encoder so fine that one window gives the torque.
 Parameters with_fine_encoder() {
     Parameters p = machine_and_tool();
@@ -118,7 +104,7 @@ TEST(Tick, estimates_in_its_work_and_answers_with_the_next_step) {
         step_and_work(tick, sample_of(k), program());
     }
     const float before_N = tick.estimate().tangential_N.value;
-    for (int k = 500; !tick.work_due(); ++k) {  // until a tooth period ends
+    for (int k = 500; k < 520 && !tick.work_due(); ++k) {  // until a tooth period ends
         tick.step(sample_of(k), program());
     }
     CHECK(tick.estimate().tangential_N.value == before_N);
@@ -163,7 +149,7 @@ TEST(Tick, finds_the_same_cut_again_after_a_gap_in_the_samples_with_work_left) {
         step_and_work(tick, sample_of(k), program());
     }
     CHECK(tick.estimate().engagement.immersion_valid);
-    for (int k = 900; !tick.work_due(); ++k) {
+    for (int k = 900; k < 920 && !tick.work_due(); ++k) {
         tick.step(sample_of(k), program());
     }
     tick.work();

@@ -3,6 +3,7 @@
 import json
 import re
 import shlex
+import signal
 import subprocess
 from pathlib import Path
 
@@ -11,13 +12,20 @@ FAILURE = re.compile(r"Failure in (?:IGNORE_)?TEST\((\w+), (\w+)\)")
 
 class Subject:
     """A file to change, the sources that hold its code, and the executable that tests it. `groups`: those of CppUTest
-    that are run first, because they fail fast."""
+    that are run first, because they fail fast; where `of_first` is set, they use the first source alone, and the others
+    are compiled for those mutants only that survive them."""
 
-    def __init__(self, path, sources, executable, groups=()):
+    def __init__(self, path, sources, executable, groups=(), of_first=False):
         self.path = path
         self.sources = sources
         self.executable = executable
         self.groups = groups
+        self.of_first = of_first
+
+    def rounds(self):
+        """(sources, groups) in the order in which they are tried. No group: all tests."""
+        first = self.sources[:1] if self.of_first else self.sources
+        return [*((first, ["-sg", group]) for group in self.groups), (self.sources, [])]
 
 
 class Build:
@@ -84,42 +92,40 @@ def headers_and_sources(root):
             for path in (root / library / folder).glob("**/*.[hc]pp")]
 
 
-def run_tests(executable, groups, limit_s):
-    """The first case that fails, or None."""
-    for selection in ([word for group in groups for word in ("-sg", group)], []):
-        if not selection and groups == ("all",):
-            continue
-        try:
-            ran = subprocess.run([executable, *selection], cwd=executable.parent, capture_output=True, text=True,
-                                 errors="replace", timeout=limit_s, check=False)
-        except subprocess.TimeoutExpired:
-            return "does not end"
-        if ran.returncode != 0:
-            failure = FAILURE.search(ran.stdout)
-            return ".".join(failure.groups()) if failure else f"ends with {ran.returncode}"
-        if not groups:
-            break
-    return None
+def run_tests(executable, selection, limit_s):
+    """The first case that fails, or None. `limit_s`: of a processor, so that a busy machine kills no mutant."""
+    ran = subprocess.run(["prlimit", f"--cpu={limit_s}", executable, *selection], cwd=executable.parent,
+                         capture_output=True, text=True, errors="replace", check=False)
+    if ran.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return "does not end"
+    if ran.returncode == 0:
+        return None
+    failure = FAILURE.search(ran.stdout)
+    return ".".join(failure.groups()) if failure else f"ends with {ran.returncode}"
 
 
-def attempt(build, subject, mutant, work, limit_s=120):
+def attempt(build, subject, mutant, work, limit_s=10):
     """(result, what killed it): "killed", "survived", or "not compiled"."""
     as_included = Path(*Path(mutant.path).parts[2:])
     file = work / (as_included if mutant.path.endswith(".hpp") else mutant.path)
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(mutant.text, encoding="utf-8")
+    executable = work / subject.executable
     changed = {}
     try:
-        for source in subject.sources:
-            output = work / (source.replace("/", "_") + ".o")
-            if build.compile(source, output, work).returncode != 0:
-                return "not compiled", None
-            changed[source] = output
-        executable = work / subject.executable
-        linked = build.link(subject, changed, executable)
-        if linked.returncode != 0:
-            raise SystemExit(f"check-mutations: {subject.executable} does not link:\n{linked.stderr}")
-        killer = run_tests(executable, subject.groups, limit_s)
-        return ("killed" if killer else "survived"), killer
+        for sources, selection in subject.rounds():
+            missing = [source for source in sources if source not in changed]
+            for source in missing:
+                changed[source] = work / (source.replace("/", "_") + ".o")
+                if build.compile(source, changed[source], work).returncode != 0:
+                    return "not compiled", None
+            if missing:
+                linked = build.link(subject, changed, executable)
+                if linked.returncode != 0:
+                    raise SystemExit(f"check-mutations: {subject.executable} does not link:\n{linked.stderr}")
+            killer = run_tests(executable, selection, limit_s)
+            if killer:
+                return "killed", killer
+        return "survived", None
     finally:
         file.unlink()

@@ -215,7 +215,7 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     using estimation::square;
     using std::sqrt;
     control::CutEstimateForControl<Scalar>& cut = input_.cut;
-    if (!input_.way.known || !(input_.way.tooth_per_tangential > Scalar(0)) || !has_new_estimate_ || !cut.force_valid) {
+    if (!input_.way.known || !(input_.way.tooth_per_tangential > Scalar(0)) || !has_new_estimate_) {
         return;
     }
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
@@ -262,7 +262,7 @@ void ForceControlTick<Scalar, WideBand>::work() {
         if (estimator_.work()) {
             take_estimate();
         }
-    } else if (wide_band_.work_due()) {
+    } else {
         work_on_wide_band();
     }
 }
@@ -282,12 +282,18 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     has_new_estimate_ = true;
 }
 
+/// 0 where the spindle's speed is not known.
+template <typename Scalar, typename WideBand>
+Scalar ForceControlTick<Scalar, WideBand>::tooth_period_s(const estimation::CutEstimate<Scalar>& e) const {
+    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
+    return teeth_rad_s > Scalar(0) ? estimation::turn_rad<Scalar> / teeth_rad_s : Scalar(0);
+}
+
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::ask_load() {
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
-    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
-    if (control_.state == control::CutState::in_cut && e.tangential_N.valid && teeth_rad_s > Scalar(0)) {
-        load_answer_.follow(e, estimation::turn_rad<Scalar> / teeth_rad_s, feed_is_settled());
+    if (control_.state == control::CutState::in_cut && e.tangential_N.valid) {
+        load_answer_.follow(e, tooth_period_s(e), feed_is_settled());
     } else {
         load_answer_.restart();
     }
@@ -409,9 +415,8 @@ void ForceControlTick<Scalar, WideBand>::allow_for_drift() {
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::allow_for_drift_of_the_spindle_alone() {
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
-    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
-    if (is_in_cut() && teeth_rad_s > Scalar(0)) {
-        slow_fall_.follow(e, estimation::turn_rad<Scalar> / teeth_rad_s);
+    if (is_in_cut()) {
+        slow_fall_.follow(e, tooth_period_s(e));
     }
     input_.cut.tooth_force_N *= slow_fall_.largest_ratio(e);
 }

@@ -31,7 +31,7 @@ class ForceMemory {
     /// Averages the present forces with what the memory holds of the same cut. `is_new_revolution`: these forces share
     /// no sample with those remembered last, and are remembered. `exponent`: m.
     void blend(AverageForceMeasurement<Scalar>& now, Scalar feed_mm_s, Scalar exponent, bool is_new_revolution) {
-        const Scalar carried = revolutions_ > Scalar(0) ? carried_by(feed_mm_s_, feed_mm_s, exponent) : Scalar(1);
+        const Scalar carried = carried_by(feed_mm_s_, feed_mm_s, exponent);
         if (revolutions_ > Scalar(0)) {
             revolutions_ *= share_of_same_cut(now, carried);
         }
@@ -115,7 +115,7 @@ class ForceMemory {
     }
 
     AverageForceMeasurement<Scalar> held_{};
-    Scalar feed_mm_s_{0};
+    Scalar feed_mm_s_{0};  // 0: nothing is held
     Scalar revolutions_{0};
 };
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/tick_milling.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace millforce;
+using namespace millforce::test;
+using control::CutState;
+
+TEST_GROUP(TickInAir) {
+    Milling milling;
+
+    double force_N() {
+        return static_cast<double>(milling.tick().estimate().steady_tangential_N.value);
+    }
+    float friction_scale() {
+        return milling.tick().estimator().friction_scale(0, true);
+    }
+};
+
+TEST(TickInAir, learns_no_force_below_zero_as_drift_while_the_axes_move) {
+    constexpr Load below_idle{-0.06F, 0.0F};
+    milling = Milling{Tick(well_known_machine())};
+    milling.rest(300).mill(below_idle, 2000);
+    CHECK(milling.state() == CutState::air);
+    DOUBLES_EQUAL(-0.06 * 250.0, force_N(), 1.5);
+}
+
+TEST(TickInAir, learns_no_friction_where_no_spindle_current_says_that_it_is_air) {
+    constexpr Load axis_alone{0.0F, 1.0F};
+    const Milling begun = milling.rest(300);
+    const float before = friction_scale();
+    milling.mill(axis_alone, 45);
+    CHECK(friction_scale() != before);
+    milling = begun;
+    milling.missing = hal::mask(hal::Present::spindle_current);
+    milling.mill(axis_alone, 45);
+    CHECK(milling.state() == CutState::air);
+    CHECK(friction_scale() == before);
+}
+
+TEST(TickInAir, learns_nothing_in_a_cut_whose_axes_stand) {
+    milling.mill(air, 200).mill(whole, 800).dwell(whole, 500);
+    CHECK(milling.state() == CutState::in_cut);
+    DOUBLES_EQUAL(250.0, force_N(), 12.5);
+}
+
+TEST(TickInAir, learns_nothing_of_the_revolution_in_which_it_ended) {
+    constexpr int samples_of_a_revolution = 15;
+    Milling begun;
+    begun.rest(300);
+    for (int phase = 0; phase < samples_of_a_revolution; ++phase) {
+        milling = begun.rest(1);
+        milling.dwell(whole, 30).dwell(air, 60).mill(air, 150);
+        CHECK(milling.state() == CutState::air);
+        for (int k = 0; k < 100; ++k) {
+            milling.rest(1);
+            DOUBLES_EQUAL(0.0, static_cast<double>(milling.tick().estimate().tangential_N.value), 1.0);
+        }
+    }
+}
