@@ -128,7 +128,7 @@ TEST(PartMap, begins_a_stretch_where_less_of_the_cut_is_sure) {
 
 TEST(PartMap, goes_slower_through_a_harder_batch_with_the_same_force_on_a_tooth) {
     MapPlace harder = cut_at(0.0, 6.0);
-    const float feed_mm_s = stretches_of({harder}, parameters)[0].feed_mm_s;
+    const float soft_mm_s = stretches_of({harder}, parameters)[0].feed_mm_s;
     harder.hardness = 1.3;
-    CHECK(stretches_of({harder}, parameters)[0].feed_mm_s < 0.9F * feed_mm_s);
+    CHECK(stretches_of({harder}, parameters)[0].feed_mm_s < 0.9F * soft_mm_s);
 }
