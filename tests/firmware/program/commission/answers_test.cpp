@@ -92,3 +92,38 @@ TEST(Answers, of_an_earlier_run_answer_the_same_questions_again) {
     STRCMP_EQUAL("carbide", second.word(material).c_str());
     second.require_all();
 }
+
+TEST(Answers, asks_for_a_whole_number_until_it_is_one_and_for_a_number_without_anything_behind_it) {
+    std::istringstream in("3.5\n20\n3 teeth\n4\n");
+    std::ostringstream out;
+    Answers answers("", {});
+    answers.ask_on(in, out);
+    LONGS_EQUAL(4, answers.integer({"tool.teeth", "Teeth", "", 1.0, 16.0}));
+    STRCMP_EQUAL(
+        "Teeth:   expected a whole number from 1 to 16\nTeeth:   expected a whole number from 1 to 16\n"
+        "Teeth:   expected a whole number from 1 to 16\nTeeth: ",
+        out.str().c_str());
+}
+
+TEST(Answers, takes_any_word_where_there_are_no_choices_and_the_usual_one_for_an_empty_line) {
+    std::istringstream in("\nfree text\n\n");
+    std::ostringstream out;
+    Answers answers("", {});
+    answers.ask_on(in, out);
+    STRCMP_EQUAL("free text", answers.word({"name", "Name", {}, {}}).c_str());
+    STRCMP_EQUAL("hss", answers.word({"tool.material", "Material", {"carbide", "hss"}, "hss"}).c_str());
+    STRCMP_CONTAINS("Material (carbide, hss) [hss]: ", out.str().c_str());
+    STRCMP_EQUAL("of the pair", Answers("", {"name=of the pair"}).word({"name", "Name", {}, {}}).c_str());
+}
+
+TEST(Answers, on_a_terminal_that_is_closed_are_missing_and_are_not_asked_for_again) {
+    std::istringstream in("");
+    std::ostringstream out;
+    Answers answers("", {});
+    answers.ask_on(in, out);
+    CHECK(std::isnan(answers.number(diameter)));
+    CHECK_FALSE(answers.asks());
+    STRCMP_EQUAL("", answers.word(material).c_str());
+    STRCMP_CONTAINS("missing answers: tool.diameter_mm in mm, tool.material (carbide, hss)",
+                    message_of<InputError>([&] { answers.require_all(); }).c_str());
+}

@@ -27,6 +27,7 @@ class DrivesInMemory {
         return {[this](const hal::CanFrame& frame) { deliver(frame); }, [this] { return next(); },
                 [this] { return now_us_; }};
     }
+    void disturb(const hal::CanFrame& frame) { waiting_.push_back(frame); }
     [[nodiscard]] const std::vector<sim::CanopenDrive>& drives() const { return drives_; }
 
   private:
@@ -59,6 +60,14 @@ sim::CanopenDriveSettings drive_at(std::uint8_t node) {
     settings.rated_current_A = 3.5;
     settings.rated_torque_Nm = 2.0;
     return settings;
+}
+
+/// Of which nothing but its node is known.
+FoundDrive bare_drive(std::uint8_t node) {
+    FoundDrive drive;
+    drive.node_id = node;
+    drive.device_type = 0x00020192;
+    return drive;
 }
 
 }  // namespace
@@ -116,4 +125,54 @@ TEST(DriveSearch, what_the_drives_say_answers_the_questions_for_the_machine) {
     Answers other("", {"bus.spindle.node_id=9"});
     CHECK(contains(message_of<InputError>([&] { answers_of_drives(found, {"x"}, other); }),
                    "bus.spindle.node_id = 9: no CiA 402 drive answers there"));
+}
+
+TEST(DriveSearch, of_a_drive_that_states_nothing_answers_its_node_alone) {
+    Answers answers("", {});
+    STRCMP_EQUAL("bus.spindle.node_id = 3\nbus.x.node_id = 4\n",
+                 answers_of_drives({bare_drive(3), bare_drive(4)}, {"x"}, answers).c_str());
+    STRCMP_EQUAL("node 3: CiA 402 drive", bare_drive(3).words().c_str());
+    CHECK_FALSE(bare_drive(3).velocity_mm_s(5.0).has_value());
+}
+
+TEST(DriveSearch, gives_an_axis_its_torque_for_each_ampere_and_no_velocity_in_a_unit_that_it_does_not_know) {
+    FoundDrive axis = bare_drive(4);
+    axis.rated_current_mA = 4000;
+    axis.velocity_unit = 0x00410300;  // degrees
+    Answers answers("", {"x.travel_per_motor_turn_mm=5"});
+    const std::string without_torque = answers_of_drives({bare_drive(3), axis}, {"x"}, answers);
+    CHECK_TEXT(!contains(without_torque, "torque_constant"), without_torque.c_str());
+    CHECK_TEXT(!contains(without_torque, "velocity_mm_s_per_unit"), without_torque.c_str());
+    axis.rated_torque_mNm = 2000;
+    CHECK(contains(answers_of_drives({bare_drive(3), axis}, {"x"}, answers), "x.torque_constant_Nm_per_A = 0.5\n"));
+    STRCMP_EQUAL("node 4: CiA 402 drive, rated 4 A and 2 N·m", axis.words().c_str());
+}
+
+TEST(DriveSearch, a_node_that_is_no_drive_cannot_be_the_spindle_or_an_axis) {
+    FoundDrive terminal;
+    terminal.node_id = 9;
+    terminal.device_type = 0x000F0191;
+    STRCMP_EQUAL("node 9: device type 0x000F0191, no drive", terminal.words().c_str());
+    Answers answers("", {"bus.x.node_id=9"});
+    STRCMP_EQUAL("bus.x.node_id = 9: no CiA 402 drive answers there",
+                 message_of<InputError>([&] {
+                     answers_of_drives({bare_drive(3), terminal}, {"x"}, answers);
+                 }).c_str());
+}
+
+TEST(DriveSearch, asks_for_the_node_of_an_axis_that_the_bus_does_not_have) {
+    Answers answers("", {});
+    STRCMP_CONTAINS("bus.x.node_id",
+                    message_of<InputError>([&] { answers_of_drives({bare_drive(3)}, {"x"}, answers); }).c_str());
+}
+
+TEST(DriveSearch, listens_past_frames_that_are_no_answers) {
+    memory.add(drive_at(5));
+    memory.disturb({.id = 0x585, .extended = true, .length = 8, .data = {0x43, 0x00, 0x10}});
+    memory.disturb({.id = 0x585, .remote = true});
+    memory.disturb({.id = 0x80, .length = 0});
+    memory.disturb({.id = 0x700, .length = 1});
+    const auto found = find_drives(memory.bus());
+    UNSIGNED_LONGS_EQUAL(1, found.size());
+    UNSIGNED_LONGS_EQUAL(5, found[0].node_id);
 }

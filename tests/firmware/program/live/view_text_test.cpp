@@ -2,6 +2,7 @@
 #include "live/view_text.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "control/cut_state.hpp"
@@ -113,5 +114,60 @@ TEST(ViewText, shows_what_two_sources_say_at_once_one_time) {
     state.add_event(1'100'000, "millforce: fault: overload");
     LONGS_EQUAL(1, state.events.size());
     state.add_event(3'000'000, "fault: overload");
+    LONGS_EQUAL(2, state.events.size());
+}
+
+TEST(ViewText, says_where_in_the_program_the_tool_is_and_what_holds_it) {
+    Telemetry telemetry = in_cut();
+    state.take(telemetry);
+    shows("program    F not known, operator 100 %\n");
+    telemetry.sample.program.programmed_feed_mm_s = 20.0F;
+    telemetry.sample.program.line = 37;
+    telemetry.sample.program.rapid = true;
+    telemetry.sample.program.feed_hold = true;
+    telemetry.sample.tool = 7;
+    state.take(telemetry);
+    shows("F 1200 mm/min, operator 100 %, line 37, tool 7, rapid, feed hold");
+}
+
+TEST(ViewText, names_conditions_a_fault_and_ticks_that_it_did_not_show) {
+    Telemetry telemetry = in_cut();
+    state.take(telemetry);
+    shows("conditions none");
+    telemetry.sample.conditions.set(static_cast<firmware::Condition>(0), true);
+    telemetry.sample.conditions.set(static_cast<firmware::Condition>(1), true);
+    telemetry.sample.tick.feed_override.fault = static_cast<std::uint8_t>(control::Fault::overload);
+    telemetry.lost = 12;
+    state.take(telemetry);
+    const std::string all = text();
+    const std::size_t begin = all.find("conditions ");
+    CHECK_TEXT(all.substr(begin, all.find('\n', begin) - begin).find(", ") != std::string::npos, all.c_str());
+    shows("(overload)");
+    shows("12 ticks were not shown: this view was too slow");
+}
+
+TEST(ViewText, gives_no_load_without_a_limit_and_an_override_above_the_programmed_feed_its_own_scale) {
+    Telemetry telemetry = in_cut();
+    for (const float none : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+        telemetry.shown.limit_N = none;
+        state.take(telemetry);
+        shows("load       no estimate");
+    }
+    size = {78, 24, false};  // a bar of 40 columns
+    telemetry.sample.tick.feed_override.ratio = 1.5F;
+    state.take(telemetry);
+    shows("150 %");
+    shows(std::string(30, '#') + "..........");
+}
+
+TEST(ViewText, shows_an_estimate_without_a_deviation_as_certain_and_no_third_line_of_one_event) {
+    Telemetry telemetry = in_cut();
+    telemetry.sample.tick.axial_depth_sd_mm = std::numeric_limits<float>::quiet_NaN();
+    state.take(telemetry);
+    shows("3.1 ± 0.0 mm (95 %)");
+    state.add_event(1'000'000, "millforce: fault: overload");
+    state.add_event(1'100'000, "fault: overload");
+    LONGS_EQUAL(1, state.events.size());
+    state.add_event(1'200'000, "fault: spindle stall");
     LONGS_EQUAL(2, state.events.size());
 }

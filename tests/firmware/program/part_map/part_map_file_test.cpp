@@ -195,6 +195,34 @@ TEST(PartMapFile, a_place_at_which_one_thing_changes_is_written_and_so_is_the_la
     LONGS_EQUAL(3, places_of([](MapPlace& place) { place.rapid = true; }));
     LONGS_EQUAL(3, places_of([](MapPlace& place) { place.programmed_feed_mm_s = 26.0; }));
     LONGS_EQUAL(3, places_of([](MapPlace& place) { place.spindle_speed_rad_s = 400.0; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.known = Known::nothing; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.arc_sd_rad = 0.1; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.axial_depth_sd_mm = 0.1; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.hardness = 1.1; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.hardness_sd = 0.1; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.position_sd_mm = 0.1; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.is_contested = true; }));
+    LONGS_EQUAL(3, places_of([](MapPlace& place) { place.least_share = 0.5; }));
+}
+
+TEST(PartMapFile, is_that_of_a_run_where_any_place_has_something_of_a_run) {
+    const auto begins_with = [](const auto& change) {
+        PartMapFile file = example();
+        change(file.map[1]);
+        const TemporaryFolder folder;
+        write_part_map(folder.path("t.map"), file);
+        return folder.read("t.map").substr(0, 23);
+    };
+    const char* const of_geometry = "# millforce part map 1\n";
+    const char* const of_run = "# millforce part map 2\n";
+    STRCMP_EQUAL(of_geometry, begins_with([](MapPlace&) {}).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.known = Known::at_most; }).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.arc_sd_rad = 0.1; }).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.axial_depth_sd_mm = 0.1; }).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.hardness = 1.1; }).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.hardness_sd = 0.1; }).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.position_sd_mm = 0.1; }).c_str());
+    STRCMP_EQUAL(of_run, begins_with([](MapPlace& place) { place.is_contested = true; }).c_str());
 }
 
 TEST(PartMapFile, another_file_or_version_is_refused) {

@@ -50,6 +50,15 @@ TEST(PartMap, places_are_the_same_cut_where_feed_speed_and_arcs_are_alike) {
     other = one;
     other.cut[0].exit_rad = 1.01;
     CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.known = Known::at_most;
+    CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.least_share = 0.5;
+    CHECK_FALSE(is_same_cut(one, other));
+    other = one;
+    other.hardness = 1.1;
+    CHECK_FALSE(is_same_cut(one, other));
 }
 
 TEST(PartMap, of_nothing_has_no_stretch) {
@@ -91,4 +100,35 @@ TEST(PartMap, of_two_places_at_one_point_of_the_path_keeps_the_first) {
     CHECK(stretches.size() < 2 || stretches[1].begin_mm > 0.0F);
     DOUBLES_EQUAL(static_cast<double>(stretches_of({cut_at(0.0, 2.0)}, parameters)[0].tangential_N),
                   static_cast<double>(stretches[0].tangential_N), 1e-3);
+}
+
+TEST(PartMap, gives_no_forces_where_nothing_is_known_of_the_cut) {
+    MapPlace unknown = cut_at(10.0, 2.0);
+    unknown.known = Known::nothing;
+    unknown.programmed_feed_mm_s = 0.0;
+    const auto stretches = stretches_of({cut_at(0.0, 2.0), unknown, cut_at(20.0, 2.0), air_at(30.0)}, parameters);
+    LONGS_EQUAL(4, stretches.size());
+    CHECK_TRUE(stretches[0].is_known && stretches[2].is_known);
+    CHECK_FALSE(stretches[1].is_known);
+    DOUBLES_EQUAL(0.0, static_cast<double>(stretches[1].tangential_N), 0.0);
+    CHECK(stretches[1].feed_mm_s > 0.0F);
+    DOUBLES_EQUAL(0.0, tooth_force_N(unknown, parameters.tool), 0.0);
+}
+
+TEST(PartMap, begins_a_stretch_where_less_of_the_cut_is_sure) {
+    MapPlace half = cut_at(10.0, 2.0);
+    half.known = Known::at_most;
+    half.least_share = 0.5;
+    const auto stretches = stretches_of({cut_at(0.0, 2.0), half, air_at(30.0)}, parameters);
+    LONGS_EQUAL(3, stretches.size());
+    DOUBLES_EQUAL(1.0, static_cast<double>(stretches[0].least_share), 0.0);
+    DOUBLES_EQUAL(0.5, static_cast<double>(stretches[1].least_share), 1e-6);
+    DOUBLES_EQUAL(static_cast<double>(stretches[0].tangential_N), static_cast<double>(stretches[1].tangential_N), 1e-3);
+}
+
+TEST(PartMap, goes_slower_through_a_harder_batch_with_the_same_force_on_a_tooth) {
+    MapPlace harder = cut_at(0.0, 6.0);
+    const float soft_mm_s = stretches_of({harder}, parameters)[0].feed_mm_s;
+    harder.hardness = 1.3;
+    CHECK(stretches_of({harder}, parameters)[0].feed_mm_s < 0.9F * soft_mm_s);
 }

@@ -2,6 +2,7 @@
 #include "run_report/run_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -165,4 +166,48 @@ TEST(RunPage, of_a_replay_says_that_the_override_did_not_act) {
     CHECK_FALSE(has(page(), "This is a replay"));
     origin.is_replay = true;
     CHECK(has(page(), "This is a replay"));
+}
+
+TEST(RunPage, of_a_tool_that_is_only_watched_says_that_the_feed_was_the_operators) {
+    mill();
+    origin.is_monitor_only = true;
+    CHECK(has(page(), "The tool's file says monitor_only: the feed was the operator's."));
+    CHECK_FALSE(has(page(), "the ceiling on the feed was"));
+}
+
+TEST(RunPage, of_a_cut_whose_engagement_was_never_known_gives_a_bound_of_the_load) {
+    for (int k = 0; k <= 1000; ++k) {
+        history.add(0.001 * k, entering(0.6F), 0);
+    }
+    const std::string html = page();
+    CHECK(has(html, "How the tool was engaged was not known: the load on one tooth was at most 60 % of its limit."));
+    CHECK(has(html, "<strong>60 %</strong><span>of its limit at most"));
+    CHECK(has(html, "In this run it was never known."));
+}
+
+TEST(RunPage, of_a_cut_without_a_load_says_so) {
+    for (int k = 0; k <= 1000; ++k) {
+        history.add(0.001 * k, entering(std::nanf("")), 0);
+    }
+    const std::string html = page();
+    CHECK(has(html, "The forces gave no load of a tooth to compare with its limit."));
+    CHECK(has(html, "<strong>–</strong>"));
+}
+
+TEST(RunPage, marks_a_load_that_stays_above_its_limit_or_ends_in_a_fault_but_not_one_that_scatters) {
+    for (int k = 0; k <= 5000; ++k) {
+        history.add(0.001 * k, in_cut(k == 2500 ? 1.05F : 0.9F), 0);
+    }
+    CHECK(has(page(), "<div class=\"stat hero\">"));
+    for (int k = 5001; k <= 6000; ++k) {
+        history.add(0.001 * k, in_cut(1.05F), 0);
+    }
+    CHECK(has(page(), "<div class=\"stat hero over\">"));
+}
+
+TEST(RunPage, names_samples_that_it_does_not_show) {
+    history.add(0.0, in_air(), 0);
+    CHECK_FALSE(has(page(), "Samples missing on this page"));
+    history.set_lost(17);
+    CHECK(has(page(), "<dt>Samples missing on this page</dt><dd>17</dd>"));
 }
