@@ -93,8 +93,10 @@ TEST(FeedAheadGuards, way_gone_where_the_position_is_not_known_agrees_with_nothi
     }
 }
 
-TEST(FeedAheadGuards, knows_nothing_in_a_step_whose_way_or_blind_feed_is_not_known) {
-    for (float Ahead::Step::*const field : {&Ahead::Step::travel_mm, &Ahead::Step::blind_feed_mm_s}) {
+TEST(FeedAheadGuards, knows_nothing_in_a_step_of_which_one_value_is_not_finite) {
+    for (float Ahead::Step::*const field :
+         {&Ahead::Step::travel_mm, &Ahead::Step::dt_s, &Ahead::Step::feed_mm_s, &Ahead::Step::asked_feed_mm_s,
+          &Ahead::Step::blind_feed_mm_s, &Ahead::Step::runout_mm_s, &Ahead::Step::mapped_runout_mm_s}) {
         for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
             Ahead ahead = with({cut_from(0.0F), air_from(60.0F)});
             CHECK_TRUE(cut(ahead, 1.0F, 10.0F, 300.0F).known);

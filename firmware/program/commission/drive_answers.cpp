@@ -59,6 +59,11 @@ std::string answers_of_drives(const std::vector<FoundDrive>& drives, const std::
         const auto usual = place < drives.size() ? std::optional<double>(drives[place].node_id) : std::nullopt;
         const auto node = answers.integer(
             {"bus." + role + ".node_id", fmt::format("Node of the {} drive", role), "", 1.0, 127.0, usual});
+        if (node == 0) {
+            throw InputError(fmt::format(
+                "bus.{0}.node_id: missing: only {1} of {2} nodes answer on this bus; expected the {0} drive powered",
+                role, drives.size(), roles.size()));
+        }
         const auto found =
             std::find_if(drives.begin(), drives.end(), [&](const FoundDrive& drive) { return drive.node_id == node; });
         if (found == drives.end() || !found->is_cia402()) {
