@@ -28,10 +28,16 @@ double largest_feed_per_tooth_mm(const BenchPart& part) {
     return 0.02 * part.tool_diameter_mm;
 }
 
+constexpr double stated_runout_um = 6.0;
+
 /// What `millforce init` advises to one who knows the deepest cut of the part.
 double entry_feed_per_tooth_mm(const BenchPart& part, const estimation::CuttingLaw<double>& law) {
-    return host::entry_feed_per_tooth_mm(law, tooth_force_limit_N(part.tool_diameter_mm), part.depth_mm,
-                                         largest_feed_per_tooth_mm(part));
+    host::ToothForceQuestion question;
+    question.teeth = part.teeth;
+    question.deepest_cut_mm = part.depth_mm;
+    question.largest_feed_per_tooth_mm = largest_feed_per_tooth_mm(part);
+    question.law = law;
+    return host::entry_feed_per_tooth_mm(question, tooth_force_limit_N(part.tool_diameter_mm), 1e-3 * stated_runout_um);
 }
 
 estimation::CuttingLaw<double> calibrated_law() {
@@ -54,14 +60,14 @@ std::string tool_text(const BenchPart& part) {
         "name = \"{}_tool\"\n"
         "description = \"Carbide end mill, Ø{:g} mm, {} flutes, in SM45C\"\n\n"
         "[tool]\nteeth = {}\ndiameter_mm = {:g}\nhelix_deg = 30.0\nflute_length_mm = {:.1f}\nside = \"{}\"\n"
-        "runout_um = 6.0\ntooth_force_limit_N = {:.0f}\n\n"
+        "runout_um = {:g}\ntooth_force_limit_N = {:.0f}\n\n"
         "[cutting]\nk_s_N_per_mm2 = {:g}\nk_1 = {:g}\nK_te_N_per_mm = {:g}\nK_re_N_per_mm = {:g}\n"
         "K_s_relative_sd = {:g}\nK_s_exponent_sd = 0.0386\nr_1_relative_sd = 0.05\nr_1_exponent_sd = 0.0443\n"
         "reference_chip_thickness_mm = 0.4335\nminimum_chip_thickness_mm = 0.0070\n"
         "maximum_chip_thickness_mm = 0.1445\n\n"
         "[control]\nsetpoint_share = 0.97\nentry_feed_per_tooth_mm = {:.4f}\nair_feed_per_tooth_mm = {:.4f}\n"
         "max_feed_per_tooth_mm = {:.3f}\nhighest_programmed_feed_mm_s = {:.3f}\n",
-        part.name, d, part.teeth, part.teeth, d, 2.2 * d, part.shape == "one_way" ? "up" : "down",
+        part.name, d, part.teeth, part.teeth, d, 2.2 * d, part.shape == "one_way" ? "up" : "down", stated_runout_um,
         tooth_force_limit_N(d), law.k_s_N_per_mm2, law.k_1, law.K_te_N_per_mm, law.K_re_N_per_mm, law.K_s_relative_sd,
         entry_mm, entry_mm, largest_feed_per_tooth_mm(part), programmed_feed_mm_min(part) / 60.0);
 }

@@ -92,8 +92,7 @@ void write_law(FileDraft& draft, const ToolAnswers& tool) {
 
 /// Into what is not known yet: a slot of the deepest cut, in a workpiece as much harder as is not known.
 void write_control(FileDraft& draft, const ToolAnswers& tool, double limit_N) {
-    const double entry_mm = entry_feed_per_tooth_mm(tool.question.law, limit_N, tool.question.deepest_cut_mm,
-                                                    tool.question.largest_feed_per_tooth_mm);
+    const double entry_mm = entry_feed_per_tooth_mm(tool.question, limit_N);
     const double written_mm = std::max(rounded(entry_mm, 1e4), 5e-4);
     const std::string source = fmt::format("a slot {:.3g} mm deep stays below the limit", tool.question.deepest_cut_mm);
     draft.set("control", "entry_feed_per_tooth_mm", written_mm, source);

@@ -49,9 +49,13 @@ double straight_tooth_force_N(const estimation::CuttingLaw<double>& law, double 
 double feed_for_tooth_force_mm(const estimation::CuttingLaw<double>& law, double force_N, double depth_mm,
                                double largest_mm);
 
-/// That feed for a slot of the deepest cut, where a tooth may carry `limit_N`, in all but one of 40 workpieces: K_s two
-/// standard deviations above its mean.
-double entry_feed_per_tooth_mm(const estimation::CuttingLaw<double>& law, double limit_N, double deepest_cut_mm,
-                               double largest_mm);
+/// Of a tool in a collet, where nobody has measured it.
+inline constexpr double usual_runout_mm = 0.005;
+
+/// The feed per tooth at which the tool may enter what is not known yet: in a slot of the deepest cut the tooth that
+/// stands out carries the limit where K_s is two standard deviations above its mean and the runout, the largest
+/// difference between the radii of two teeth, twice as large as told: its chip is 2 r sin(π/z) thicker. At least a
+/// third of the feed without runout.
+double entry_feed_per_tooth_mm(const ToothForceQuestion& question, double limit_N, double runout_mm = usual_runout_mm);
 
 }  // namespace millforce::host
