@@ -6,6 +6,18 @@
 using namespace millforce::control;
 using namespace millforce::control::bench;
 
+namespace {
+
+Parameters fearing_everything() {
+    Parameters p = immediate();
+    p.entry_travel_mm = 5.0F;
+    p.surge_radial_immersion = 2.0F;
+    p.depth_step_ratio = 10.0F;
+    return p;
+}
+
+}  // namespace
+
 /// Of what may come: without warning, or along a way that is known.
 TEST_GROUP(CeilingsAhead){};
 
@@ -88,10 +100,7 @@ TEST(CeilingsAhead, a_step_of_the_depth_that_the_set_point_survives_costs_nothin
 }
 
 TEST(CeilingsAhead, what_may_come_without_warning_holds_a_proven_program_no_lower_than_it_has_run) {
-    Parameters p = immediate();
-    p.entry_travel_mm = 5.0F;
-    p.surge_radial_immersion = 2.0F;
-    p.depth_step_ratio = 10.0F;
+    Parameters p = fearing_everything();
     p.proven_override = 0.8F;
     Controller controller(p);
     check_ratio(0.8F, repeat(controller, in_air(), 2000));
@@ -130,10 +139,7 @@ TEST(CeilingsAhead, a_force_that_is_there_holds_a_proven_program_at_its_limit) {
 }
 
 TEST(CeilingsAhead, what_may_come_without_warning_is_survived_at_depth_step_share_times_a_safe_feed) {
-    Parameters p = immediate();
-    p.entry_travel_mm = 5.0F;
-    p.surge_radial_immersion = 2.0F;
-    p.depth_step_ratio = 10.0F;
+    Parameters p = fearing_everything();
     p.depth_step_share = 1.4F;
     p.safe_override = 0.5F;
     Controller controller(p);

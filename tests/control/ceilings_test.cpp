@@ -6,6 +6,18 @@
 using namespace millforce::control;
 using namespace millforce::control::bench;
 
+namespace {
+
+Input light_cut(bool has_map) {
+    Input light = in_contact();
+    light.cut.tooth_force_N = 300.0F;
+    light.way.known = has_map;
+    light.way.feed_mm_s = 100.0F;
+    return light;
+}
+
+}  // namespace
+
 TEST_GROUP(Ceilings){};
 
 TEST(Ceilings, axes_that_are_faster_than_the_programmed_feed_allows_raise_nothing) {
@@ -65,10 +77,7 @@ TEST(Ceilings, a_load_that_has_not_answered_bounds_the_feed_of_a_cut_with_or_wit
     for (const bool has_map : {false, true}) {
         Controller controller(immediate());
         bring_into_cut(controller);
-        Input light = in_contact();
-        light.cut.tooth_force_N = 300.0F;
-        light.way.known = has_map;
-        light.way.feed_mm_s = 100.0F;
+        Input light = light_cut(has_map);
         const Output free = repeat(controller, light, 200);
         light.cut.answered_feed_mm_s = 0.5F * free.ratio * light.programmed_feed_mm_s;
         const Output bound = repeat(controller, light, 200);
@@ -84,10 +93,7 @@ TEST(Ceilings, a_spindle_that_loses_its_speed_gets_the_lowest_feed_and_then_no_f
     for (const bool has_map : {false, true}) {
         Controller controller(immediate());
         bring_into_cut(controller);
-        Input light = in_contact();
-        light.cut.tooth_force_N = 300.0F;
-        light.way.known = has_map;
-        light.way.feed_mm_s = 100.0F;
+        Input light = light_cut(has_map);
         CHECK_COMPARE(repeat(controller, light, 200).ratio, >, 1.2F);
         Input slow = light;
         slow.cut.spindle_speed_rad_s *= 0.9F;

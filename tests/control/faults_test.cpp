@@ -34,6 +34,17 @@ TEST(Faults, overload_latches_after_more_than_the_stated_revolutions) {
     DOUBLES_EQUAL(0.1, static_cast<double>(later.ratio), 1e-6);
 }
 
+TEST(Faults, an_overload_is_none_before_a_lower_override_has_acted) {
+    Parameters p;
+    p.reaction_s = 0.1F;  // 25.5 tooth periods
+    Controller controller(p);
+    bring_into_cut(controller);
+    Input heavy = in_contact();
+    heavy.cut.tooth_force_N = 1351.0F;
+    CHECK(repeat(controller, heavy, 12 + 25).fault == Fault::none);
+    CHECK(controller.step(heavy).fault == Fault::overload);
+}
+
 TEST(Faults, an_overload_that_is_only_forecast_is_none) {
     Controller controller;
     bring_into_cut(controller);
@@ -265,8 +276,9 @@ TEST(Faults, each_parameter_below_its_range_or_not_finite_is_a_bad_configuration
          {&Parameters::caution_sd, &Parameters::override_min, &Parameters::highest_programmed_feed_mm_s,
           &Parameters::entry_revolutions, &Parameters::entry_travel_mm, &Parameters::exit_travel_mm,
           &Parameters::contact_significance, &Parameters::surge_radial_immersion, &Parameters::turn_radial_immersion,
-          &Parameters::turn_travel_mm, &Parameters::overload_revolutions, &Parameters::no_estimate_hold_s,
-          &Parameters::Ra_limit_um, &Parameters::proven_override, &Parameters::safe_override}) {
+          &Parameters::turn_travel_mm, &Parameters::overload_revolutions, &Parameters::reaction_s,
+          &Parameters::no_estimate_hold_s, &Parameters::Ra_limit_um, &Parameters::proven_override,
+          &Parameters::safe_override}) {
         for (const float value : {-0.01F, not_a_number, beyond_all}) {
             CHECK_TRUE(is_refused(not_negative, value));
         }

@@ -20,8 +20,9 @@
 ///   stale_input      no drive sample for longer than stale_s, or of unknown age (NaN), in any state
 ///   spindle_stopped  in entry or in_cut, or where the current shows a cut, the axes moving, and the spindle or its
 ///                    encoder at rest for longer than stale_s
-///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions, judged on estimates
-///                    only; bounds and guesses do not count. Not in monitor_only.
+///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions beyond reaction_s,
+///                    before which no lower override acts; judged on estimates only, bounds and guesses do not count.
+///                    Not in monitor_only.
 ///
 /// Forces in N, ≥ 0; times in s, travel in mm, both as StepMotion has made them finite. A NaN in a force compares as
 /// false: neither contact nor lost contact nor overload. Cost: some 40 operations. Not thread-safe.

@@ -176,7 +176,14 @@ void CutStates<Scalar>::watch_overload(const Parameters& parameters, const Estim
     // An estimate is that of one revolution, however long ago the last one was.
     const Scalar seen = cut.tooth_periods < parameters.teeth ? cut.tooth_periods : parameters.teeth;
     overload_tooth_periods_ = over ? overload_tooth_periods_ + seen : Scalar(0);
-    if (overload_tooth_periods_ > parameters.overload_revolutions * parameters.teeth) {
+    if (!over) {
+        return;
+    }
+    const Scalar until_feed_falls =
+        is_known(cut.spindle_speed_rad_s)
+            ? parameters.reaction_s * cut.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>
+            : Scalar(0);
+    if (overload_tooth_periods_ > (parameters.overload_revolutions + until_feed_falls) * parameters.teeth) {
         enter_fault(Fault::overload);
     }
 }

@@ -55,7 +55,8 @@ struct FeedControllerParameters {
     Scalar turn_travel_mm{2};         ///< travel after a turn for which that immersion is assumed
     Scalar overload_share{
         literal<Scalar>(1.35L)};     ///< share of the limit above which the feed is held and the fault latched
-    Scalar overload_revolutions{3};  ///< length of an overload that is a fault, though the override already falls
+    Scalar overload_revolutions{3};  ///< length of an overload that is a fault, once the override has had reaction_s
+    Scalar reaction_s{0};            ///< from a change of the cut to the first change of the feed
     Scalar Ra_limit_um{0};           ///< largest upper bound of the predicted R_a; 0: none
     Scalar no_estimate_hold_s{Scalar(0.5F)};  ///< longest time in cut without an estimate; then state hold
     Scalar stale_s{0};                        ///< longest time without a sample; then a fault

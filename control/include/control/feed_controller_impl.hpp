@@ -33,7 +33,7 @@ static bool is_sound(const FeedControllerParameters<Scalar>& p) {
            is_positive(p.surge_share) && is_finite(p.depth_step_ratio) && p.depth_step_ratio >= Scalar(1) &&
            is_positive(p.depth_step_share) && is_not_negative(p.proven_override) && is_not_negative(p.safe_override) &&
            is_not_negative(p.turn_radial_immersion) && is_not_negative(p.turn_travel_mm) &&
-           is_positive(p.overload_share) && is_not_negative(p.overload_revolutions) &&
+           is_positive(p.overload_share) && is_not_negative(p.overload_revolutions) && is_not_negative(p.reaction_s) &&
            is_not_negative(p.no_estimate_hold_s) && is_not_negative(p.Ra_limit_um) && is_positive(p.stale_s) &&
            is_finite(p.teeth) && p.teeth >= Scalar(1);
 }

@@ -244,6 +244,7 @@ control::FeedControllerParameters<Scalar> controller_parameters(const Parameters
     c.override_min = p.machine.cnc.override_min;
     c.override_max = p.machine.cnc.override_max;
     c.stale_s = p.machine.cnc.stale_s;
+    c.reaction_s = reaction_s(p.machine);
     c.monitor_only = p.tool.monitor_only;
     if (p.tool.declared_axial_depth_mm > Scalar(0)) {
         c.depth_step_ratio = Scalar(1);

@@ -243,7 +243,7 @@ constexpr auto parameter_texts = std::to_array<ParameterText>({
     {"control", "turn_radial_immersion", "1", "Largest immersion that may come after a sharp turn of the path; 0: a turn changes nothing."},
     {"control", "turn_travel_mm", "mm", "Travel after a sharp turn for which turn_radial_immersion is expected."},
     {"control", "overload_share", "1", "Share of the tooth's limit above which a tooth is overloaded: the feed is held and the fault latched."},
-    {"control", "overload_revolutions", "1", "Revolutions for which an overload may last, while the override falls, before the fault latches."},
+    {"control", "overload_revolutions", "1", "Revolutions for which an overload may last, from when a lower override acts on, before the fault latches."},
     {"control", "no_estimate_hold_s", "s", "In cut without an estimate for longer: state hold."},
     {"control", "Ra_limit_um", "µm", "Largest allowed upper bound of the predicted R_a (95 %); the feed is kept low enough for it. 0: none. Needs a [roughness] table with an interval."},
     {"control", "monitor_only", "", "Estimate and watch, but leave the override to the operator."},
