@@ -47,7 +47,7 @@ double entry_feed_per_tooth_mm(const ToothForceQuestion& question, double limit_
     const double hardest = 1.0 + 2.0 * question.law.K_s_relative_sd;
     const double chip_mm = feed_for_tooth_force_mm(question.law, limit_N / hardest, question.deepest_cut_mm,
                                                    question.largest_feed_per_tooth_mm);
-    const double standing_out_mm = 2.0 * runout_mm * std::sin(std::numbers::pi / std::max(question.teeth, 2));
+    const double standing_out_mm = runout_mm * std::sin(std::numbers::pi / std::max(question.teeth, 2));
     return std::max(chip_mm - standing_out_mm, chip_mm / 3.0);
 }
 
