@@ -53,9 +53,8 @@ double feed_for_tooth_force_mm(const estimation::CuttingLaw<double>& law, double
 inline constexpr double usual_runout_mm = 0.005;
 
 /// The feed per tooth at which the tool may enter what is not known yet: in a slot of the deepest cut the tooth that
-/// stands out carries the limit where K_s is two standard deviations above its mean and the runout, the largest
-/// difference between the radii of two teeth, twice as large as told: its chip is 2 r sin(π/z) thicker. At least a
-/// third of the feed without runout.
+/// stands out carries the limit where K_s is two standard deviations above its mean. Its chip is r sin(π/z) thicker,
+/// r the runout, the largest difference between the radii of two teeth. At least a third of the feed without runout.
 double entry_feed_per_tooth_mm(const ToothForceQuestion& question, double limit_N, double runout_mm = usual_runout_mm);
 
 }  // namespace millforce::host
