@@ -27,9 +27,10 @@ class Spindle {
             turns_at(speed_rad_s);
         }
     }
-    void carries(float tangential_N, bool is_valid = true) {
+    void carries(float tangential_N, bool is_valid = true, bool is_fresh = true) {
         cut_.tangential_N = tangential_N;
         cut_.force_valid = is_valid;
+        cut_.fresh = is_fresh;
     }
     [[nodiscard]] const SpindleTorque<float>& torque() const { return torque_; }
 
@@ -73,6 +74,10 @@ TEST(SpindleTorque, learns_the_force_from_the_loss_on_and_none_where_there_is_no
     spindle.turns_at(0.94F * full_rad_s);
     spindle.carries(not_a_number, false);
     spindle.turns_at(0.95F * full_rad_s);
+    spindle.carries(500.0F, false);
+    spindle.turns_at(0.95F * full_rad_s);
+    spindle.carries(500.0F, true, false);
+    spindle.turns_at(0.95F * full_rad_s);
     spindle.turns_at(full_rad_s);
     DOUBLES_EQUAL(0.0, spindle.torque().largest_tangential_N(), 0.0);
     spindle.turns_at(0.94F * full_rad_s);
@@ -85,6 +90,22 @@ TEST(SpindleTorque, learns_the_force_from_the_loss_on_and_none_where_there_is_no
     DOUBLES_EQUAL(0.9 * 210.0, spindle.torque().largest_tangential_N(), 0.01);
 }
 
+TEST(SpindleTorque, keeps_what_it_has_learnt_through_a_loss_without_an_estimate) {
+    for (const bool has_estimate : {true, false}) {
+        spindle.carries(300.0F, has_estimate);
+        spindle.turns_at(0.94F * full_rad_s);
+        spindle.turns_at(0.95F * full_rad_s);
+        spindle.turns_at(full_rad_s);
+        DOUBLES_EQUAL(270.0, spindle.torque().largest_tangential_N(), 0.01);
+    }
+}
+
+TEST(SpindleTorque, counts_from_the_highest_speed_of_the_cut) {
+    spindle.turns_at(1.2F * full_rad_s);
+    spindle.turns_at(1.12F * full_rad_s);
+    CHECK(spindle.torque().is_slow());
+}
+
 TEST(SpindleTorque, takes_a_speed_that_stays_for_a_second_for_the_one_that_was_asked_for_and_learns_no_force) {
     spindle.stays_at(0.8F * full_rad_s, 0.9F);
     CHECK(spindle.torque().is_slow());
@@ -95,12 +116,14 @@ TEST(SpindleTorque, takes_a_speed_that_stays_for_a_second_for_the_one_that_was_a
     CHECK_FALSE(spindle.torque().is_slow());
 }
 
-TEST(SpindleTorque, does_not_take_a_speed_that_goes_on_falling_for_one_that_was_asked_for) {
+TEST(SpindleTorque, does_not_take_a_speed_that_goes_on_changing_for_one_that_was_asked_for) {
     float speed_rad_s = 0.94F * full_rad_s;
-    for (int i = 0; i < 300; ++i) {
-        spindle.turns_at(speed_rad_s);
-        CHECK(spindle.torque().is_slow());
-        speed_rad_s *= 0.9997F;  // 3 % in a second
+    for (const float per_step : {0.9997F, 1.0003F}) {  // 3 % in a second
+        for (int i = 0; i < 300; ++i) {
+            spindle.turns_at(speed_rad_s);
+            CHECK(spindle.torque().is_slow());
+            speed_rad_s *= per_step;
+        }
     }
 }
 
