@@ -72,9 +72,9 @@ TEST(SpindleTorque, learns_the_force_from_the_loss_on_and_none_where_there_is_no
     spindle.carries(20.0F);
     spindle.turns_at(full_rad_s);
     spindle.turns_at(0.94F * full_rad_s);
-    spindle.carries(not_a_number, false);
-    spindle.turns_at(0.95F * full_rad_s);
     spindle.carries(500.0F, false);
+    spindle.turns_at(0.95F * full_rad_s);
+    spindle.carries(not_a_number, false);
     spindle.turns_at(0.95F * full_rad_s);
     spindle.carries(500.0F, true, false);
     spindle.turns_at(0.95F * full_rad_s);
