@@ -106,6 +106,7 @@ TEST(ParameterTable, has_all_fields_of_the_structures_but_those_worked_out_of_ot
     bytes.cover(control.override_max);
     bytes.cover(control.stale_s);
     bytes.cover(control.teeth);
+    bytes.cover(control.reaction_s);
     bytes.cover(control.monitor_only);
     const auto& law = parameters.tool.force_drop.law;
     bytes.cover(law.valid);
