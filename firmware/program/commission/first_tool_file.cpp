@@ -90,7 +90,7 @@ void write_law(FileDraft& draft, const ToolAnswers& tool) {
     draft.set("cutting", "r_1_relative_sd", law.r_1_relative_sd);
 }
 
-/// Into what is not known yet: a slot of the deepest cut, in a workpiece as much harder as is not known.
+/// Into what is not known yet: a slot of the deepest cut, in the hardest batch.
 void write_control(FileDraft& draft, const ToolAnswers& tool, double limit_N) {
     const double entry_mm = entry_feed_per_tooth_mm(tool.question, limit_N);
     const double written_mm = std::max(rounded(entry_mm, 1e4), 5e-4);

@@ -44,8 +44,7 @@ double feed_for_tooth_force_mm(const estimation::CuttingLaw<double>& law, double
 }
 
 double entry_feed_per_tooth_mm(const ToothForceQuestion& question, double limit_N, double runout_mm) {
-    const double hardest = 1.0 + 2.0 * question.law.K_s_relative_sd;
-    const double chip_mm = feed_for_tooth_force_mm(question.law, limit_N / hardest, question.deepest_cut_mm,
+    const double chip_mm = feed_for_tooth_force_mm(question.law, limit_N / hardest_batch, question.deepest_cut_mm,
                                                    question.largest_feed_per_tooth_mm);
     const double standing_out_mm = runout_mm * std::sin(std::numbers::pi / std::max(question.teeth, 2));
     return std::max(chip_mm - standing_out_mm, chip_mm / 3.0);

@@ -52,9 +52,12 @@ double feed_for_tooth_force_mm(const estimation::CuttingLaw<double>& law, double
 /// Of a tool in a collet, where nobody has measured it.
 inline constexpr double usual_runout_mm = 0.005;
 
-/// The feed per tooth at which the tool may enter what is not known yet: in a slot of the deepest cut the tooth that
-/// stands out carries the limit where K_s is two standard deviations above its mean. Its chip is r sin(π/z) thicker,
-/// r the runout, the largest difference between the radii of two teeth. At least a third of the feed without runout.
+/// K_s of a batch or with a worn edge, over what is known of the material.
+inline constexpr double hardest_batch = 1.3;
+
+/// The feed per tooth at which the tool may enter what is not known yet: in a slot of the deepest cut, in the hardest
+/// batch, the tooth that stands out carries the limit. Its chip is r sin(π/z) thicker, r the runout, the largest
+/// difference between the radii of two teeth. At least a third of the feed without runout.
 double entry_feed_per_tooth_mm(const ToothForceQuestion& question, double limit_N, double runout_mm = usual_runout_mm);
 
 }  // namespace millforce::host

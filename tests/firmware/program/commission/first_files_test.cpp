@@ -121,7 +121,7 @@ TEST(FirstFiles, an_entry_into_the_unknown_meets_the_limit_in_the_hardest_workpi
     law.p_1 = table_p_1;
     const double standing_out_mm = usual_runout_mm * std::sin(std::numbers::pi / tool.teeth);
     const double chip_mm = static_cast<double>(tool.control.entry_feed_per_tooth_mm) + standing_out_mm;
-    const double force_N = straight_tooth_force_N(law, chip_mm, 8.0) * (1.0 + 2.0 * table_K_s_relative_sd);
+    const double force_N = hardest_batch * straight_tooth_force_N(law, chip_mm, 8.0);
     DOUBLES_EQUAL(1.0, force_N / static_cast<double>(tool.tooth_force_limit_N), 0.01);
     CHECK(tool.control.entry_feed_per_tooth_mm < tool.control.max_feed_per_tooth_mm);
 }
