@@ -25,11 +25,9 @@ using enum Contender::Kind;
 constexpr std::array all_contenders{
     Contender{"ours", "millforce, without a map", ours},
     Contender{"ours_told", "millforce, told the safe constant feed", ours, BenchMachine::currents, false, 1.5F},
-    Contender{"ours_told_130", "millforce, told that feed, depth_step_share 1.3", ours, BenchMachine::currents, false,
-              1.3F},
+    Contender{"ours_told_130", "millforce, told that feed, share 1.3", ours, BenchMachine::currents, false, 1.3F},
     Contender{"ours_map", "millforce, map from geometry", ours, BenchMachine::currents, true},
-    Contender{"ours_map_told_130", "millforce, map, told that feed, depth_step_share 1.3", ours, BenchMachine::currents,
-              true, 1.3F},
+    Contender{"ours_map_told_130", "millforce, map, that feed, share 1.3", ours, BenchMachine::currents, true, 1.3F},
     Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, BenchMachine::spindle_alone, true},
     Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, BenchMachine::converter, true},
     Contender{"constant", "Constant feed, safe everywhere", rival},
