@@ -43,6 +43,11 @@ TEST(Faults, an_overload_is_none_before_a_lower_override_has_acted) {
     heavy.cut.tooth_force_N = 1351.0F;
     CHECK(repeat(controller, heavy, 12 + 25).fault == Fault::none);
     CHECK(controller.step(heavy).fault == Fault::overload);
+    controller.reset();
+    bring_into_cut(controller);
+    heavy.cut.spindle_speed_rad_s = not_a_number;  // nobody knows how many revolutions that takes
+    CHECK(repeat(controller, heavy, 12).fault == Fault::none);
+    CHECK(controller.step(heavy).fault == Fault::overload);
 }
 
 TEST(Faults, an_overload_that_is_only_forecast_is_none) {

@@ -173,12 +173,12 @@ void CutStates<Scalar>::watch_overload(const Parameters& parameters, const Estim
     const bool is_estimate = cut.force_valid && cut.tooth_force_valid && !cut.tooth_force_is_bound;
     const Scalar most_N = parameters.overload_share * parameters.tooth_force_limit_N;
     const bool over = is_estimate && cut.tooth_force_N > most_N * cut.forecast;  // what is only forecast is none
-    // An estimate is that of one revolution, however long ago the last one was.
-    const Scalar seen = cut.tooth_periods < parameters.teeth ? cut.tooth_periods : parameters.teeth;
-    overload_tooth_periods_ = over ? overload_tooth_periods_ + seen : Scalar(0);
     if (!over) {
+        overload_tooth_periods_ = Scalar(0);
         return;
     }
+    // An estimate is that of one revolution, however long ago the last one was.
+    overload_tooth_periods_ += cut.tooth_periods < parameters.teeth ? cut.tooth_periods : parameters.teeth;
     const Scalar until_feed_falls =
         is_known(cut.spindle_speed_rad_s)
             ? parameters.reaction_s * cut.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>
