@@ -16,6 +16,14 @@ Parameters fearing_everything() {
     return p;
 }
 
+Input of_unknown_immersion() {
+    Input input = in_contact();
+    input.cut.tooth_force_is_bound = true;
+    input.cut.tooth_force_N = 9000.0F;
+    input.cut.least_tooth_force_N = 500.0F;
+    return input;
+}
+
 }  // namespace
 
 /// Of what may come: without warning, or along a way that is known.
@@ -156,21 +164,14 @@ TEST(CeilingsAhead, a_cut_of_unknown_immersion_is_milled_at_the_safe_feed_itself
     Parameters p = immediate();
     p.safe_override = 0.5F;
     Controller controller(p);
-    Input input = in_contact();
-    input.cut.tooth_force_is_bound = true;
-    input.cut.tooth_force_N = 9000.0F;
-    input.cut.least_tooth_force_N = 500.0F;
-    check_ratio(0.5F, repeat(controller, input, 2000));
+    check_ratio(0.5F, repeat(controller, of_unknown_immersion(), 2000));
 }
 
 TEST(CeilingsAhead, an_unknown_immersion_slows_a_proven_program_by_the_least_force_alone) {
     Parameters p = immediate();
     p.proven_override = 0.8F;
     Controller controller(p);
-    Input input = in_contact();
-    input.cut.tooth_force_is_bound = true;
-    input.cut.tooth_force_N = 9000.0F;
-    input.cut.least_tooth_force_N = 500.0F;
+    Input input = of_unknown_immersion();
     check_ratio(0.8F, repeat(controller, input, 2000));
     input.cut.least_tooth_force_N = 5000.0F;
     CHECK_COMPARE(repeat(controller, input, 2000).ratio, <, 0.8F);

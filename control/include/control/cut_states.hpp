@@ -19,7 +19,8 @@
 /// Watches, each latched as a fault:
 ///   stale_input      no drive sample for longer than stale_s, or of unknown age (NaN), in any state
 ///   spindle_stopped  in entry or in_cut, or where the current shows a cut, the axes moving, and the spindle or its
-///                    encoder at rest for longer than stale_s
+///                    encoder at rest for longer than stale_s; the controller adds a spindle that stalls
+///                    (spindle_torque.hpp)
 ///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions beyond reaction_s,
 ///                    before which no lower override acts; judged on estimates only, bounds and guesses do not count.
 ///                    Not in monitor_only.

@@ -162,6 +162,13 @@ template <typename Scalar>
     return ratio > proven ? ratio : proven;
 }
 
+/// 2π/(z ω); 0 where the spindle's speed is not known, or backwards.
+template <typename Scalar>
+[[nodiscard]] Scalar tooth_period_s(Scalar teeth, Scalar spindle_speed_rad_s) {
+    const Scalar teeth_rad_s = spindle_speed_rad_s * teeth;
+    return teeth_rad_s > Scalar(0) ? estimation::turn_rad<Scalar> / teeth_rad_s : Scalar(0);
+}
+
 /// A feed or a speed that can be divided by: > 0, neither infinite nor NaN.
 template <typename Scalar>
 [[nodiscard]] bool is_known(Scalar feed_or_speed) {

@@ -79,8 +79,7 @@ StepMotion<Scalar> FeedController<Scalar>::motion_of(const ControlInput<Scalar>&
     motion.dt_s = input.dt_s > Scalar(0) && input.dt_s < longest_step_s ? input.dt_s : Scalar(0);
     motion.path_speed_mm_s = estimation::is_finite(input.path_speed_mm_s) ? input.path_speed_mm_s : Scalar(0);
     motion.travel_mm = motion.path_speed_mm_s * motion.dt_s;
-    const Scalar teeth_rad_s = input.cut.spindle_speed_rad_s * parameters_.teeth;
-    motion.tooth_period_s = teeth_rad_s > Scalar(0) ? estimation::turn_rad<Scalar> / teeth_rad_s : Scalar(0);
+    motion.tooth_period_s = tooth_period_s(parameters_.teeth, input.cut.spindle_speed_rad_s);
     motion.turned =
         turn_.update({motion.dt_s, input.velocity_x_mm_s, input.velocity_y_mm_s, motion.path_speed_mm_s,
                       motion.travel_mm, law_.override_ratio(), input.programmed_feed_mm_s, motion.tooth_period_s});

@@ -134,7 +134,6 @@ class ForceControlTick {
     void forget_estimate();
     void rezero_in_air();
     [[nodiscard]] bool is_idle(const estimation::CutEstimate<Scalar>& e) const;
-    [[nodiscard]] Scalar tooth_period_s(const estimation::CutEstimate<Scalar>& e) const;
     void ask_load();
     void set_cut();
     void allow_for_drift();

@@ -282,18 +282,12 @@ void ForceControlTick<Scalar, WideBand>::take_estimate() {
     has_new_estimate_ = true;
 }
 
-/// 0 where the spindle's speed is not known.
-template <typename Scalar, typename WideBand>
-Scalar ForceControlTick<Scalar, WideBand>::tooth_period_s(const estimation::CutEstimate<Scalar>& e) const {
-    const Scalar teeth_rad_s = controller_.parameters().teeth * e.spindle_speed_rad_s;
-    return teeth_rad_s > Scalar(0) ? estimation::turn_rad<Scalar> / teeth_rad_s : Scalar(0);
-}
-
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::ask_load() {
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     if (control_.state == control::CutState::in_cut && e.tangential_N.valid) {
-        load_answer_.follow(e, tooth_period_s(e), feed_is_settled());
+        load_answer_.follow(e, control::tooth_period_s(controller_.parameters().teeth, e.spindle_speed_rad_s),
+                            feed_is_settled());
     } else {
         load_answer_.restart();
     }
@@ -416,7 +410,7 @@ template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::allow_for_drift_of_the_spindle_alone() {
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     if (is_in_cut()) {
-        slow_fall_.follow(e, tooth_period_s(e));
+        slow_fall_.follow(e, control::tooth_period_s(controller_.parameters().teeth, e.spindle_speed_rad_s));
     }
     input_.cut.tooth_force_N *= slow_fall_.largest_ratio(e);
 }
