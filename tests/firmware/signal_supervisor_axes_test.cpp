@@ -27,6 +27,32 @@ TEST(SignalSupervisorAxes, counts_revolutions_anew_after_a_reset) {
     CHECK(judged(supervisor, e, 1) == Fault::negative_torque);
 }
 
+TEST(SignalSupervisorAxes, finds_a_small_negative_torque_in_the_mean_of_sixteen_revolutions_of_a_feed_move) {
+    Estimate e = revolution();
+    e.tangential_N = {.valid = true, .value = -30.0F, .variance = 100.0F, .noise = 99.0F};
+    Supervisor supervisor(machine_and_tool());
+    CHECK(judged(supervisor, e, 16) == Fault::none);  // of the first revolution only the speed is taken
+    CHECK(judged(supervisor, e, 1) == Fault::negative_torque);
+    Supervisor interrupted(machine_and_tool());
+    hal::ProgramStatus rapid = program();
+    rapid.rapid = true;
+    for (int k = 0; k < 10; ++k) {
+        CHECK(judged(interrupted, e, 15) == Fault::none);
+        CHECK(judged(interrupted, e, 2, CutState::air, rapid) == Fault::none);
+    }
+}
+
+TEST(SignalSupervisorAxes, does_not_take_what_drift_explains_or_is_below_the_contact_level_for_a_negative_torque) {
+    Estimate drifting = revolution();
+    drifting.tangential_N = {.valid = true, .value = -30.0F, .variance = 100.0F, .noise = 20.0F};
+    Supervisor supervisor(machine_and_tool());
+    CHECK(judged(supervisor, drifting, 100) == Fault::none);
+    Estimate small = revolution();
+    small.tangential_N.value = -19.0F;
+    Supervisor another(machine_and_tool());
+    CHECK(judged(another, small, 100) == Fault::none);
+}
+
 TEST(SignalSupervisorAxes, does_not_judge_a_torque_that_is_not_known_or_of_a_spindle_that_changes_its_speed) {
     Supervisor supervisor(machine_and_tool());
     Estimate unknown = revolution();

@@ -81,6 +81,21 @@ TEST(TickInDoubt, does_not_speed_up_by_forces_that_no_cut_has) {
     CHECK(milling.tick().control().limit == control::Limit::law_misfit);
 }
 
+TEST(TickInDoubt, does_not_trust_forces_that_fit_a_cut_after_many_that_fitted_none) {
+    milling.mill(air, 200).mill(of_no_cut).mill_from(of_no_cut, whole, 100).mill(whole, 300);
+    CHECK(milling.state() == CutState::in_cut);
+    CHECK_FALSE(milling.tick().engagement().immersion_valid);
+    CHECK(milling.tick().control().limit == control::Limit::law_misfit);
+    milling.mill(whole, 2000);
+    CHECK(milling.tick().engagement().immersion_valid);
+}
+
+TEST(TickInDoubt, trusts_the_next_cut_again) {
+    milling.mill(air, 200).mill(of_no_cut).mill_from(of_no_cut, air, 300).mill(air, 300).mill(whole, 800);
+    CHECK(milling.state() == CutState::in_cut);
+    CHECK(milling.tick().engagement().immersion_valid);
+}
+
 TEST(TickInDoubt, keeps_the_depth_of_the_cut_where_it_becomes_too_narrow_to_show_it) {
     Milling sure{Tick(well_known_machine())};
     sure.mill(air, 200).mill(wide, 800).mill_from(wide, narrow, 300).mill(narrow, 100);

@@ -6,6 +6,7 @@
 #include "estimation/engagement/depth_memory.hpp"
 #include "estimation/engagement/engagement_solver.hpp"
 #include "estimation/engagement/force_memory.hpp"
+#include "estimation/engagement/law_doubt.hpp"
 #include "estimation/signal/encoder_angle.hpp"
 #include "estimation/signal/revolution_harmonic.hpp"
 #include "estimation/signal/synchronous_average.hpp"
@@ -60,9 +61,11 @@ class CutEstimator {
     /// The encoder failed or the samples stopped: forgets the cut, keeps what was learnt in air.
     void restart();
 
-    /// The cut of estimate() neither begins nor ends: its depth is used later, where the forces do not determine
-    /// it. Call once per new estimate.
-    void remember_depth();
+    /// The cut of estimate() neither begins nor ends: its depth is used later, where the forces do not determine it,
+    /// and whether they contradict the law (law_doubt.hpp). Call once per new estimate.
+    void learn_in_cut();
+    /// The tool is in air: the law may hold in the next cut.
+    void end_cut() { law_doubt_.forget(); }
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction, and learn
     /// how noisy their currents are. Uses the window from one revolution earlier, so that first contact is not taken
@@ -136,6 +139,7 @@ class CutEstimator {
     MachineDrives<Scalar> drives_;
     ForceMemory<Scalar> memory_{};
     DepthMemory<Scalar> depth_{};
+    LawDoubt law_doubt_{};
     int periods_since_memory_ = 0;
     Scalar direction_x_{1};
     Scalar direction_y_{0};

@@ -91,6 +91,7 @@ void CutEstimator<Scalar>::restart() {
     stage_ = Stage::idle;
     search_.cancel();
     depth_.forget();
+    law_doubt_.forget();
     estimate_ = {};
 }
 
@@ -312,11 +313,12 @@ void CutEstimator<Scalar>::begin_engagement(Scalar passed_s) {
     forces.tangential_N.variance += square(in_work_.tangential_gain_doubt * forces.tangential_N.value);
     forces.radial_immersion = other_;
     depth_.follow(in_work_.feed_mm_s * passed_s, in_work_.axial_speed_mm_s * passed_s);
-    solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side, depth_.depth());
+    solver_.begin(search_, forces, in_work_.feed_per_tooth_mm, settings_.side, depth_.depth(), law_doubt_.is_open());
 }
 
 template <typename Scalar>
-void CutEstimator<Scalar>::remember_depth() {
+void CutEstimator<Scalar>::learn_in_cut() {
+    law_doubt_.follow(is_refuted(estimate_.engagement), estimate_.tooth_periods, window_.tooth_periods);
     if (!estimate_.engagement.depth_is_remembered) {
         depth_.learn(estimate_.engagement);
     }

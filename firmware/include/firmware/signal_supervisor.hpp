@@ -24,7 +24,8 @@
 ///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
-///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions
+///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions, or in the mean of
+///                      16, whose noise is smaller
 ///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is of that
 ///                      move
 ///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer
@@ -84,6 +85,7 @@ class SignalSupervisor {
     [[nodiscard]] control::Fault sudden_change(const Estimate& e);
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
                           bool feed_is_settled);
+    [[nodiscard]] bool is_negative_in_the_mean(const estimation::Measurement<Scalar>& tangential_N, bool feeds);
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
     void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
 
@@ -142,6 +144,11 @@ class SignalSupervisor {
     Scalar last_speed_rad_s_{0};
     int implausible_periods_ = 0;
     std::uint8_t negative_turns_ = 0;
+    struct MeanOfFeed {
+        Scalar mean_N{0};
+        std::uint8_t turns = 0;
+    };
+    MeanOfFeed feed_torque_{};  // F_at of the revolutions in this feed move
     std::uint8_t rapid_turns_ = 0;
     std::uint8_t contradicting_turns_ = 0;
     std::uint8_t air_turns_ = 0;  // with a known feed force, at an unchanged velocity

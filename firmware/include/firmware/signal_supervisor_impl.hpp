@@ -51,6 +51,7 @@ void SignalSupervisor<Scalar>::restart() {
     periods_in_turn_ = 0;
     last_speed_rad_s_ = Scalar(0);
     negative_turns_ = rapid_turns_ = contradicting_turns_ = air_turns_ = 0;
+    feed_torque_ = {};
     too_fast_s_ = Scalar(0);
 }
 
@@ -240,12 +241,14 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
     last_speed_rad_s_ = e.spindle_speed_rad_s;
     if (!e.tangential_N.valid || !turns_evenly || !feed_is_settled) {
         negative_turns_ = rapid_turns_ = 0;
+        feed_torque_ = {};
     } else {
         const Scalar level_N = Scalar(2) * control::contact_level_N(contact_force_N_, contact_significance_,
                                                                     sqrt(e.tangential_N.variance));
         // After a move the spindle may be switched off: its drive brakes, or its current falls before its speed does.
         const bool feeds = e.feed_mm_s > Scalar(moving_mm_s) && !program.rapid;
-        if (is_so_in_a_row(negative_turns_, feeds && -e.tangential_N.value > level_N, surely_turns)) {
+        if (is_so_in_a_row(negative_turns_, feeds && -e.tangential_N.value > level_N, surely_turns) ||
+            is_negative_in_the_mean(e.tangential_N, feeds)) {
             find(control::Fault::negative_torque);
         }
         if (is_so_in_a_row(rapid_turns_, program.rapid && e.tangential_N.value > level_N, surely_turns)) {
@@ -253,6 +256,28 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
         }
     }
     judge_axes(e, program.rapid, state);
+}
+
+/// The mean of many revolutions has less noise than each of them.
+template <typename Scalar>
+bool SignalSupervisor<Scalar>::is_negative_in_the_mean(const estimation::Measurement<Scalar>& tangential_N,
+                                                       bool feeds) {
+    using estimation::square;
+    constexpr std::uint8_t block = 16;
+    constexpr Scalar share = Scalar(1.0F / block);
+    if (!feeds) {
+        feed_torque_ = {};
+        return false;
+    }
+    feed_torque_.mean_N += share * tangential_N.value;
+    if (++feed_torque_.turns < block) {
+        return false;
+    }
+    const Scalar below_zero_N = -feed_torque_.mean_N;
+    feed_torque_ = {};
+    const Scalar variance_N2 = tangential_N.variance - tangential_N.noise + share * tangential_N.noise;
+    return below_zero_N > Scalar(2) * contact_force_N_ &&
+           square(below_zero_N) > square(Scalar(2) * contact_significance_) * variance_N2;
 }
 
 /// In air the least feed force of this straight move is what its friction leaves.

@@ -271,7 +271,9 @@ template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::take_estimate() {
     rezero_in_air();
     if (is_in_cut()) {
-        estimator_.remember_depth();
+        estimator_.learn_in_cut();
+    } else if (control_.state == control::CutState::air) {
+        estimator_.end_cut();
     }
     drops_.follow_section(estimator_.estimate().section_mm2);
     surface_.update(estimator_.estimate());
@@ -357,7 +359,8 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_valid = tooth.valid;
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
-    cut.law_is_refuted = estimation::is_refuted(e.engagement) || e.engagement.declared_depth_is_refuted;
+    cut.law_is_refuted =
+        estimation::is_refuted(e.engagement) || e.engagement.law_is_in_doubt || e.engagement.declared_depth_is_refuted;
     cut.tooth_force_N =
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     allow_for_drift();

@@ -107,5 +107,5 @@ TEST(SpindleAtItsLimit, holds_the_feed_where_the_current_is_cut_off_and_that_is_
 }
 
 TEST(SpindleAtItsLimit, passes_for_a_lighter_cut_where_its_current_is_cut_off_and_nobody_tells_it) {
-    CHECK_COMPARE(milled_with_current_cut_off(false).peak_over_limit, >, 1.5);
+    CHECK_COMPARE(milled_with_current_cut_off(false).peak_over_limit, >, 1.2);
 }

@@ -50,7 +50,8 @@ struct EngagementEstimate {
     Scalar depth_at_high_mm{0};              ///< the depth that goes with radial_immersion_high
 
     CutSide side = CutSide::unknown;
-    Scalar misfit{0};  ///< J at the estimate; above 16 the law does not describe these forces: no estimate
+    Scalar misfit{0};              ///< J at the estimate; above 16 the law does not describe these forces: no estimate
+    bool law_is_in_doubt = false;  ///< the forces contradicted it for so long that a fit proves little: no estimate
 };
 
 }  // namespace millforce::estimation

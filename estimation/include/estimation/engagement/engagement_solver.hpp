@@ -70,8 +70,10 @@ class EngagementSolver {
     ///
     /// If a side explains the forces, but they determine the depth less than half as well as the `remembered` one is
     /// known, the immersion is searched once more with it. A depth that these forces contradict is not used.
+    ///
+    /// Where the law is in doubt (law_doubt.hpp), forces that fit it are taken as if they refuted it.
     void begin(Search& search, const AverageForceMeasurement<Scalar>& forces, Scalar feed_per_tooth_mm, CutSide side,
-               const KnownDepth<Scalar>& remembered = {}) const;
+               const KnownDepth<Scalar>& remembered = {}, bool law_is_in_doubt = false) const;
 
     /// At most so many steps; true when the estimate is there.
     bool advance(Search& search, int steps) const;
@@ -148,6 +150,7 @@ class EngagementSolver<Scalar, Nodes>::Search {
     EngagementEstimate<Scalar> estimate_{};
     EngagementEstimate<Scalar> first_{};  // of the side that was tried first; then of the search before
     KnownDepth<Scalar> remembered_{};
+    bool law_is_in_doubt_ = false;
     With with_ = With::declared_depth;
     CutSide asked_ = CutSide::unknown;
     CutSide side_ = CutSide::down;

@@ -55,9 +55,10 @@ bool EngagementSolver<Scalar, Nodes>::is_solvable(const AverageForceMeasurement<
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::begin(Search& search, const AverageForceMeasurement<Scalar>& forces,
                                             Scalar feed_per_tooth_mm, CutSide side,
-                                            const KnownDepth<Scalar>& remembered) const {
+                                            const KnownDepth<Scalar>& remembered, bool law_is_in_doubt) const {
     search.asked_ = side;
     search.remembered_ = remembered;
+    search.law_is_in_doubt_ = law_is_in_doubt;
     search.with_ = Search::With::declared_depth;
     begin_side(search, first_side(side));
     if (is_solvable(forces, feed_per_tooth_mm)) {
@@ -151,7 +152,7 @@ void EngagementSolver<Scalar, Nodes>::end_without_declared_depth(Search& s) cons
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::end_sides(Search& s) const {
     const EngagementEstimate<Scalar>& e = s.estimate_;
-    if (is_refuted(e)) {
+    if (is_refuted(e) || s.law_is_in_doubt_) {
         withdraw(s);
     } else if (e.side != CutSide::unknown && s.memory_knows_more()) {
         s.with_ = Search::With::remembered_depth;
@@ -196,6 +197,7 @@ void EngagementSolver<Scalar, Nodes>::withdraw(Search& s) const {
         ++narrowest;
     }
     EngagementEstimate<Scalar>& e = s.estimate_;
+    e.law_is_in_doubt = s.law_is_in_doubt_;
     e.immersion_valid = false;
     e.depth_valid = false;
     e.engagement_low_rad = forces.angle_rad(Scalar(static_cast<int>(narrowest)));
