@@ -186,6 +186,20 @@ TEST(CeilingsAhead, the_way_ahead_raises_nothing_above_the_force_nor_without_an_
     CHECK_COMPARE(repeat(controller, with_way(without_force(in_contact()), 1000.0F), 200).ratio, <=, by_force);
 }
 
+TEST(CeilingsAhead, the_way_ahead_lowers_the_feed_though_the_spindle_s_speed_is_missing) {
+    Controller controller;
+    const Input in_cut = with_way(in_contact(), 18.0F);
+    const float before = repeat(controller, in_cut, 2000).ratio;
+    Input near_a_wall = with_way(in_contact(), 6.0F);
+    near_a_wall.cut.fresh = false;
+    near_a_wall.cut.spindle_speed_rad_s = not_a_number;
+    const Output output = controller.step(near_a_wall);
+    CHECK_COMPARE(output.ratio, <, before);
+    CHECK(output.limit == Limit::way_ahead);
+    near_a_wall.way.feed_mm_s = 1000.0F;
+    CHECK(controller.step(near_a_wall).limit == Limit::no_estimate);
+}
+
 TEST(CeilingsAhead, a_feed_of_the_way_ahead_that_is_not_a_number_is_no_feed) {
     Controller controller;
     check_ratio(Parameters{}.override_min, repeat(controller, with_way(in_contact(), not_a_number), 2000));

@@ -173,12 +173,12 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, c
     if (is_fed_blind) {
         lowest.lower_to(parameters.override_min, Limit::no_estimate);
     }
+    if (input.way.known && is_known(input.programmed_feed_mm_s)) {
+        lowest.lower_to(input.way.feed_mm_s / input.programmed_feed_mm_s, Limit::way_ahead);
+    }
     if (!feed_and_speed_are_known(input)) {
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
         return lowest;
-    }
-    if (input.way.known) {
-        lowest.lower_to(input.way.feed_mm_s / input.programmed_feed_mm_s, Limit::way_ahead);
     }
     constexpr Scalar surely_too_fast = Scalar(1.25F);
     if (is_faster_than_programmed(input.path_speed_mm_s, input.programmed_feed_mm_s, parameters.override_max,
