@@ -43,8 +43,10 @@
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the
 /// forces contradict the law (limit law_misfit), since a signal may be wrong, and where the axes are faster than F and
-/// override_max make them (limit feed_mismatch), since F may be wrong. In a cut that fades it
-/// is one too (limit surge): what follows at its end would meet the tool at the highest feed of all.
+/// override_max make them (limit feed_mismatch), since F may be wrong. In a cut that fades the override from before
+/// the fade is one too (limit surge): what follows at its end would meet the tool at the highest feed of all. Before:
+/// the highest of the last estimates, forgotten by an eighth with each, since forces at the begin of a fade are those
+/// of two cuts.
 ///
 /// `follow` takes in a step, `lowest` works the ceilings out and remembers nothing. State kept until the next estimate
 /// has its own named member, override_before_growth_ for instance: the override at that moment.
@@ -110,8 +112,8 @@ class Ceilings {
                         const Situation& situation) const;
     void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
                       const Situation& situation) const;
-    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
-                        const Situation& situation) const;
+    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters,
+                        const ControlInput<Scalar>& input) const;
     [[nodiscard]] static Scalar ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 
@@ -122,6 +124,7 @@ class Ceilings {
     CutTrend<Scalar> trend_{};
     Scalar travel_since_estimate_mm_{0};
     Scalar override_before_growth_{0};  // at the last estimate that showed none
+    Scalar override_before_fade_{0};
     Scalar turn_travel_left_mm_{0};
     Scalar turn_ceiling_{0};
     Scalar surface_ceiling_{0};

@@ -29,6 +29,7 @@ void Ceilings<Scalar>::follow(const Parameters& parameters, const ControlInput<S
         surge_ceiling_ = parameters.override_max;
         surface_ceiling_ = parameters.override_max;
         spindle_ceiling_ = parameters.override_max;
+        override_before_fade_ = Scalar(0);
         trend_.clear();
         return;
     }
@@ -76,6 +77,11 @@ void Ceilings<Scalar>::follow_surge(const Parameters& parameters, const ControlI
     }
     if (!surge_is_under_way(parameters)) {
         override_before_growth_ = situation.override_ratio;
+    }
+    if (!trend_.fading()) {
+        constexpr Scalar share_per_estimate = Scalar(0.125F);  // a dip as the fade begins hardly counts
+        const Scalar fallen = override_before_fade_ - situation.override_ratio;
+        override_before_fade_ -= fallen > Scalar(0) ? share_per_estimate * fallen : fallen;
     }
 }
 
@@ -236,7 +242,7 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     lowest.lower_to(situation.force_demand,
                     FeedLaw<Scalar>::guards_against_a_step(parameters, input) ? Limit::depth_step : Limit::force);
     if (!input.way.known) {
-        lower_by_surge(lowest, parameters, input, situation);
+        lower_by_surge(lowest, parameters, input);
     }
     lowest.lower_to(spindle_ceiling_, Limit::spindle_torque);
     if (input.cut.answered_feed_mm_s > Scalar(0)) {
@@ -259,7 +265,7 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
 /// What may come without warning.
 template <typename Scalar>
 void Ceilings<Scalar>::lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters,
-                                      const ControlInput<Scalar>& input, const Situation& situation) const {
+                                      const ControlInput<Scalar>& input) const {
     const Scalar safe = safe_entry(parameters, input);
     const auto lower_to = [&](Scalar ceiling) { lowest.lower_to(ceiling > safe ? ceiling : safe, Limit::surge); };
     if (surge_is_under_way(parameters)) {
@@ -268,7 +274,7 @@ void Ceilings<Scalar>::lower_by_surge(Ceiling<Scalar>& lowest, const Parameters&
     lower_to(surge_ceiling_);
     lower_to(turn_ceiling_);
     if (trend_.fading()) {
-        lowest.lower_to(situation.override_ratio, Limit::surge);
+        lowest.lower_to(override_before_fade_, Limit::surge);
     }
 }
 

@@ -87,7 +87,7 @@ struct CutEstimate {
     Scalar runout_mm{0};                  ///< by how much its chip is thicker, at most: runout_meter.hpp
     Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one
     Scalar worst_tooth_force_N{0};        ///< tooth force at the known immersion, or at the last or assumed one
-    Scalar tangential_growth_N_per_s{0};  ///< growth of F_at over the last revolution, where it is significant; ≥ 0
+    Scalar tangential_growth_N_per_s{0};  ///< growth of F_at over the last revolution beyond that of the feed, where significant; ≥ 0
     Scalar newest_tangential_N{0};        ///< F_at of the window, or more where a tooth carries more than a turn before
     Scalar cutting_share{1};              ///< share of F_at that is not edge force
     Scalar feed_exponent{usual_feed_exponent<Scalar>};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
@@ -105,7 +105,8 @@ struct CutEstimate {
         Measurement<Scalar> tangential_N{};           ///< force from the spindle's current; its variance is noise alone
         std::array<Measurement<Scalar>, 2> axis_N{};  ///< forces along x and y
         Scalar speed_ratio{1};                        ///< speed of the spindle now over that before
-        bool feed_is_steady = false;                  ///< the velocities differ by less than a tenth
+        Scalar feed_growth{0};        ///< (f − f_before)/f of a feed that has risen, by up to a half; ≥ 0
+        bool feed_is_steady = false;  ///< the velocities differ by less than a tenth
     };
     ToothChange tooth_change{};
     Scalar feed_mm_s{0};         ///< path speed in the plane over the window

@@ -52,8 +52,9 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
 
 /// F_at, and how fast it grows. Taken are the revolutions in which the cut stayed the same; the window or the last
 /// tooth where these are higher, less what their noise may have added: else each of its peaks would lower the feed at
-/// once. A tooth has risen by what it carries more than a revolution ago. That some teeth carry more than others is
-/// runout, which has its own factor: only what a tooth carries beyond that counts.
+/// once. A tooth has risen by what it carries more than a revolution ago, but for what a higher feed has added: else each
+/// rise of the override would be answered as a cut that grows. That some teeth carry more than others is runout, which
+/// has its own factor: only what a tooth carries beyond that counts.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) const {
     using std::sqrt;
@@ -68,7 +69,8 @@ Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) const {
     }
     const Scalar beyond_runout_N = (tooth.value - clear_deviations * sqrt(tooth.noise)) / e.runout_factor;
     e.newest_tangential_N = higher(e.newest_tangential_N, beyond_runout_N);
-    const Scalar rise_N = change.value - clear_deviations * sqrt(change.variance);
+    const Scalar by_feed_N = force_exponent_ * e.tooth_change.feed_growth * tooth.value;
+    const Scalar rise_N = change.value - by_feed_N - clear_deviations * sqrt(change.variance);
     if (change.valid && rise_N > Scalar(0)) {
         const Scalar above_window_N = tooth.value - window.value;
         e.newest_tangential_N =
