@@ -247,6 +247,26 @@ TEST(FeedLaw, does_not_raise_the_feed_while_the_cut_fades) {
     CHECK(settled_ratio(immediate(), input) > 3.0F * before);
 }
 
+TEST(FeedLaw, comes_back_in_a_cut_that_fades_from_a_dip_at_its_begin) {
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    Controller controller(immediate());
+    const float before = settle(controller, input).ratio;
+    const float steady_N = input.cut.tooth_force_N;
+    input.cut.tooth_force_N = 5.0F * steady_N;  // of two cuts at once
+    CHECK_COMPARE(controller.step(input).ratio, <, 0.5F * before);
+    input.cut.section_mm2 = 7.0F;
+    input.cut.tooth_force_N = 0.5F * steady_N;
+    Output output = controller.step(input);
+    CHECK_TRUE(output.fading);
+    for (int k = 0; k < 20; ++k) {
+        output = controller.step(input);
+        CHECK_COMPARE(output.ratio, <=, before);
+    }
+    CHECK_TRUE(output.fading);
+    CHECK_COMPARE(output.ratio, >, 0.8F * before);
+}
+
 TEST(FeedLaw, forgets_at_a_sharp_turn_out_of_the_cut_what_was_cut_before) {
     check_that_a_turn_ends_the_exit(in_contact().cut.spindle_speed_rad_s);
 }

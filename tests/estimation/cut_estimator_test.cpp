@@ -129,8 +129,9 @@ void check_slices() {
 }
 
 /// Estimates of a cut whose four teeth carry unequally, 0.6 to 1.4 of their mean, and of which each tooth carries
-/// `step` times as much from the eleventh revolution on; by a tool whose file states a runout.
-std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step, float runout_mm) {
+/// `step` times as much from the eleventh revolution on, at a feed that is `feed_step` times as high; by a tool whose
+/// file states a runout.
+std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step, float runout_mm, double feed_step = 1.0) {
     constexpr double revs_per_s = 20.0;
     constexpr int samples_per_rev = 50;
     constexpr std::array<double, 4> share{1.4, 1.1, 0.6, 0.9};
@@ -140,8 +141,9 @@ std::vector<CutEstimate<float>> cut_by_unequal_teeth(double step, float runout_m
         const double rev = revs_per_s * 1e-3 * k;
         const auto tooth = static_cast<std::size_t>((k - 1) * 4 / samples_per_rev) % share.size();
         DriveSignals<float> signals;
-        signals.values[0] = static_cast<float>(10.0 * share[tooth] * (k > 10 * samples_per_rev ? step : 1.0));
-        signals.values[DriveSignals<float>::first_velocity] = 5.0F;
+        const bool is_after = k > 10 * samples_per_rev;
+        signals.values[0] = static_cast<float>(10.0 * share[tooth] * (is_after ? step : 1.0));
+        signals.values[DriveSignals<float>::first_velocity] = static_cast<float>(is_after ? 5.0 * feed_step : 5.0);
         signals.present = 0xFU;
         estimator.add(1e-3F, static_cast<std::uint32_t>(rev * 65536.0), 0, 0, signals);
         while (estimator.work_due()) {
@@ -187,6 +189,22 @@ TEST(CutEstimator, sees_a_step_as_growth_with_each_tooth_of_its_revolution_and_n
         CHECK(!is_growing || e.newest_tangential_N > 350.0F);
     }
     LONGS_EQUAL(4, growing);
+}
+
+TEST(CutEstimator, takes_what_a_higher_feed_adds_to_the_force_for_no_growth) {
+    const auto growth_N_per_s = [](double step, double feed_step) {
+        float sum = 0.0F;
+        for (const CutEstimate<float>& e : cut_by_unequal_teeth(step, much_runout_mm, feed_step)) {
+            sum += e.tangential_growth_N_per_s;
+        }
+        return static_cast<double>(sum);
+    };
+    constexpr double feed_step = 1.2;
+    constexpr double its_force = 1.1;  // no force grows faster than the feed, edge forces do not grow at all
+    DOUBLES_EQUAL(0.0, growth_N_per_s(its_force, feed_step), 1e-3);
+    CHECK_COMPARE(growth_N_per_s(its_force, 1.0), >, 1000.0);
+    CHECK_COMPARE(growth_N_per_s(1.5, feed_step), >, 0.5 * growth_N_per_s(1.5, 1.0));
+    DOUBLES_EQUAL(growth_N_per_s(1.5, 1.0), growth_N_per_s(1.5, 0.8), 0.1 * growth_N_per_s(1.5, 1.0));
 }
 
 TEST(CutEstimator, gives_the_same_bits_whatever_the_size_of_a_slice_in_float) {

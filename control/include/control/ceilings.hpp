@@ -112,8 +112,7 @@ class Ceilings {
                         const Situation& situation) const;
     void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
                       const Situation& situation) const;
-    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters,
-                        const ControlInput<Scalar>& input) const;
+    void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input) const;
     [[nodiscard]] static Scalar ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 

@@ -87,9 +87,10 @@ struct CutEstimate {
     Scalar runout_mm{0};                  ///< by how much its chip is thicker, at most: runout_meter.hpp
     Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one
     Scalar worst_tooth_force_N{0};        ///< tooth force at the known immersion, or at the last or assumed one
-    Scalar tangential_growth_N_per_s{0};  ///< growth of F_at over the last revolution beyond that of the feed, where significant; ≥ 0
-    Scalar newest_tangential_N{0};        ///< F_at of the window, or more where a tooth carries more than a turn before
-    Scalar cutting_share{1};              ///< share of F_at that is not edge force
+    Scalar tangential_growth_N_per_s{
+        0};  ///< growth of F_at over the last revolution beyond that of the feed, where significant; ≥ 0
+    Scalar newest_tangential_N{0};  ///< F_at of the window, or more where a tooth carries more than a turn before
+    Scalar cutting_share{1};        ///< share of F_at that is not edge force
     Scalar feed_exponent{usual_feed_exponent<Scalar>};  ///< 1 + p_s: cutting force ∝ f^(1+p_s)
     /// The force of a tooth at another immersion, at the same depth and feed.
     struct Change {

@@ -52,9 +52,9 @@ void ToothForce<Scalar>::fill(CutEstimate<Scalar>& e, const EngagementPeaks<Scal
 
 /// F_at, and how fast it grows. Taken are the revolutions in which the cut stayed the same; the window or the last
 /// tooth where these are higher, less what their noise may have added: else each of its peaks would lower the feed at
-/// once. A tooth has risen by what it carries more than a revolution ago, but for what a higher feed has added: else each
-/// rise of the override would be answered as a cut that grows. That some teeth carry more than others is runout, which
-/// has its own factor: only what a tooth carries beyond that counts.
+/// once. A tooth has risen by what it carries more than a revolution ago, but for what a higher feed has added: else
+/// each rise of the override would be answered as a cut that grows. That some teeth carry more than others is runout,
+/// which has its own factor: only what a tooth carries beyond that counts.
 template <typename Scalar>
 Scalar ToothForce<Scalar>::follow_growth(CutEstimate<Scalar>& e) const {
     using std::sqrt;
