@@ -251,6 +251,21 @@ TEST(RunoutMeter, without_air_at_this_speed_or_an_arc_it_says_what_the_file_says
     DOUBLES_EQUAL(6.0, excess_um(no_arc), 1e-3);
 }
 
+TEST(RunoutMeter, a_cut_of_no_whole_revolution_teaches_nothing) {
+    const Milling cut;
+    Spindle spindle;
+    RunoutMeter<float> meter(stated_mm, cut.teeth);
+    turn_in_air(meter, spindle);
+    TurningForce<float> turning = spindle.turn_once(&cut);
+    turning.revolutions = 0;
+    meter.learn({.turning = turning,
+                 .feed_direction = {1.0F, 0.0F},
+                 .feed_per_tooth_mm = 0.05F,
+                 .cutting_N = 600.0F,
+                 .engagement = known_arc(cut)});
+    DOUBLES_EQUAL(6.0, excess_um(meter), 1e-3);
+}
+
 TEST(RunoutMeter, by_the_spindle_alone_it_finds_what_the_thickest_chip_has_of_it) {
     for (const double immersion : {0.3, 1.0, 2.0}) {
         for (const double direction_rad : {0.0, 1.1, -2.4}) {
