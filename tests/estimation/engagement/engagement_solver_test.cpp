@@ -22,10 +22,12 @@ struct Cut {
     double feed_per_tooth_mm = 0.05;
     double direction_rad = 0.0;
     bool y_moves = false;
+    double centre_offset_in_radii = 0.0;
 };
 
 AverageForces<double> true_forces(const Cut& cut, const CuttingLaw<double>& law) {
-    return average_forces(law, {cut.feed_per_tooth_mm, cut.depth_mm, engagement_angles(cut.side, cut.immersion), 4.0});
+    const auto angles = engagement_angles(cut.side, cut.immersion, cut.centre_offset_in_radii);
+    return average_forces(law, {cut.feed_per_tooth_mm, cut.depth_mm, angles, 4.0});
 }
 
 /// What the drives show of a cut, with noise of the given deviation on each force.
@@ -49,6 +51,15 @@ EngagementSolver<double, Nodes> solver(double law_relative_sd = 0.0) {
     EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
     settings.law_relative_sd = law_relative_sd;
     return {carbide_in_SM45C<double>(), settings};
+}
+
+/// The immersion that a solver for a cut with the centre at that offset finds.
+double immersion_found(const Cut& cut, double centre_offset_in_radii, double largest_immersion = 2.0) {
+    EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
+    settings.centre_offset_in_radii = centre_offset_in_radii;
+    settings.largest_immersion = largest_immersion;
+    const EngagementSolver<double> solver(carbide_in_SM45C<double>(), settings, cut.side);
+    return solver.solve(measured(cut, 3.0), cut.feed_per_tooth_mm, cut.side).radial_immersion;
 }
 
 double force_ratio(CutSide side, double immersion) {
@@ -208,6 +219,45 @@ TEST(EngagementSolver, calls_a_slot_a_slot_whichever_side_is_told) {
         CHECK(e.immersion_valid);
         DOUBLES_EQUAL(2.0, e.radial_immersion, 0.02);
     }
+}
+
+TEST(EngagementSolver, finds_the_immersion_of_a_centred_cut_on_either_side_of_the_centre) {
+    for (const double offset : {-0.4, 0.0, 0.4}) {
+        const Cut cut{
+            .side = CutSide::centred, .immersion = 0.9, .y_moves = true, .centre_offset_in_radii = offset};
+        DOUBLES_EQUAL(0.9, immersion_found(cut, offset), 0.05);
+    }
+}
+
+TEST(EngagementSolver, finds_no_centred_cut_beyond_the_edge_of_the_cutter_nor_beyond_the_largest_immersion) {
+    for (const double offset : {-0.4, 0.4}) {
+        const Cut clipped{
+            .side = CutSide::centred, .immersion = 1.6, .y_moves = true, .centre_offset_in_radii = offset};
+        CHECK_COMPARE(immersion_found(clipped, offset), <, 1.2 + 1e-6);
+    }
+    const Cut wide{.side = CutSide::centred, .immersion = 1.2, .y_moves = true};
+    DOUBLES_EQUAL(0.8, immersion_found(wide, 0.0, 0.8), 1e-6);
+}
+
+TEST(EngagementSolver, hears_nothing_of_an_offset_of_the_centre_where_the_cut_lies_on_a_side) {
+    DOUBLES_EQUAL(2.0, immersion_found({.immersion = 2.0}, 0.4), 0.02);
+}
+
+TEST(EngagementSolver, takes_no_more_steps_at_once_than_it_may_and_comes_to_the_same_answer) {
+    const auto solver_of_cut = solver();
+    const auto forces = measured({}, 3.0);
+    EngagementSolver<double>::Search search;
+    solver_of_cut.begin(search, forces, 0.05, CutSide::down, {});
+    int calls = 0;
+    for (; calls < 10; ++calls) {
+        CHECK_FALSE(solver_of_cut.advance(search, 2));
+    }
+    while (!solver_of_cut.advance(search, 1)) {
+        ++calls;
+    }
+    CHECK_COMPARE(calls, <, 60);
+    DOUBLES_EQUAL(solver_of_cut.solve(forces, 0.05, CutSide::down).radial_immersion, search.estimate().radial_immersion,
+                  0.0);
 }
 
 TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_force) {
