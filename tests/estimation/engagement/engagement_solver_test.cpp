@@ -223,8 +223,7 @@ TEST(EngagementSolver, calls_a_slot_a_slot_whichever_side_is_told) {
 
 TEST(EngagementSolver, finds_the_immersion_of_a_centred_cut_on_either_side_of_the_centre) {
     for (const double offset : {-0.4, 0.0, 0.4}) {
-        const Cut cut{
-            .side = CutSide::centred, .immersion = 0.9, .y_moves = true, .centre_offset_in_radii = offset};
+        const Cut cut{.side = CutSide::centred, .immersion = 0.9, .y_moves = true, .centre_offset_in_radii = offset};
         DOUBLES_EQUAL(0.9, immersion_found(cut, offset), 0.05);
     }
 }
@@ -260,13 +259,29 @@ TEST(EngagementSolver, takes_no_more_steps_at_once_than_it_may_and_comes_to_the_
                   0.0);
 }
 
+TEST(EngagementSolver, needs_one_moving_axis_whichever_it_is) {
+    for (const bool is_x : {true, false}) {
+        auto m = measured({.direction_rad = is_x ? 0.0 : 0.5 * pi<double>, .y_moves = true}, 3.0);
+        (is_x ? m.y_N : m.x_N).valid = false;
+        const auto e = solver().solve(m, 0.05, CutSide::down);
+        CHECK(e.immersion_valid);
+        DOUBLES_EQUAL(0.5, e.radial_immersion, 0.02);
+    }
+}
+
 TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_force) {
     auto standing = measured({}, 2.0);
     standing.x_N.valid = false;
-    CHECK_FALSE(solver().solve(standing, 0.05, CutSide::down).immersion_valid);
+    CHECK_FALSE(solver().solve(standing, 0.05, CutSide::down).solved);
     const auto faint = measured({.depth_mm = 0.05}, 10.0);
-    CHECK_FALSE(solver().solve(faint, 0.05, CutSide::down).immersion_valid);
-    CHECK_FALSE(solver().solve(measured({}, 2.0), 0.0, CutSide::down).immersion_valid);
+    CHECK_FALSE(solver().solve(faint, 0.05, CutSide::down).solved);
+    CHECK_FALSE(solver().solve(measured({}, 2.0), 0.0, CutSide::down).solved);
+    auto without_torque = measured({}, 2.0);
+    without_torque.tangential_N.valid = false;
+    CHECK_FALSE(solver().solve(without_torque, 0.05, CutSide::down).solved);
+    auto braking = measured({}, 2.0);
+    braking.tangential_N.value *= -1.0;
+    CHECK_FALSE(solver().solve(braking, 0.05, CutSide::down).solved);
     for (auto force : {&AverageForceMeasurement<double>::tangential_N, &AverageForceMeasurement<double>::x_N}) {
         for (const CutSide side : {CutSide::down, CutSide::unknown}) {
             auto broken = measured({}, 2.0);
