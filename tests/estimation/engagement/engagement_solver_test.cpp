@@ -7,6 +7,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -66,6 +67,31 @@ double force_ratio(CutSide side, double immersion) {
     const auto f =
         true_forces({.side = side, .immersion = immersion, .feed_per_tooth_mm = 0.0496}, carbide_in_SM45C<double>());
     return f.feed_N / f.tangential_N;
+}
+
+/// Where J stays within its rise, found by looking everywhere.
+struct Band {
+    double low_rad;
+    double high_rad;
+};
+
+Band band_by_looking_everywhere(const AverageForceMeasurement<double>& forces, const Cut& cut,
+                                const EngagementEstimate<double>& found) {
+    constexpr int nodes = 41;
+    constexpr int places = 1000;
+    using Table = EngagementTable<double, nodes>;
+    Table table;
+    table.build(carbide_in_SM45C<double>(), 4.0, cut.side, 0.0, pi<double>);
+    const ImmersionProfile<double, nodes> J(table, forces, cut.feed_per_tooth_mm, 0.02, {}, 0.0);
+    const double most = found.misfit + rise_of_interval(found.misfit);
+    Band band{found.engagement_rad, found.engagement_rad};
+    for (int n = 0; n <= places; ++n) {
+        const double theta_rad = Table::first_rad + (pi<double> - Table::first_rad) * n / places;
+        if (J.at(table, theta_rad).misfit <= most) {
+            band = {std::min(band.low_rad, theta_rad), std::max(band.high_rad, theta_rad)};
+        }
+    }
+    return band;
 }
 
 }  // namespace
@@ -292,6 +318,39 @@ TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_fo
             CHECK_FALSE(e.depth_valid);
         }
     }
+}
+
+TEST(EngagementSolver, has_an_interval_as_far_as_the_forces_allow_and_seldom_by_a_node_farther) {
+    const auto solver_of_cut = solver(0.02);
+    constexpr double step_rad = pi<double> / 40.0;
+    std::mt19937 random(20261128);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    constexpr int cuts = 400;
+    int too_near = 0;
+    int low_too_far = 0;
+    int high_too_far = 0;
+    for (int k = 0; k < cuts; ++k) {
+        const Cut cut{.side = k % 2 == 0 ? CutSide::down : CutSide::up,
+                      .immersion = 0.05 + 1.95 * share(random),
+                      .depth_mm = 1.0 + 11.0 * share(random),
+                      .direction_rad = k % 4 < 2 ? 0.0 : 6.28 * share(random),
+                      .y_moves = k % 4 >= 2};
+        const auto forces = measured(cut, 0.3 * std::pow(100.0, share(random)), &random);
+        const auto found = solver_of_cut.solve(forces, cut.feed_per_tooth_mm, cut.side);
+        if (!found.solved || found.side != cut.side) {
+            continue;
+        }
+        const Band band = band_by_looking_everywhere(forces, cut, found);
+        const double low_beyond = (band.low_rad - found.engagement_low_rad) / step_rad;
+        const double high_beyond = (found.engagement_high_rad - band.high_rad) / step_rad;
+        too_near += low_beyond < -0.25 || high_beyond < -0.25 ? 1 : 0;
+        low_too_far += low_beyond > 1.0 ? 1 : 0;
+        high_too_far += high_beyond > 1.0 ? 1 : 0;
+        CHECK(found.engagement_low_rad >= 0.0 && found.engagement_high_rad <= pi<double>);
+    }
+    LONGS_EQUAL(0, too_near);
+    CHECK(low_too_far < 0.1 * cuts);
+    CHECK(high_too_far < 0.1 * cuts);
 }
 
 TEST(EngagementSolver, misses_nothing_by_looking_at_few_immersions) {
