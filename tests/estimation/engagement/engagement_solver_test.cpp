@@ -239,6 +239,24 @@ TEST(EngagementSolver, gives_no_depth_beyond_the_flutes) {
     }
 }
 
+TEST(EngagementSolver, leaves_each_immersion_for_which_the_flutes_are_long_enough_possible_where_the_law_is_in_doubt) {
+    EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
+    settings.flute_length_mm = 5.0;
+    const EngagementSolver<double> short_flutes(carbide_in_SM45C<double>(), settings);
+    const Cut cut{.depth_mm = 4.5};
+    EngagementSolver<double>::Search search;
+    short_flutes.begin(search, measured(cut, 3.0), cut.feed_per_tooth_mm, cut.side, {}, true);
+    while (!short_flutes.advance(search, 100)) {
+    }
+    const auto e = search.estimate();
+    CHECK(e.solved && e.law_is_in_doubt);
+    CHECK_FALSE(e.immersion_valid || e.depth_valid);
+    CHECK(e.radial_immersion_low > 0.2 && e.radial_immersion_low < cut.immersion);
+    DOUBLES_EQUAL(2.0, e.radial_immersion_high, 0.0);
+    const double doubt_of_K_s = 2.0 * carbide_in_SM45C<double>().K_s_relative_sd;
+    CHECK(e.depth_at_low_mm > cut.depth_mm && e.depth_at_low_mm <= 5.0 * (1.0 + doubt_of_K_s));
+}
+
 TEST(EngagementSolver, calls_a_slot_a_slot_whichever_side_is_told) {
     for (const CutSide side : {CutSide::down, CutSide::up, CutSide::unknown}) {
         const auto e = solver().solve(measured({.immersion = 2.0}, 3.0), 0.05, side);
