@@ -16,6 +16,14 @@ Input light_cut(bool has_map) {
     return light;
 }
 
+/// In this cut the spindle loses its speed and regains it: from then on no force may be as large.
+Output lose_and_regain_speed(Controller& controller, const Input& cut) {
+    Input slow = cut;
+    slow.cut.spindle_speed_rad_s *= 0.9F;
+    repeat(controller, slow, 50);
+    return repeat(controller, cut, 400);
+}
+
 }  // namespace
 
 TEST_GROUP(Ceilings){};
@@ -97,13 +105,38 @@ TEST(Ceilings, a_spindle_that_loses_its_speed_gets_the_lowest_feed_and_then_no_f
         CHECK_COMPARE(repeat(controller, light, 200).ratio, >, 1.2F);
         Input slow = light;
         slow.cut.spindle_speed_rad_s *= 0.9F;
-        const Output lost = repeat(controller, slow, 50);
-        check_ratio(immediate().override_min, lost);
-        const Output regained = repeat(controller, light, 400);
+        check_ratio(immediate().override_min, repeat(controller, slow, 50));
+        const Output regained = lose_and_regain_speed(controller, light);
         CHECK(regained.limit == Limit::spindle_torque);
         STRCMP_EQUAL("spindle_torque", name(regained.limit));
         check_ratio(std::pow(0.9F, 1.0F / light.cut.feed_exponent), regained, 1e-3);
     }
+}
+
+TEST(Ceilings, after_a_loss_of_speed_an_estimate_that_is_old_or_of_no_use_to_the_law_leaves_the_ceiling_where_it_was) {
+    Input old = light_cut(false);
+    old.cut.fresh = false;
+    old.cut.tangential_N *= 2.0F;
+    Input without_exponent = light_cut(false);
+    without_exponent.cut.feed_exponent = not_a_number;
+    for (const Input& next : {old, without_exponent}) {
+        Controller controller(immediate());
+        bring_into_cut(controller);
+        const float before = lose_and_regain_speed(controller, light_cut(false)).ratio;
+        check_ratio(before, controller.step(next));
+    }
+}
+
+TEST(Ceilings, after_a_loss_of_speed_a_torque_below_zero_in_a_feed_hold_does_not_lower_the_override) {
+    Controller controller(immediate());
+    bring_into_cut(controller);
+    const float before = lose_and_regain_speed(controller, light_cut(false)).ratio;
+    Input held = light_cut(false);
+    held.feed_hold = true;
+    held.cut.tangential_N = -1.0F;
+    const Output output = repeat(controller, held, 10);
+    CHECK(output.state == CutState::hold);
+    check_ratio(before, output);
 }
 
 TEST(Ceilings, a_spindle_that_stalls_is_a_fault_where_the_tool_is_fed_and_none_where_it_rests) {

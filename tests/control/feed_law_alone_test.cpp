@@ -106,6 +106,22 @@ TEST(FeedLawAlone, an_entry_is_slowed_below_its_feed_by_a_certain_force_alone) {
     DOUBLES_EQUAL(static_cast<double>(demand_for(5000.0F)), static_cast<double>(demand_at_entry(9000.0F)), 1e-6);
 }
 
+TEST(FeedLawAlone, before_the_program_has_settled_in_a_cut_the_heaviest_one_bounds_no_demand) {
+    Parameters p;
+    p.depth_step_ratio = 2.0F;
+    p.depth_step_share = 1.5F;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 600.0F;
+    const auto demand_after = [&](float contact_feed_mm) {
+        Law law(1.0F);
+        law.follow(p, input, CutState::in_cut, contact_feed_mm);
+        return static_cast<double>(law.demand());
+    };
+    const float by_its_force = Law::override_for(p, input, {0.75F, 600.0F, input.cut.cutting_share});
+    DOUBLES_EQUAL(static_cast<double>(by_its_force), demand_after(0.0F), 1e-6);
+    DOUBLES_EQUAL(static_cast<double>(ratio_of(2.0F * 0.04F, input)), demand_after(0.04F), 1e-6);
+}
+
 TEST(FeedLawAlone, keeps_within_the_range_of_the_override_whatever_is_wanted) {
     const Parameters p;
     Law falling(1.0F);

@@ -74,7 +74,8 @@ class Build:
 
     def link(self, subject, changed, output):
         """All of the library whose file is changed is linked as objects, the changed ones among them. A test's own object
-        takes the place of the release build's."""
+        takes the place of the release build's, and comes first: of functions that several objects hold, the linker takes
+        the first."""
         library = subject.path.split("/")[0]
         own = [str(path.relative_to(self.root)) for path in sorted((self.root / library / "src").glob("*.cpp"))]
         objects = [str(changed.get(source) or self.unchanged_object(source)) for source in own]
@@ -82,7 +83,8 @@ class Build:
         words = [word for word in words if word != f"{library}/libmillforce_{library}.a"]
         for source, changed_object in changed.items():
             if source.startswith("tests/"):
-                words = [str(changed_object) if word.endswith(source.removeprefix("tests/") + ".o") else word for word in words]
+                words = [word for word in words if not word.endswith(source.removeprefix("tests/") + ".o")]
+                objects.insert(0, str(changed_object))
         words[words.index("-o") + 1] = str(output)
         return subprocess.run([*words[:1], *objects, *words[1:]], cwd=self.release, capture_output=True, text=True, check=False)
 

@@ -3,6 +3,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <cmath>
+
 using namespace millforce::estimation;
 
 namespace {
@@ -42,12 +44,26 @@ TEST(DepthMemory, keeps_the_mean_of_the_last_estimates) {
     CHECK_FALSE(depth.K_s_is_in_doubt);
 }
 
+TEST(DepthMemory, takes_the_first_depth_at_once) {
+    DOUBLES_EQUAL(6.2, memory_of(6.0, 1).depth().depth_mm, 1e-9);
+}
+
+TEST(DepthMemory, follows_a_depth_that_changes_a_little_however_long_it_was_another) {
+    DepthMemory<double> memory = memory_of(6.0, 1000);
+    for (int k = 0; k < 100; ++k) {
+        memory.learn(depth_told_by_forces(6.3));
+    }
+    DOUBLES_EQUAL(6.3, memory.depth().depth_mm, 0.01);
+}
+
 TEST(DepthMemory, doubts_more_with_the_way_and_forgets_with_the_height) {
-    DepthMemory<double> memory = memory_of(6.0);
-    memory.follow(100.0, 0.0);
-    DOUBLES_EQUAL(std::hypot(0.4 / 6.0, 0.2), memory.depth().relative_sd, 0.005);
-    memory.follow(0.0, -3.0);  // half a depth down
-    DOUBLES_EQUAL(0.0, memory.depth().depth_mm, 0.0);
+    for (const double half_a_depth_mm : {-3.0, 3.0}) {
+        DepthMemory<double> memory = memory_of(6.0);
+        memory.follow(100.0, 0.0);
+        DOUBLES_EQUAL(std::hypot(0.4 / 6.0, 0.2), memory.depth().relative_sd, 0.005);
+        memory.follow(0.0, half_a_depth_mm);
+        DOUBLES_EQUAL(0.0, memory.depth().depth_mm, 0.0);
+    }
 }
 
 TEST(DepthMemory, believes_another_depth_only_when_told_sixteen_times_in_a_row) {

@@ -7,6 +7,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -22,10 +23,12 @@ struct Cut {
     double feed_per_tooth_mm = 0.05;
     double direction_rad = 0.0;
     bool y_moves = false;
+    double centre_offset_in_radii = 0.0;
 };
 
 AverageForces<double> true_forces(const Cut& cut, const CuttingLaw<double>& law) {
-    return average_forces(law, {cut.feed_per_tooth_mm, cut.depth_mm, engagement_angles(cut.side, cut.immersion), 4.0});
+    const auto angles = engagement_angles(cut.side, cut.immersion, cut.centre_offset_in_radii);
+    return average_forces(law, {cut.feed_per_tooth_mm, cut.depth_mm, angles, 4.0});
 }
 
 /// What the drives show of a cut, with noise of the given deviation on each force.
@@ -51,10 +54,44 @@ EngagementSolver<double, Nodes> solver(double law_relative_sd = 0.0) {
     return {carbide_in_SM45C<double>(), settings};
 }
 
+/// The immersion that a solver for a cut with the centre at that offset finds.
+double immersion_found(const Cut& cut, double centre_offset_in_radii, double largest_immersion = 2.0) {
+    EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
+    settings.centre_offset_in_radii = centre_offset_in_radii;
+    settings.largest_immersion = largest_immersion;
+    const EngagementSolver<double> solver(carbide_in_SM45C<double>(), settings, cut.side);
+    return solver.solve(measured(cut, 3.0), cut.feed_per_tooth_mm, cut.side).radial_immersion;
+}
+
 double force_ratio(CutSide side, double immersion) {
     const auto f =
         true_forces({.side = side, .immersion = immersion, .feed_per_tooth_mm = 0.0496}, carbide_in_SM45C<double>());
     return f.feed_N / f.tangential_N;
+}
+
+/// Where J stays within its rise, found by looking everywhere.
+struct Band {
+    double low_rad;
+    double high_rad;
+};
+
+Band band_by_looking_everywhere(const AverageForceMeasurement<double>& forces, const Cut& cut,
+                                const EngagementEstimate<double>& found) {
+    constexpr int nodes = 41;
+    constexpr int places = 1000;
+    using Table = EngagementTable<double, nodes>;
+    Table table;
+    table.build(carbide_in_SM45C<double>(), 4.0, cut.side, 0.0, pi<double>);
+    const ImmersionProfile<double, nodes> J(table, forces, cut.feed_per_tooth_mm, 0.02, {}, 0.0);
+    const double most = found.misfit + rise_of_interval(found.misfit);
+    Band band{found.engagement_rad, found.engagement_rad};
+    for (int n = 0; n <= places; ++n) {
+        const double theta_rad = Table::first_rad + (pi<double> - Table::first_rad) * n / places;
+        if (J.at(table, theta_rad).misfit <= most) {
+            band = {std::min(band.low_rad, theta_rad), std::max(band.high_rad, theta_rad)};
+        }
+    }
+    return band;
 }
 
 }  // namespace
@@ -202,6 +239,24 @@ TEST(EngagementSolver, gives_no_depth_beyond_the_flutes) {
     }
 }
 
+TEST(EngagementSolver, leaves_each_immersion_for_which_the_flutes_are_long_enough_possible_where_the_law_is_in_doubt) {
+    EngagementSolverSettings<double> settings = millforce::tests::solver_of_four_flutes<double>();
+    settings.flute_length_mm = 5.0;
+    const EngagementSolver<double> short_flutes(carbide_in_SM45C<double>(), settings);
+    const Cut cut{.depth_mm = 4.5};
+    EngagementSolver<double>::Search search;
+    short_flutes.begin(search, measured(cut, 3.0), cut.feed_per_tooth_mm, cut.side, {}, true);
+    while (!short_flutes.advance(search, 100)) {
+    }
+    const auto e = search.estimate();
+    CHECK(e.solved && e.law_is_in_doubt);
+    CHECK_FALSE(e.immersion_valid || e.depth_valid);
+    CHECK(e.radial_immersion_low > 0.2 && e.radial_immersion_low < cut.immersion);
+    DOUBLES_EQUAL(2.0, e.radial_immersion_high, 0.0);
+    const double doubt_of_K_s = 2.0 * carbide_in_SM45C<double>().K_s_relative_sd;
+    CHECK(e.depth_at_low_mm > cut.depth_mm && e.depth_at_low_mm <= 5.0 * (1.0 + doubt_of_K_s));
+}
+
 TEST(EngagementSolver, calls_a_slot_a_slot_whichever_side_is_told) {
     for (const CutSide side : {CutSide::down, CutSide::up, CutSide::unknown}) {
         const auto e = solver().solve(measured({.immersion = 2.0}, 3.0), 0.05, side);
@@ -210,13 +265,67 @@ TEST(EngagementSolver, calls_a_slot_a_slot_whichever_side_is_told) {
     }
 }
 
+TEST(EngagementSolver, finds_the_immersion_of_a_centred_cut_on_either_side_of_the_centre) {
+    for (const double offset : {-0.4, 0.0, 0.4}) {
+        const Cut cut{.side = CutSide::centred, .immersion = 0.9, .y_moves = true, .centre_offset_in_radii = offset};
+        DOUBLES_EQUAL(0.9, immersion_found(cut, offset), 0.05);
+    }
+}
+
+TEST(EngagementSolver, finds_no_centred_cut_beyond_the_edge_of_the_cutter_nor_beyond_the_largest_immersion) {
+    for (const double offset : {-0.4, 0.4}) {
+        const Cut clipped{
+            .side = CutSide::centred, .immersion = 1.6, .y_moves = true, .centre_offset_in_radii = offset};
+        CHECK_COMPARE(immersion_found(clipped, offset), <, 1.2 + 1e-6);
+    }
+    const Cut wide{.side = CutSide::centred, .immersion = 1.2, .y_moves = true};
+    DOUBLES_EQUAL(0.8, immersion_found(wide, 0.0, 0.8), 1e-6);
+}
+
+TEST(EngagementSolver, hears_nothing_of_an_offset_of_the_centre_where_the_cut_lies_on_a_side) {
+    DOUBLES_EQUAL(2.0, immersion_found({.immersion = 2.0}, 0.4), 0.02);
+}
+
+TEST(EngagementSolver, takes_no_more_steps_at_once_than_it_may_and_comes_to_the_same_answer) {
+    const auto solver_of_cut = solver();
+    const auto forces = measured({}, 3.0);
+    EngagementSolver<double>::Search search;
+    solver_of_cut.begin(search, forces, 0.05, CutSide::down, {});
+    int calls = 0;
+    for (; calls < 10; ++calls) {
+        CHECK_FALSE(solver_of_cut.advance(search, 2));
+    }
+    while (!solver_of_cut.advance(search, 1)) {
+        ++calls;
+    }
+    CHECK_COMPARE(calls, <, 60);
+    DOUBLES_EQUAL(solver_of_cut.solve(forces, 0.05, CutSide::down).radial_immersion, search.estimate().radial_immersion,
+                  0.0);
+}
+
+TEST(EngagementSolver, needs_one_moving_axis_whichever_it_is) {
+    for (const bool is_x : {true, false}) {
+        auto m = measured({.direction_rad = is_x ? 0.0 : 0.5 * pi<double>, .y_moves = true}, 3.0);
+        (is_x ? m.y_N : m.x_N).valid = false;
+        const auto e = solver().solve(m, 0.05, CutSide::down);
+        CHECK(e.immersion_valid);
+        DOUBLES_EQUAL(0.5, e.radial_immersion, 0.02);
+    }
+}
+
 TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_force) {
     auto standing = measured({}, 2.0);
     standing.x_N.valid = false;
-    CHECK_FALSE(solver().solve(standing, 0.05, CutSide::down).immersion_valid);
+    CHECK_FALSE(solver().solve(standing, 0.05, CutSide::down).solved);
     const auto faint = measured({.depth_mm = 0.05}, 10.0);
-    CHECK_FALSE(solver().solve(faint, 0.05, CutSide::down).immersion_valid);
-    CHECK_FALSE(solver().solve(measured({}, 2.0), 0.0, CutSide::down).immersion_valid);
+    CHECK_FALSE(solver().solve(faint, 0.05, CutSide::down).solved);
+    CHECK_FALSE(solver().solve(measured({}, 2.0), 0.0, CutSide::down).solved);
+    auto without_torque = measured({}, 2.0);
+    without_torque.tangential_N.valid = false;
+    CHECK_FALSE(solver().solve(without_torque, 0.05, CutSide::down).solved);
+    auto braking = measured({}, 2.0);
+    braking.tangential_N.value *= -1.0;
+    CHECK_FALSE(solver().solve(braking, 0.05, CutSide::down).solved);
     for (auto force : {&AverageForceMeasurement<double>::tangential_N, &AverageForceMeasurement<double>::x_N}) {
         for (const CutSide side : {CutSide::down, CutSide::unknown}) {
             auto broken = measured({}, 2.0);
@@ -227,6 +336,39 @@ TEST(EngagementSolver, has_no_estimate_without_a_moving_axis_or_a_significant_fo
             CHECK_FALSE(e.depth_valid);
         }
     }
+}
+
+TEST(EngagementSolver, has_an_interval_as_far_as_the_forces_allow_and_seldom_by_a_node_farther) {
+    const auto solver_of_cut = solver(0.02);
+    constexpr double step_rad = pi<double> / 40.0;
+    std::mt19937 random(20261128);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    constexpr int cuts = 400;
+    int too_near = 0;
+    int low_too_far = 0;
+    int high_too_far = 0;
+    for (int k = 0; k < cuts; ++k) {
+        const Cut cut{.side = k % 2 == 0 ? CutSide::down : CutSide::up,
+                      .immersion = 0.05 + 1.95 * share(random),
+                      .depth_mm = 1.0 + 11.0 * share(random),
+                      .direction_rad = k % 4 < 2 ? 0.0 : 6.28 * share(random),
+                      .y_moves = k % 4 >= 2};
+        const auto forces = measured(cut, 0.3 * std::pow(100.0, share(random)), &random);
+        const auto found = solver_of_cut.solve(forces, cut.feed_per_tooth_mm, cut.side);
+        if (!found.solved || found.side != cut.side) {
+            continue;
+        }
+        const Band band = band_by_looking_everywhere(forces, cut, found);
+        const double low_beyond = (band.low_rad - found.engagement_low_rad) / step_rad;
+        const double high_beyond = (found.engagement_high_rad - band.high_rad) / step_rad;
+        too_near += low_beyond < -0.25 || high_beyond < -0.25 ? 1 : 0;
+        low_too_far += low_beyond > 1.0 ? 1 : 0;
+        high_too_far += high_beyond > 1.0 ? 1 : 0;
+        CHECK(found.engagement_low_rad >= 0.0 && found.engagement_high_rad <= pi<double>);
+    }
+    LONGS_EQUAL(0, too_near);
+    CHECK(low_too_far < 0.1 * cuts);
+    CHECK(high_too_far < 0.1 * cuts);
 }
 
 TEST(EngagementSolver, misses_nothing_by_looking_at_few_immersions) {

@@ -54,10 +54,53 @@ TEST(ForceMemory, takes_the_noise_out_of_a_cut_that_stays_and_leaves_what_is_com
     Memory memory = with_revolutions(8);
     Forces now = forces_of(400.0F);
     now.tangential_N.value += sd_N;
+    now.x_N.value += sd_N;
+    now.y_N.value += sd_N;
     const Forces mean = blended(memory, now);
     DOUBLES_EQUAL(400.0 + 10.0 / 9.0, static_cast<double>(mean.tangential_N.value), 1e-3);
+    DOUBLES_EQUAL(-400.0 + 10.0 / 9.0, static_cast<double>(mean.x_N.value), 1e-3);
+    DOUBLES_EQUAL(200.0 + 10.0 / 9.0, static_cast<double>(mean.y_N.value), 1e-3);
     DOUBLES_EQUAL(300.0 + 100.0 / 9.0, static_cast<double>(mean.tangential_N.variance), 1e-2);
     DOUBLES_EQUAL(8.0, static_cast<double>(memory.revolutions()), 1e-6);
+}
+
+TEST(ForceMemory, weighs_each_of_its_first_revolutions_alike) {
+    Memory memory = with_revolutions(2);
+    Forces now = forces_of(400.0F);
+    now.tangential_N.value += sd_N;
+    DOUBLES_EQUAL(400.0 + 10.0 / 3.0, static_cast<double>(blended(memory, now).tangential_N.value), 1e-3);
+    DOUBLES_EQUAL(3.0, static_cast<double>(memory.revolutions()), 1e-6);
+}
+
+TEST(ForceMemory, keeps_the_doubt_of_what_it_holds_though_the_present_forces_have_less) {
+    Memory memory = with_revolutions(8);
+    Forces now = forces_of(400.0F);
+    now.tangential_N.variance = 1.5F * sd_N * sd_N;
+    const double held_N2 = 300.0 + 100.0 / 8.0;
+    DOUBLES_EQUAL(held_N2 * 8.0 / 9.0, static_cast<double>(blended(memory, now).tangential_N.variance), 1e-2);
+}
+
+TEST(ForceMemory, carries_nothing_from_or_to_a_feed_that_is_none) {
+    for (const float before_mm_s : {0.0F, feed_mm_s}) {
+        Memory memory;
+        for (int k = 0; k < 8; ++k) {
+            blended(memory, forces_of(400.0F), before_mm_s);
+        }
+        blended(memory, forces_of(400.0F), feed_mm_s - before_mm_s);
+        DOUBLES_EQUAL(8.0, static_cast<double>(memory.revolutions()), 1e-6);
+    }
+}
+
+TEST(ForceMemory, averages_the_forces_of_one_axis_until_another_is_known_as_well) {
+    Forces without_y = forces_of(400.0F);
+    without_y.y_N.valid = false;
+    Memory memory;
+    for (int k = 0; k < 8; ++k) {
+        blended(memory, without_y);
+    }
+    DOUBLES_EQUAL(8.0, static_cast<double>(memory.revolutions()), 1e-6);
+    blended(memory, forces_of(400.0F));
+    DOUBLES_EQUAL(1.0, static_cast<double>(memory.revolutions()), 1e-6);
 }
 
 TEST(ForceMemory, carries_what_it_holds_to_another_feed) {
