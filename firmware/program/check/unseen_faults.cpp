@@ -38,6 +38,9 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
             "a spindle current that is too small in the cut, though its idle current is right, is contradicted by no "
             "second current");
     }
+    faults.emplace_back(
+        "a spindle current that is cut off above some value, while the spindle keeps its speed, looks like a lighter "
+        "cut: largest_share_of_rated below that value holds the feed there");
     const auto& machine = parameters.machine;
     if (machine.spindle_load_period_s > 0.0F) {
         faults.push_back(fmt::format(
