@@ -267,6 +267,22 @@ TEST(FeedLaw, comes_back_in_a_cut_that_fades_from_a_dip_at_its_begin) {
     CHECK_COMPARE(output.ratio, >, 0.8F * before);
 }
 
+TEST(FeedLaw, is_held_no_lower_by_a_cut_that_fades_than_it_was_at_its_begin) {
+    Input input = in_contact();
+    input.cut.section_mm2 = 10.0F;
+    Controller controller(immediate());
+    const float slow = settle(controller, input).ratio;
+    input.cut.tooth_force_N *= 0.5F;
+    Output output = controller.step(input);
+    output = controller.step(input);
+    const float fast = output.ratio;
+    CHECK_COMPARE(fast, >, 1.5F * slow);
+    input.cut.section_mm2 = 7.0F;
+    output = controller.step(input);
+    CHECK_TRUE(output.fading);
+    CHECK_COMPARE(output.ratio, >=, 0.99F * fast);
+}
+
 TEST(FeedLaw, forgets_at_a_sharp_turn_out_of_the_cut_what_was_cut_before) {
     check_that_a_turn_ends_the_exit(in_contact().cut.spindle_speed_rad_s);
 }
