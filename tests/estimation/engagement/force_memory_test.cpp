@@ -4,6 +4,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
+#include <initializer_list>
 
 using namespace millforce::estimation;
 
