@@ -62,8 +62,9 @@ void PlantOnCan::answer_sync() {
 /// Until the next SYNC, or until the plant has to go on without one. `due_us_` is the time of it.
 void PlantOnCan::await_sync() {
     for (;;) {
-        const std::uint64_t time_us = now_us();
-        port_->poll(port_->now_us());
+        const std::uint64_t port_us = port_->now_us();
+        const std::uint64_t time_us = clock_.of_monotonic(port_us);
+        port_->poll(port_us);
         if (receive_until_sync()) {
             return;
         }
@@ -71,10 +72,10 @@ void PlantOnCan::await_sync() {
         cnc_.poll(time_us);
         send_all();
         if (settings_.time.in_lock_step) {
-            check_patience();
+            check_patience(port_us);
         } else if (time_us >= plant_us_ + longest_wait_us) {
             due_us_ = time_us;
-            check_patience();
+            check_patience(port_us);
             return;
         }
         const std::uint64_t end_us = plant_us_ + longest_wait_us;
@@ -93,8 +94,9 @@ bool PlantOnCan::receive_until_sync() {
             sync_is_pending_ = true;
             due_us_ = std::max(time_us, plant_us_);
             ++syncs_;
-            check_patience();
-            heard_us_ = is_ready_ ? port_->now_us() : heard_us_;
+            const std::uint64_t heard_us = port_->now_us();
+            check_patience(heard_us);
+            heard_us_ = is_ready_ ? heard_us : heard_us_;
             return true;
         }
         machine_.on_frame(frame, time_us);
@@ -104,9 +106,9 @@ bool PlantOnCan::receive_until_sync() {
 }
 
 /// Of a controller that is not there; in lock-step, of one that went away.
-void PlantOnCan::check_patience() const {
+void PlantOnCan::check_patience(std::uint64_t port_us) const {
     const bool waits = !is_ready_ || settings_.time.in_lock_step;
-    if (waits && port_->now_us() > heard_us_ + settings_.patience_us) {
+    if (waits && port_us > heard_us_ + settings_.patience_us) {
         throw host::InputError(fmt::format("{}: no {} within {} s, expected 'millforce run' on the same interface",
                                            settings_.interface, is_ready_ ? "SYNC" : "feed override",
                                            settings_.patience_us / 1'000'000));

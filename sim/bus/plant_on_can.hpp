@@ -52,7 +52,7 @@ class PlantOnCan : public OverrideSource {
     void await_sync();
     bool receive_until_sync();
     void send_all();
-    void check_patience() const;
+    void check_patience(std::uint64_t port_us) const;
 
     PlantOnCanSettings settings_;
     std::unique_ptr<host::CanPort> port_;

@@ -15,8 +15,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto patience = 60s;
-
 /// A simulated machine on vcan0, and the commissioning that measures it, as two processes in lock-step. They share
 /// frames, and the programs that the commissioning writes for the machine.
 class CommissioningFolder : public LiveFolder {

@@ -105,7 +105,7 @@ TEST_GROUP(MapSentOnVcan) {
 TEST(MapSentOnVcan, a_chip_takes_the_whole_of_a_short_map) {
     Chip chip(parameters);
     test::Program sender(send_words(folder));
-    CHECK(sender.prints("the controller takes the map", std::chrono::seconds(20)));
+    CHECK(sender.prints("the controller takes the map", patience));
     std::this_thread::sleep_for(std::chrono::seconds(1));
     sender.interrupt(SIGINT);
     sender.wait();
@@ -126,9 +126,9 @@ TEST(MapSentOnVcan, with_tools_by_number_the_map_of_the_tool_that_the_cnc_tells_
     const Child cnc("cangen vcan0 -g 20 -I 2FD -L 8 -D " + hex_of(program_status::encode_tool(12, 0x2FD)));
     test::Program sender({"map", "send", "vcan0", folder.file("T12.map"), "--machine", folder.file("machine.toml"),
                           "--tools", folder.file("tools")});
-    CHECK(sender.prints("5 records, 20.0 mm, to node 126, with T12", std::chrono::seconds(20)));
-    CHECK(sender.prints("vcan0: T12\n", std::chrono::seconds(20)));
-    CHECK(sender.prints("the controller takes the map", std::chrono::seconds(20)));
+    CHECK(sender.prints("5 records, 20.0 mm, to node 126, with T12", patience));
+    CHECK(sender.prints("vcan0: T12\n", patience));
+    CHECK(sender.prints("the controller takes the map", patience));
     std::this_thread::sleep_for(std::chrono::seconds(1));
     sender.interrupt(SIGINT);
     sender.wait();
@@ -143,13 +143,13 @@ TEST(MapSentOnVcan, another_tool_and_silence_are_told_and_give_exit_code_1) {
         other.tool.tooth_force_limit_N *= 2.0F;
         Chip chip(other);
         test::Program sender(send_words(folder));
-        CHECK(sender.prints("refused: the controller's tool has other parameters", std::chrono::seconds(20)));
+        CHECK(sender.prints("refused: the controller's tool has other parameters", patience));
         sender.interrupt(SIGTERM);
         sender.wait();
         LONGS_EQUAL(1, sender.exit_code());
     }
     test::Program sender(send_words(folder));
-    CHECK(sender.prints("5 records, 20.0 mm, to node 126", std::chrono::seconds(20)));
+    CHECK(sender.prints("5 records, 20.0 mm, to node 126", patience));
     sender.interrupt(SIGINT);
     sender.wait();
     LONGS_EQUAL(1, sender.exit_code());

@@ -45,8 +45,9 @@ void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::st
 void ends_with_hold_and_complete_files(int signal) {
     const LiveFolder folder;
     const Candump candump("vcan0");
-    test::Program controller(with(folder.run_words(), {"--report", folder.file("page")}));
-    test::Program plant(folder.plant_words());
+    const Words slow_motion{"--slow-motion", "4"};  // a busy computer would lose samples, and then hold
+    test::Program controller(with(with(folder.run_words(), {"--report", folder.file("page")}), slow_motion));
+    test::Program plant(with(folder.plant_words(), slow_motion));
     CHECK(folder.logged("\"state\":\"in_cut\""));
     controller.interrupt(signal);
     controller.wait();
@@ -197,7 +198,7 @@ TEST(RunOnVcan, a_log_that_cannot_be_written_is_told_by_its_name) {
     words[1] = "nocan0";
     words[7] = "/dev/full";
     test::Program controller(words);
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    CHECK(controller.says("interface_absent"));
     controller.interrupt(SIGTERM);
     controller.wait();
     LONGS_EQUAL(1, controller.exit_code());

@@ -110,13 +110,15 @@ inline std::vector<std::string> lines_of(const std::string& file) {
     return lines;
 }
 
-/// How long a peer may take: a virtual kernel on a busy host pauses for seconds.
-inline constexpr int patience_ms = 30'000;
+/// How long a peer may take: a virtual kernel on a busy host pauses for seconds, and where the host is itself virtual a
+/// second of a part takes it ten.
+inline constexpr std::chrono::seconds patience{120};
 
 /// Does a step at a time until it holds; false where it does not for so long.
 template <typename Holds, typename Step>
 bool step_until(Holds holds, Step step) {
-    const std::uint64_t end_us = socketcan::monotonic_us() + 1000ULL * patience_ms;
+    const std::uint64_t end_us =
+        socketcan::monotonic_us() + 1'000'000ULL * static_cast<std::uint64_t>(patience.count());
     while (!holds()) {
         if (socketcan::monotonic_us() > end_us) {
             return false;
@@ -126,7 +128,7 @@ bool step_until(Holds holds, Step step) {
     return true;
 }
 inline bool wait_until(const std::function<bool()>& holds) {
-    return step_until(holds, [] { sleep_ms(10); });
+    return step_until(holds, [] { sleep_ms(50); });  // what is asked for reads a whole file as a rule
 }
 
 /// `candump -L` of an interface into a file, from when the constructor returns; with room for all that comes in a

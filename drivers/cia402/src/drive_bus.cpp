@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cia402/drive_bus.hpp"
 
+#include <algorithm>
+
 #include "cia402/objects.hpp"
 
 namespace millforce::cia402 {
@@ -62,12 +64,11 @@ void DriveBus::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
         const bool is_synchronous = is_sync_pdo(k, frame.id);
         if (is_synchronous && !cycle_open_ && nodes_[k].health().state == NodeState::operational) {
             rejects_.add(Reject::pdo_late);
+            an_answer_is_late_ = true;
             return;
         }
         if (nodes_[k].on_frame(frame, time_us, rejects_)) {
-            if (cycle_open_ && is_complete()) {
-                hand_over();
-            }
+            hand_over_when_complete();
             return;
         }
     }
@@ -93,6 +94,8 @@ void DriveBus::begin_cycle(std::uint64_t time_us) {
     for (DriveNode& node : nodes_) {
         node.begin_cycle();
     }
+    may_be_answers_to_last_ = an_answer_is_late_;
+    an_answer_is_late_ = false;
     has_beside_bus_ = false;
     sync_time_us_ = time_us;
     sync_clock_.on_sync(time_us);
@@ -106,14 +109,12 @@ bool DriveBus::is_complete() const {
     if (settings_.beside_bus != 0 && !has_beside_bus_) {
         return false;
     }
-    bool has_any = has_beside_bus_;
-    for (const DriveNode& node : nodes_) {
-        if (!node.is_complete()) {
-            return false;
-        }
-        has_any = has_any || node.health().state == NodeState::operational;
-    }
-    return has_any;
+    const auto is_operational = [](const DriveNode& node) { return node.health().state == NodeState::operational; };
+    return have_all_answered() && (has_beside_bus_ || std::any_of(nodes_.begin(), nodes_.end(), is_operational));
+}
+
+bool DriveBus::have_all_answered() const {
+    return std::all_of(nodes_.begin(), nodes_.end(), [](const DriveNode& node) { return node.is_complete(); });
 }
 
 void DriveBus::add(const hal::DriveSample& beside_bus) {
@@ -122,12 +123,17 @@ void DriveBus::add(const hal::DriveSample& beside_bus) {
     }
     beside_bus_ = beside_bus;
     has_beside_bus_ = true;
-    if (is_complete()) {
+    hand_over_when_complete();
+}
+
+void DriveBus::hand_over_when_complete() {
+    if (may_end_before_next_sync() && is_complete()) {
         hand_over();
     }
 }
 
 void DriveBus::hand_over() {
+    an_answer_is_late_ = !have_all_answered();
     health_.samples_incomplete += is_complete() ? 0U : 1U;
     health_.samples_untaken += sample_ready_ ? 1U : 0U;
     sample_ = {};
@@ -172,7 +178,7 @@ void DriveBus::poll(std::uint64_t time_us) {
     for (DriveNode& node : nodes_) {
         node.poll(time_us, rejects_);
     }
-    if (cycle_open_ && time_us >= sync_time_us_ + settings_.collect_us) {
+    if (may_end_before_next_sync() && time_us >= sync_time_us_ + settings_.collect_us) {
         hand_over();
     }
     const std::uint64_t patience_us = sync_lost_after_periods * settings_.sync_period_us;
@@ -206,7 +212,7 @@ hal::SourceState DriveBus::state() const {
 
 std::uint64_t DriveBus::next_event_us(std::uint64_t now_us) const {
     std::uint64_t next_us = now_us + settings_.sync_period_us;
-    if (cycle_open_ && sync_time_us_ + settings_.collect_us < next_us) {
+    if (may_end_before_next_sync() && sync_time_us_ + settings_.collect_us < next_us) {
         next_us = sync_time_us_ + settings_.collect_us;
     }
     return next_us > now_us ? next_us : now_us;

@@ -71,7 +71,7 @@ CanSocket::~CanSocket() {
 }
 
 void CanSocket::poll(std::uint64_t now_us) {
-    polled_us_ = now_us;
+    recent_us_ = now_us;
     if (now_us >= next_clock_look_us_) {
         next_clock_look_us_ = now_us + clock_look_period_us;
         clock_.look();
@@ -233,7 +233,8 @@ CanSocket::Fetched CanSocket::fetch(ReceivedFrame& received) {
         return Fetched::skipped;
     }
     copy_frame(raw, received.frame);
-    received.time_us = beside.has_time ? clock_.monotonic_from(beside.time, polled_us_) : monotonic_us();
+    received.time_us = beside.has_time ? clock_.monotonic_from(beside.time, recent_us_) : monotonic_us();
+    recent_us_ = std::max(recent_us_, received.time_us);
     // Set by the kernel on what came from this very socket.
     received.is_own = (message.msg_flags & MSG_CONFIRM) != 0;
     ++health_.received;

@@ -102,7 +102,7 @@ std::uint64_t StampClock::monotonic_from(const timespec& stamp, std::uint64_t no
     std::int64_t time_us = microseconds(stamp) - unix_offset_us();
     if (time_us > near_us + largest_lead_us || time_us < near_us - longest_age_us) {
         near_us = static_cast<std::int64_t>(monotonic_us());
-        follow_setting();
+        look();
         time_us = microseconds(stamp) - offset_us_;
     }
     const bool is_past = time_us > 0 && time_us <= near_us + largest_lead_us;

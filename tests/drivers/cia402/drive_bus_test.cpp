@@ -3,6 +3,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace millforce;
@@ -109,7 +110,7 @@ TEST(DriveBus, a_lost_pdo_is_a_missing_quantity_of_one_sample_and_nothing_else) 
     LONGS_EQUAL(1, missing);
 }
 
-TEST(DriveBus, a_pdo_that_comes_after_its_sample_is_late_and_not_used) {
+TEST(DriveBus, a_pdo_that_comes_after_its_sample_is_late_and_not_used_and_the_next_sample_waits_for_its_own) {
     TwoDrives machine;
     machine.run_ms(50);
     machine.wire.set_fault([&](const hal::CanFrame& f) {
@@ -119,9 +120,37 @@ TEST(DriveBus, a_pdo_that_comes_after_its_sample_is_late_and_not_used) {
     machine.samples.clear();
     const std::uint32_t before = machine.bus.rejects()[Reject::pdo_late];
     machine.run_ms(20);
-    CHECK(machine.bus.rejects()[Reject::pdo_late] - before >= 19);
-    CHECK_FALSE(has(machine.samples.back(), hal::Present::x_axis));
+    LONGS_EQUAL(10, machine.bus.rejects()[Reject::pdo_late] - before);
+    const auto has_x = [](const hal::DriveSample& sample) { return has(sample, hal::Present::x_axis); };
+    LONGS_EQUAL(10, std::count_if(machine.samples.begin(), machine.samples.end(), has_x));
+    LONGS_EQUAL(20, machine.samples.size());
     CHECK(has(machine.samples.back(), hal::Present::spindle_count));
+}
+
+TEST(DriveBus, answers_that_come_after_the_next_sync_are_not_taken_for_its_own) {
+    constexpr std::uint32_t counts_per_ms = 137;
+    TwoDrives machine;
+    machine.run_ms(50);
+    int spindle_answers = 0;
+    int x_answers = 0;
+    machine.wire.set_fault([&](const hal::CanFrame& f) {
+        const bool delay = (f.id == 0x181 && ++spindle_answers == 10) || (f.id == 0x182 && ++x_answers == 10);
+        return sim::LoopbackBus::Fate{1, delay ? 900ULL : 0ULL, f};
+    });
+    machine.samples.clear();
+    for (int k = 0; k < 40; ++k) {
+        machine.spindle().set_position(1000 + static_cast<std::int32_t>(counts_per_ms) * k);
+        machine.run_ms(1);
+    }
+    const auto lacks_the_count = [](const hal::DriveSample& sample) {
+        return !has(sample, hal::Present::spindle_count);
+    };
+    LONGS_EQUAL(1, std::erase_if(machine.samples, lacks_the_count));
+    for (std::size_t k = 2; k < machine.samples.size(); ++k) {
+        const std::uint32_t counts = machine.samples[k].spindle_count - machine.samples[k - 1].spindle_count;
+        const std::uint32_t elapsed_us = machine.samples[k].time_us - machine.samples[k - 1].time_us;
+        DOUBLES_EQUAL(counts_per_ms, counts * 1000.0 / elapsed_us, 1.0);
+    }
 }
 
 TEST(DriveBus, duplicated_pdos_are_counted_and_change_nothing) {

@@ -30,9 +30,10 @@
 /// run backwards. Cost per frame: a search over at most 4 drives × 4 PDOs; 0.8 µs for a whole SYNC
 /// period of four drives on a desktop processor. 3.2 KB of RAM. One thread.
 ///
-/// PDOs do not say which SYNC they belong to: what arrives belongs to the last one. So a PDO that is late by more than
-/// its period cannot be distinguished from a timely one; it shows as a repeated PDO in the same period, and the next
-/// period is right again. The collection time keeps anything less late out.
+/// PDOs do not say which SYNC they belong to: what arrives belongs to the last one, and of two in one period the second
+/// counts. A PDO that was missing may still come in the next period, as if it were timely. So a period after one that
+/// lacked a PDO, or had one after its sample, lasts until the next SYNC: by then the drive has answered for itself. A
+/// drive that is late by a whole period at every SYNC cannot be told from a timely one.
 
 namespace millforce::cia402 {
 
@@ -61,7 +62,7 @@ class DriveBus final : public hal::DriveSource {
     [[nodiscard]] std::uint8_t complete() const override { return complete_; }
     [[nodiscard]] hal::SourceState state() const override;
     /// Drives have not answered the last SYNC yet.
-    [[nodiscard]] bool is_collecting() const { return cycle_open_; }
+    [[nodiscard]] bool is_collecting() const { return cycle_open_ && !is_complete(); }
     /// When poll() has something to do at the latest: within a SYNC period, or at the end of collection.
     [[nodiscard]] std::uint64_t next_event_us(std::uint64_t now_us) const;
 
@@ -76,10 +77,13 @@ class DriveBus final : public hal::DriveSource {
   private:
     void on_sync(const hal::CanFrame& frame, std::uint64_t time_us);
     void begin_cycle(std::uint64_t time_us);
+    [[nodiscard]] bool may_end_before_next_sync() const { return cycle_open_ && !may_be_answers_to_last_; }
+    void hand_over_when_complete();
     void hand_over();
     void put(std::size_t role, const DriveReading& reading);
     [[nodiscard]] bool is_sync_pdo(std::size_t role, std::uint32_t id) const;
     [[nodiscard]] bool is_complete() const;
+    [[nodiscard]] bool have_all_answered() const;
 
     BusSettings settings_;
     std::uint8_t complete_ = 0;
@@ -93,6 +97,8 @@ class DriveBus final : public hal::DriveSource {
     bool sample_ready_ = false;
     bool had_sample_ = false;
     bool cycle_open_ = false;
+    bool an_answer_is_late_ = false;       ///< of this SYNC: one is missing, or came after the sample
+    bool may_be_answers_to_last_ = false;  ///< what comes after this SYNC, until it is repeated
     bool had_sync_ = false;
     std::uint64_t sync_time_us_ = 0;  ///< by its stamp
 };

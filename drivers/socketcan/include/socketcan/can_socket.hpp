@@ -129,7 +129,7 @@ class CanSocket {
     std::uint32_t kernel_drops_ = 0;
     std::uint64_t next_look_us_ = 0;
     std::uint64_t next_clock_look_us_ = 0;
-    std::uint64_t polled_us_ = 0;
+    std::uint64_t recent_us_ = 0;
 };
 
 }  // namespace millforce::socketcan

@@ -13,6 +13,9 @@ using firmware::Condition;
 constexpr std::uint64_t second_us = 1'000'000;
 /// The override's sender finds out that ticks stay away (20 ms) and says so in its heartbeat.
 constexpr std::uint64_t farewell_us = 40'000;
+/// More than a bus of 1 Mbit/s carries in 10 ms: a computer that takes frames more slowly than they come goes on with
+/// its loop.
+constexpr int most_frames_per_turn = 256;
 
 firmware::CanControllerSettings controller_settings(const MachineBus& bus) {
     firmware::CanControllerSettings settings;
@@ -71,17 +74,21 @@ void CanDaemon::run(const std::atomic<bool>& stop) {
     end(farewell_us);
 }
 
-/// In lock-step the next SYNC is due when all drives have answered this one, or do not.
 std::uint64_t CanDaemon::now_us() const {
-    const BusTime& time = clock_.time();
-    const std::uint64_t passed_us = time.in_lock_step && has_cycle_ended() ? time.sync_period_us : 0;
-    return clock_.of_monotonic(socketcan::monotonic_us()) + passed_us;
+    return bus_time_us(socketcan::monotonic_us());
 }
 
-bool CanDaemon::has_cycle_ended() const {
+/// In lock-step the next SYNC is due when all drives have answered this one, or do not.
+std::uint64_t CanDaemon::bus_time_us(std::uint64_t monotonic_us) const {
+    const BusTime& time = clock_.time();
+    const std::uint64_t passed_us = time.in_lock_step && has_cycle_ended(monotonic_us) ? time.sync_period_us : 0;
+    return clock_.of_monotonic(monotonic_us) + passed_us;
+}
+
+bool CanDaemon::has_cycle_ended(std::uint64_t monotonic_us) const {
     constexpr std::uint64_t start_patience_us = 5'000;
     constexpr std::uint64_t patience_us = 1'000'000;
-    const std::uint64_t elapsed_us = socketcan::monotonic_us() - sync_heard_us_;
+    const std::uint64_t elapsed_us = monotonic_us - sync_heard_us_;
     return elapsed_us > (controller_.ticks() == 0 ? start_patience_us : patience_us) ||
            (controller_.ticks() > 0 && !controller_.drives().is_collecting());
 }
@@ -89,11 +96,11 @@ bool CanDaemon::has_cycle_ended() const {
 void CanDaemon::step() {
     const std::uint64_t before_us = now_us();
     socket_.wait(clock_.real_us(controller_.next_event_us(before_us) - before_us));
-    const std::uint64_t time_us = now_us();
     const std::uint64_t turn_us = socketcan::monotonic_us();
+    const std::uint64_t time_us = bus_time_us(turn_us);
     look_for_pause(turn_us, time_us);
     socket_.poll(turn_us);
-    receive_all();
+    receive_frames();
     controller_.poll(time_us);
     send_all();
     local_outputs_.poll(socketcan::monotonic_us());
@@ -128,9 +135,9 @@ void CanDaemon::end(std::uint64_t duration_us) {
     }
 }
 
-void CanDaemon::receive_all() {
+void CanDaemon::receive_frames() {
     socketcan::ReceivedFrame received;
-    while (socket_.receive(received)) {
+    for (int k = 0; k < most_frames_per_turn && socket_.receive(received); ++k) {
         const std::uint64_t unix_us = clock_.unix_us(received.time_us);
         journal_.record(received.frame, unix_us);
         clock_.on_frame(received.frame);

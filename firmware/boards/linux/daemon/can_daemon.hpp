@@ -46,7 +46,7 @@ class CanDaemon final : private firmware::TickListener {
     void step();
     void look_for_pause(std::uint64_t turn_us, std::uint64_t time_us);
     void hold_where_needed();
-    void receive_all();
+    void receive_frames();
     void read_beside_bus(std::uint64_t unix_us);
     void send_all();
     void end(std::uint64_t duration_us);
@@ -56,7 +56,8 @@ class CanDaemon final : private firmware::TickListener {
     [[nodiscard]] firmware::Conditions conditions(std::uint64_t now_us);
     [[nodiscard]] firmware::Conditions recent(const firmware::Conditions& now, std::uint64_t now_us);
     [[nodiscard]] std::uint64_t now_us() const;
-    [[nodiscard]] bool has_cycle_ended() const;
+    [[nodiscard]] std::uint64_t bus_time_us(std::uint64_t monotonic_us) const;
+    [[nodiscard]] bool has_cycle_ended(std::uint64_t monotonic_us) const;
     static socketcan::CanSocketSettings socket_settings(socketcan::CanSocketSettings settings,
                                                         const firmware::CanController& controller, bool records);
 
