@@ -1,12 +1,29 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs OPEN_FILE of the INI file headless: LinuxCNC's DISPLAY program where there is no screen. Its exit code becomes
-that of `linuxcnc`: 0, the program came to its end; 1, LinuxCNC reported an error; 2, something did not happen in time."""
+that of `linuxcnc`: 0, the program came to its end; 1, LinuxCNC reported an error; 2, something did not happen in time, or force
+control has a fault, which nobody resets here."""
 import os
+import subprocess
 import sys
 import time
 
 import linuxcnc
+
+# What holds the feed for good: its pin, and where its numbers are explained.
+FAULTS = (("millforce-guard.0.reason", "drivers/linuxcnc/millforce_guard.comp"), ("millforce.fault", "control/README.md"))
+
+
+def pin(name):
+    return subprocess.run(["halcmd", "getp", name], capture_output=True, text=True, check=True).stdout.strip()
+
+
+def fault_that_holds():
+    for name, page in FAULTS:
+        number = pin(name)
+        if number != "0":
+            return f"the feed is held: {name} is {number}, see {page}"
+    return None
 
 
 class Drive:
@@ -70,8 +87,19 @@ class Drive:
     def is_done(self):
         return self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.inpos and self.stat.queue == 0
 
-    def await_end(self, timeout_s=3600.0):
-        self.until("program ended", self.is_done, timeout_s)
+    def await_end(self, timeout_s=3600.0, ends_at_fault=False):
+        next_look_s = time.monotonic()
+
+        def is_done():
+            nonlocal next_look_s
+            if ends_at_fault and time.monotonic() > next_look_s:
+                next_look_s = time.monotonic() + 2.0
+                fault = fault_that_holds()
+                if fault:
+                    self.fail(fault)
+            return self.is_done()
+
+        self.until("program ended", is_done, timeout_s)
         # The recording is read out of its buffer, and the spindle's stop ends the plant's run.
         time.sleep(0.3)
 
@@ -81,7 +109,7 @@ def main():
     drive = Drive()
     drive.make_ready()
     drive.start(ini.find("DISPLAY", "OPEN_FILE"))
-    drive.await_end()
+    drive.await_end(ends_at_fault=True)
     return 1 if drive.errors else 0
 
 

@@ -9,7 +9,7 @@ import time
 
 import linuxcnc
 
-from drive import Drive
+from drive import Drive, pin
 
 HOME = os.environ["HOME"]
 
@@ -24,7 +24,7 @@ def main():
     with open(os.path.join(HOME, "air_cut_runs"), "w", encoding="ascii"):
         pass
     drive.await_end(300.0)
-    fault = subprocess.run(["halcmd", "getp", "millforce.fault"], capture_output=True, text=True, check=True).stdout.strip()
+    fault = pin("millforce.fault")
     drive.say(f"with the spindle off: fault {fault}")
     while not os.path.exists(os.path.join(HOME, "checked")):
         time.sleep(0.1)

@@ -11,7 +11,7 @@ import time
 
 import linuxcnc
 
-from drive import Drive
+from drive import Drive, pin
 
 PREAMBLE = {"m52_missing": "M52 P0", "m51_p0": "M52 P1\nM51 P0", "m52_and_m51_missing": "M52 P0\nM51 P0"}
 INJECTED = {"nan": "nan", "infinite": "inf", "negative": "-0.5", "zero": "0", "above_one": "5", "thread": "0.07"}
@@ -34,7 +34,7 @@ def halcmd(*words):
 
 def cycles():
     """Servo cycles since the start: the only time that counts, however slow the computer is."""
-    return int(subprocess.run(["halcmd", "getp", "millforce-plant.cycle"], capture_output=True, text=True, check=True).stdout, 0)
+    return int(pin("millforce-plant.cycle"), 0)
 
 
 def wait_cycles(number):
@@ -99,8 +99,7 @@ def start_controller():
 
 
 def is_connected():
-    return subprocess.run(["halcmd", "getp", "millforce.connected"], capture_output=True, text=True,
-                          check=True).stdout.strip() == "TRUE"
+    return pin("millforce.connected") == "TRUE"
 
 
 def wait_connected(drive):
