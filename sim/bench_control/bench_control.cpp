@@ -70,9 +70,8 @@ void run_jobs(const BenchSettings& settings, const std::vector<Job>& jobs, Journ
         needed.parts.push_back(settings.parts[part]);
     }
     std::vector<PreparedPart> prepared = prepare_all(needed, progress);
-    const double feed_share = settings.rules.find("constant")->second.front();
     run_parallel(
-        prepared.size(), settings.threads, [&](std::size_t k) { teach(prepared[k], feed_share); },
+        prepared.size(), settings.threads, [&](std::size_t k) { teach(prepared[k], settings.rules); },
         [&](double share) { progress("teaching the parts", share); });
     run_parallel(
         jobs.size(), settings.threads,

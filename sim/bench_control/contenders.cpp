@@ -24,10 +24,9 @@ using enum Contender::Kind;
 
 constexpr std::array all_contenders{
     Contender{"ours", "millforce, without a map", ours},
-    Contender{"ours_told", "millforce, told the safe constant feed", ours, BenchMachine::currents, false, 1.5F},
-    Contender{"ours_told_130", "millforce, told that feed, share 1.3", ours, BenchMachine::currents, false, 1.3F},
+    Contender{"ours_told", "millforce, told a safe feed", ours, BenchMachine::currents, false, true},
     Contender{"ours_map", "millforce, map from geometry", ours, BenchMachine::currents, true},
-    Contender{"ours_map_told_130", "millforce, map, that feed, share 1.3", ours, BenchMachine::currents, true, 1.3F},
+    Contender{"ours_map_told", "millforce, map, told a safe feed", ours, BenchMachine::currents, true, true},
     Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, BenchMachine::spindle_alone, true},
     Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, BenchMachine::converter, true},
     Contender{"constant", "Constant feed, safe everywhere", rival},
@@ -39,6 +38,9 @@ constexpr std::array all_contenders{
     Contender{"plan", "the clairvoyant bound", bound},
 };
 
+constexpr std::array told_parameters{share_of_safe_feed, RuleParameter{"depth_step_share", 1.0, 2.0, 1.3}};
+constexpr RuleDescription told_description{"ours_told", "millforce, told a safe feed", told_parameters};
+
 const Scenario& drawn(const PreparedPart& part, BenchMachine machine) {
     return part.on_machine[static_cast<std::size_t>(machine)];
 }
@@ -46,15 +48,16 @@ const Scenario& drawn(const PreparedPart& part, BenchMachine machine) {
 std::unique_ptr<OverrideSource> controller_of(const Contender& contender, const PreparedPart& part,
                                               const Scenario& plant, const RuleSettings& settings) {
     if (contender.kind == rival) {
-        const auto found = settings.find(contender.name);
+        const TaughtFeed& taught = part.taught.find(contender.name)->second;
         return std::make_unique<LoadControl>(
-            load_settings(plant, part.feed_ratio, part.taught_load),
-            make_rule(contender.name, found->second, 0.5 * part.part.tool_diameter_mm));
+            load_settings(plant, taught.feed_ratio, taught.load),
+            make_rule(contender.name, settings.find(contender.name)->second, 0.5 * part.part.tool_diameter_mm));
     }
     firmware::Parameters<float> parameters = plant.parameters;
-    if (contender.share_in_a_step > 0.0F) {
-        parameters.tool.control.safe_override = static_cast<float>(part.feed_ratio);
-        parameters.tool.control.depth_step_share = contender.share_in_a_step;
+    if (contender.is_told) {
+        const std::vector<double>& told = settings.find(told_description.name)->second;
+        parameters.tool.control.safe_override = static_cast<float>(told[0] * part.safe_ratio);
+        parameters.tool.control.depth_step_share = static_cast<float>(told[1]);
     }
     if (contender.has_map) {
         return std::make_unique<MappedController>(parameters, part.map);
@@ -119,24 +122,41 @@ const Contender* contender_named(std::string_view name) {
     return found == all_contenders.end() ? nullptr : found;
 }
 
+std::vector<RuleDescription> described_controllers() {
+    const auto rules = rule_descriptions();
+    std::vector<RuleDescription> all(rules.begin(), rules.end());
+    all.push_back(told_description);
+    return all;
+}
+
 PreparedPart prepare(const std::filesystem::path& folder, const BenchPart& part) {
     write_part_files(folder, part);
-    PreparedPart prepared{part, {}, {}};
+    constexpr double patience = 4.0;
+    PreparedPart prepared;
+    prepared.part = part;
     for (const auto machine : {BenchMachine::currents, BenchMachine::spindle_alone, BenchMachine::converter}) {
         prepared.on_machine[static_cast<std::size_t>(machine)] = read_bench_part(folder, part, machine);
     }
     const Scenario& scenario = drawn(prepared, BenchMachine::currents);
     prepared.map = preview_within(scenario, largest_stock_offset_mm);
     prepared.safe_ratio = safe_constant_override(scenario);
+    prepared.longest_run_s = patience * taught_cut(scenario, prepared.safe_ratio).time_s;
     return prepared;
 }
 
-void teach(PreparedPart& prepared, double feed_share) {
-    constexpr double patience = 4.0;
-    prepared.feed_ratio = feed_share * prepared.safe_ratio;
-    const TaughtCut taught = taught_cut(drawn(prepared, BenchMachine::currents), prepared.feed_ratio);
-    prepared.taught_load = taught.load;
-    prepared.longest_run_s = patience * taught.time_s;
+void teach(PreparedPart& prepared, const RuleSettings& settings) {
+    std::map<double, double> load_at;
+    for (const RuleDescription& rule : rule_descriptions()) {
+        const auto found = settings.find(rule.name);
+        if (found == settings.end()) {
+            continue;
+        }
+        const double feed_ratio = found->second.front() * prepared.safe_ratio;
+        if (!load_at.contains(feed_ratio)) {
+            load_at[feed_ratio] = taught_cut(drawn(prepared, BenchMachine::currents), feed_ratio).load;
+        }
+        prepared.taught[std::string(rule.name)] = {feed_ratio, load_at[feed_ratio]};
+    }
 }
 
 BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench_control/load_rules.hpp"
 #include "bench_control/part_files.hpp"
 #include "bench_control/parts.hpp"
 #include "loop/scenario.hpp"
@@ -25,8 +26,7 @@ struct Contender {
     Kind kind;
     BenchMachine machine = BenchMachine::currents;
     bool has_map = false;  ///< from geometry: program, drawn blank, tool
-    /// depth_step_share of ours that is told the constant feed on which the load controls drive; 0: it is not.
-    float share_in_a_step = 0.0F;
+    bool is_told = false;  ///< ours that is told a feed, and how far beyond it
 };
 
 /// Ours, the rules of load_rules.hpp by their names, and "plan", the clairvoyant bound.
@@ -34,25 +34,34 @@ struct Contender {
 /// nullptr where there is none of that name.
 [[nodiscard]] const Contender* contender_named(std::string_view name);
 
-/// The settings of each rule, by its name, in the order of its parameters.
+/// All that have settings: the load rules, and ours that is told a safe feed, "ours_told": feed_share, its
+/// safe_override as a share of the constant feed that is safe for a K_s 30 % higher, and depth_step_share.
+[[nodiscard]] std::vector<RuleDescription> described_controllers();
+
+/// The settings of each of them, by its name, in the order of its parameters.
 using RuleSettings = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// F of a load rule, and what it was taught at that F.
+struct TaughtFeed {
+    double feed_ratio = 0.0;
+    double load = 0.0;
+};
 
 /// A part with what is worked out once for all its runs.
 struct PreparedPart {
     BenchPart part;
     std::array<Scenario, 3> on_machine;  ///< by BenchMachine
     host::PartMap map;
-    double safe_ratio = 0.0;   ///< largest constant feed over F that is safe for a K_s 30 % higher, on the drawn blank
-    double feed_ratio = 0.0;   ///< F of the rules
-    double taught_load = 0.0;  ///< largest load at that F
-    double longest_run_s = 0.0;  ///< a run that takes so long is given up
+    double safe_ratio = 0.0;  ///< largest constant feed over F that is safe for a K_s 30 % higher, on the drawn blank
+    double longest_run_s = 0.0;  ///< a run that takes so long is given up: four times that at the safe feed
+    std::map<std::string, TaughtFeed, std::less<>> taught;  ///< by the name of the load rule
 };
 
-/// Writes the part's files into the folder and works out what all its runs need: four simulations as a rule. Throws
+/// Writes the part's files into the folder and works out what all its runs need: five simulations as a rule. Throws
 /// InputError.
 [[nodiscard]] PreparedPart prepare(const std::filesystem::path& folder, const BenchPart& part);
-/// F and its teach-in, again for another share of the safe feed. One simulation.
-void teach(PreparedPart& prepared, double feed_share);
+/// The teach-in of each load rule that has settings, at its feed_share. A simulation for each feed_share.
+void teach(PreparedPart& prepared, const RuleSettings& settings);
 
 /// The figures of one run.
 struct BenchRun {

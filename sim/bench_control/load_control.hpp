@@ -14,7 +14,7 @@ class LoadControl : public OverrideSource {
   public:
     struct Settings {
         double feed_ratio = 1.0;  ///< F of the rule over the programmed feed
-        double reference = 0.0;   ///< as taught_load gives it
+        double reference = 0.0;   ///< TaughtCut::load
         double rated_current_A = 1.0;
         double sample_rate_hz = 1000.0;
     };

@@ -106,13 +106,13 @@ namespace {
 
 constexpr RuleParameter reference_share{"reference_share", 0.4, 1.6, 1.2};
 
-constexpr std::array constant_parameters{RuleParameter{"feed_share", 0.5, 1.3, 0.9}};
-constexpr std::array afc_parameters{reference_share, RuleParameter{"gain_per_s", 0.1, 6.0, 2.0},
+constexpr std::array constant_parameters{share_of_safe_feed};
+constexpr std::array afc_parameters{share_of_safe_feed, reference_share, RuleParameter{"gain_per_s", 0.1, 6.0, 2.0},
                                     RuleParameter{"idle_share", 1.0, 1.3, 1.1}};
-constexpr std::array haas_parameters{reference_share, RuleParameter{"start_share", 0.8, 1.3, 1.1}};
-constexpr std::array toolscope_parameters{reference_share};
-constexpr std::array synfct_parameters{reference_share, RuleParameter{"slope", -3.0, -0.1, -1.0}};
-constexpr std::array pid_parameters{reference_share, RuleParameter{"P", 0.0, 2.0, 0.3},
+constexpr std::array haas_parameters{share_of_safe_feed, reference_share, RuleParameter{"start_share", 0.8, 1.3, 1.1}};
+constexpr std::array toolscope_parameters{share_of_safe_feed, reference_share};
+constexpr std::array synfct_parameters{share_of_safe_feed, reference_share, RuleParameter{"slope", -3.0, -0.1, -1.0}};
+constexpr std::array pid_parameters{share_of_safe_feed, reference_share, RuleParameter{"P", 0.0, 2.0, 0.3},
                                     RuleParameter{"I_per_s", 0.0, 6.0, 1.5}, RuleParameter{"D_s", 0.0, 0.05, 0.002}};
 
 constexpr std::array all_rules{
@@ -143,19 +143,19 @@ std::unique_ptr<LoadRule> make_rule(std::string_view name, std::span<const doubl
         throw std::logic_error("rule '" + std::string(name) + "': another number of settings");
     }
     if (name == "afc") {
-        return std::make_unique<AfcRule>(AfcRule::Settings{values[0], values[1], values[2], cutter_radius_mm});
+        return std::make_unique<AfcRule>(AfcRule::Settings{values[1], values[2], values[3], cutter_radius_mm});
     }
     if (name == "haas") {
-        return std::make_unique<HaasRule>(HaasRule::Settings{values[0], values[1]});
+        return std::make_unique<HaasRule>(HaasRule::Settings{values[1], values[2]});
     }
     if (name == "toolscope") {
-        return std::make_unique<ToolScopeRule>(values[0]);
+        return std::make_unique<ToolScopeRule>(values[1]);
     }
     if (name == "synfct") {
-        return std::make_unique<SynfctRule>(SynfctRule::Settings{values[0], values[1], {}});
+        return std::make_unique<SynfctRule>(SynfctRule::Settings{values[1], values[2], {}});
     }
     if (name == "pid") {
-        return std::make_unique<PidRule>(PidRule::Settings{values[0], values[1], values[2], values[3]});
+        return std::make_unique<PidRule>(PidRule::Settings{values[1], values[2], values[3], values[4]});
     }
     return std::make_unique<ConstantRule>();
 }

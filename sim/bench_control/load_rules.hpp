@@ -153,8 +153,10 @@ struct RuleDescription {
     std::span<const RuleParameter> parameters;
 };
 
-/// "constant", "afc", "haas", "toolscope", "synfct", "pid". The parameter of "constant" is the share of the largest
-/// constant feed that is safe for a K_s 30 % higher; all others drive on this F.
+/// The F of a rule, a share of the largest constant feed that is safe for a K_s 30 % higher.
+constexpr RuleParameter share_of_safe_feed{"feed_share", 0.5, 1.3, 0.9};
+
+/// "constant", "afc", "haas", "toolscope", "synfct", "pid". The first parameter of each is feed_share.
 [[nodiscard]] std::span<const RuleDescription> rule_descriptions();
 [[nodiscard]] const RuleDescription& rule_named(std::string_view name);
 

@@ -39,40 +39,29 @@ std::vector<SearchRange> ranges_of(const RuleDescription& rule) {
     return ranges;
 }
 
-class TrainingRuns {
-  public:
-    TrainingRuns(std::vector<PreparedPart>& parts, std::uint64_t first_seed, int seeds, unsigned threads)
-        : parts_(parts), first_seed_(first_seed), seeds_(static_cast<std::size_t>(seeds)), threads_(threads) {}
-
-    void teach_all(double feed_share) {
-        run_parallel(
-            parts_.size(), threads_, [&](std::size_t k) { teach(parts_[k], feed_share); }, [](double) {});
-    }
-
-    double cost(const RuleDescription& rule, const std::vector<double>& values) {
-        const Contender& contender = *contender_named(rule.name);
-        const RuleSettings settings{{std::string(rule.name), values}};
-        std::vector<BenchRun> runs(parts_.size() * seeds_);
-        run_parallel(
-            runs.size(), threads_,
-            [&](std::size_t k) {
-                runs[k] = run_contender(contender, parts_[k / seeds_], first_seed_ + k % seeds_, settings);
-            },
-            [](double) {});
-        return tuning_cost(runs);
-    }
-
-  private:
-    std::vector<PreparedPart>& parts_;
-    std::uint64_t first_seed_;
-    std::size_t seeds_;
-    unsigned threads_;
-};
+/// Of a controller with these settings, on each part with each plant.
+double cost_of(const RuleDescription& controller, const std::vector<double>& values, std::vector<PreparedPart>& parts,
+               const TrainingPlants& plants) {
+    const RuleSettings settings{{std::string(controller.name), values}};
+    const auto seeds = static_cast<std::size_t>(plants.seeds);
+    std::vector<BenchRun> runs(parts.size() * seeds);
+    const auto show_nothing = [](double) {};
+    run_parallel(
+        parts.size(), plants.threads, [&](std::size_t k) { teach(parts[k], settings); }, show_nothing);
+    run_parallel(
+        runs.size(), plants.threads,
+        [&](std::size_t k) {
+            runs[k] = run_contender(*contender_named(controller.name), parts[k / seeds], plants.first_seed + k % seeds,
+                                    settings);
+        },
+        show_nothing);
+    return tuning_cost(runs);
+}
 
 RuleSettings settings_in(host::TomlFile file) {
     host::TomlFile::Table root = file.root();
     RuleSettings settings;
-    for (const RuleDescription& rule : rule_descriptions()) {
+    for (const RuleDescription& rule : described_controllers()) {
         host::TomlFile::Table table = root.table(std::string(rule.name));
         std::vector<double>& values = settings[std::string(rule.name)];
         for (const RuleParameter& parameter : rule.parameters) {
@@ -86,28 +75,18 @@ RuleSettings settings_in(host::TomlFile file) {
 
 }  // namespace
 
-RuleSettings tuned_settings(std::vector<PreparedPart>& parts, std::uint64_t first_seed, int seeds, unsigned threads,
-                            int evaluations, const std::function<void(const std::string&, double)>& progress) {
-    TrainingRuns training(parts, first_seed, seeds, threads);
-    RuleSettings settings;
-    for (const RuleDescription& rule : rule_descriptions()) {
-        const bool is_constant = rule.name == "constant";
-        int done = 0;
-        const Minimum best = minimise(
-            [&](const std::vector<double>& values) {
-                progress(std::string(rule.title), static_cast<double>(done++) / evaluations);
-                if (is_constant) {
-                    training.teach_all(values.front());
-                }
-                return training.cost(rule, values);
-            },
-            ranges_of(rule), evaluations);
-        settings[std::string(rule.name)] = best.at;
-        if (is_constant) {
-            training.teach_all(best.at.front());
-        }
-    }
-    return settings;
+std::vector<double> tuned_settings(const RuleDescription& controller, std::vector<PreparedPart>& parts,
+                                   const TrainingPlants& plants, int evaluations,
+                                   const std::function<void(double)>& progress) {
+    const int in_all = evaluations * static_cast<int>(controller.parameters.size());
+    int done = 0;
+    return minimise(
+               [&](const std::vector<double>& values) {
+                   progress(std::min(static_cast<double>(done++) / in_all, 1.0));
+                   return cost_of(controller, values, parts, plants);
+               },
+               ranges_of(controller), in_all)
+        .at;
 }
 
 RuleSettings built_in_settings() {
@@ -123,11 +102,11 @@ std::string settings_text(const RuleSettings& settings, const std::string& origi
     text << "# SPDX-License-Identifier: Apache-2.0\n";
     host::TomlWriter toml(text);
     toml.comment(origin);
-    for (const RuleDescription& rule : rule_descriptions()) {
+    for (const RuleDescription& rule : described_controllers()) {
         toml.table(rule.name);
         const std::vector<double>& values = settings.find(rule.name)->second;
         for (std::size_t k = 0; k < values.size(); ++k) {
-            toml.key(rule.parameters[k].name, std::round(values[k] * 1e4) * 1e-4);
+            toml.key(rule.parameters[k].name, std::round(values[k] * 1e4) / 1e4);
         }
     }
     return text.str();

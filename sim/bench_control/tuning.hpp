@@ -10,16 +10,23 @@
 
 namespace millforce::sim {
 
-/// What the settings of a rule are chosen by: as fast as it can be at the safety that is asked of all: no broken tooth,
-/// and the 95th percentile of the peaks at or below 105 % of the limit. Mean of ln time, plus 20 for each unit beyond
+/// What settings are chosen by: as fast as can be at the safety that is asked of all: no broken tooth, and the 95th
+/// percentile of the peaks at or below 105 % of the limit. Mean of ln time, plus 20 for each unit beyond
 /// 1.05, plus 2 for each share of runs with a broken tooth or not finished. Needs at least one run.
 [[nodiscard]] double tuning_cost(const std::vector<BenchRun>& runs);
 
-/// Chooses the settings of all rules on these parts, with the plants of these seeds: the constant feed first, for all
-/// others drive on it. The parts are taught again for it. `progress`: what is being done, and its share.
-[[nodiscard]] RuleSettings tuned_settings(std::vector<PreparedPart>& parts, std::uint64_t first_seed, int seeds,
-                                          unsigned threads, int evaluations,
-                                          const std::function<void(const std::string& rule, double share)>& progress);
+/// The plants that settings are chosen on.
+struct TrainingPlants {
+    std::uint64_t first_seed = 1;
+    int seeds = 1;
+    unsigned threads = 1;
+};
+
+/// Chooses the settings of one controller on these parts: its own F, at which it is taught anew each time, and the rest
+/// of its parameters. `evaluations` is for each of its parameters. `progress`: the share that is done.
+[[nodiscard]] std::vector<double> tuned_settings(const RuleDescription& controller, std::vector<PreparedPart>& parts,
+                                                 const TrainingPlants& plants, int evaluations,
+                                                 const std::function<void(double share)>& progress);
 
 /// The settings that the program brings along: tuned.toml, of the form that `millforce bench control --tune` writes.
 [[nodiscard]] RuleSettings built_in_settings();

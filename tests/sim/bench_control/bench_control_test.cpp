@@ -3,6 +3,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,4 +50,32 @@ TEST(BenchControl, the_load_of_a_taught_cut_grows_with_its_feed) {
     const TaughtCut fast = taught_cut(part.on_machine[0], part.safe_ratio);
     CHECK_COMPARE(fast.load, >, 1.2 * slow.load);
     CHECK_COMPARE(fast.time_s, <, slow.time_s);
+}
+
+TEST(BenchControl, each_rule_is_taught_at_its_own_feed) {
+    PreparedPart part = prepare(folder.path("."), bench_parts()[4]);
+    teach(part, {{"constant", {1.0}}, {"haas", {0.5, 1.2, 1.1}}});
+    LONGS_EQUAL(2, part.taught.size());
+    DOUBLES_EQUAL(part.safe_ratio, part.taught["constant"].feed_ratio, 1e-12);
+    DOUBLES_EQUAL(0.5 * part.safe_ratio, part.taught["haas"].feed_ratio, 1e-12);
+    CHECK_COMPARE(part.taught["constant"].load, >, 1.2 * part.taught["haas"].load);
+}
+
+/// Where the depth steps up, what may come without warning holds the feed: at the safe feed it may go on.
+TEST(BenchControl, ours_that_is_told_a_faster_safe_feed_is_faster) {
+    const BenchPart& stairs = *std::ranges::find(bench_parts(), "stairs_8", &BenchPart::name);
+    const PreparedPart part = prepare(folder.path("."), stairs);
+    const auto time_s = [&](double feed_share) {
+        return run_contender(*contender_named("ours_told"), part, 1, {{"ours_told", {feed_share, 1.3}}}).time_s;
+    };
+    CHECK_COMPARE(time_s(0.9), <, 0.9 * time_s(0.5));
+}
+
+/// The constant feed is at its fastest where its peaks just keep to 105 %: slower than that, the search goes up.
+TEST(BenchControl, the_search_raises_a_constant_feed_that_is_slower_than_need_be) {
+    std::vector<PreparedPart> parts{prepare(folder.path("."), bench_parts()[4])};
+    const auto found = tuned_settings(rule_named("constant"), parts, {1, 1, 1}, 6, [](double) {});
+    LONGS_EQUAL(1, found.size());
+    CHECK_COMPARE(found[0], >, rule_named("constant").parameters[0].start);
+    CHECK_COMPARE(found[0], <, 1.3);
 }
