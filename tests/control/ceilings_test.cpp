@@ -24,6 +24,23 @@ Output lose_and_regain_speed(Controller& controller, const Input& cut) {
     return repeat(controller, cut, 400);
 }
 
+using Cut = millforce::control::CutEstimateForControl<float>;
+
+/// Half of the feed that the law gives holds as long as it is the bound.
+void check_bound_of_feed(bool has_map, float Cut::*bound_mm_s, Limit limit, const char* limit_name) {
+    Controller controller(immediate());
+    bring_into_cut(controller);
+    Input light = light_cut(has_map);
+    const Output free = repeat(controller, light, 200);
+    light.cut.*bound_mm_s = 0.5F * free.ratio * light.programmed_feed_mm_s;
+    const Output bound = repeat(controller, light, 200);
+    check_ratio(0.5F * free.ratio, bound);
+    CHECK(bound.limit == limit);
+    STRCMP_EQUAL(limit_name, name(bound.limit));
+    light.cut.*bound_mm_s = 0.0F;
+    check_ratio(free.ratio, repeat(controller, light, 400));
+}
+
 }  // namespace
 
 TEST_GROUP(Ceilings){};
@@ -83,18 +100,12 @@ TEST(Ceilings, monitor_only_watches_the_cut_all_the_same) {
 
 TEST(Ceilings, a_load_that_has_not_answered_bounds_the_feed_of_a_cut_with_or_without_a_map) {
     for (const bool has_map : {false, true}) {
-        Controller controller(immediate());
-        bring_into_cut(controller);
-        Input light = light_cut(has_map);
-        const Output free = repeat(controller, light, 200);
-        light.cut.answered_feed_mm_s = 0.5F * free.ratio * light.programmed_feed_mm_s;
-        const Output bound = repeat(controller, light, 200);
-        check_ratio(0.5F * free.ratio, bound);
-        CHECK(bound.limit == Limit::load_unanswered);
-        STRCMP_EQUAL("load_unanswered", name(bound.limit));
-        light.cut.answered_feed_mm_s = 0.0F;
-        check_ratio(free.ratio, repeat(controller, light, 400));
+        check_bound_of_feed(has_map, &Cut::answered_feed_mm_s, Limit::load_unanswered, "load_unanswered");
     }
+}
+
+TEST(Ceilings, a_current_in_doubt_bounds_the_feed_of_the_cut) {
+    check_bound_of_feed(false, &Cut::doubted_feed_mm_s, Limit::current_in_doubt, "current_in_doubt");
 }
 
 TEST(Ceilings, a_spindle_that_loses_its_speed_gets_the_lowest_feed_and_then_no_force_as_large_with_or_without_a_map) {

@@ -8,10 +8,15 @@ using namespace millforce::control::bench;
 
 namespace {
 
+Input in_contact_with(float tooth_force_N) {
+    Input input = in_contact();
+    input.cut.tooth_force_N = tooth_force_N;
+    input.cut.certain_tooth_force_N = tooth_force_N;
+    return input;
+}
+
 Output into_overload(Controller& controller) {
-    Input heavy = in_contact();
-    heavy.cut.tooth_force_N = 1351.0F;
-    return repeat(controller, heavy, 13);
+    return repeat(controller, in_contact_with(1351.0F), 13);
 }
 
 }  // namespace
@@ -21,8 +26,7 @@ TEST_GROUP(Faults){};
 TEST(Faults, overload_latches_after_more_than_the_stated_revolutions) {
     Controller controller;
     bring_into_cut(controller);
-    Input heavy = in_contact();
-    heavy.cut.tooth_force_N = 1351.0F;                          // 1.35 times 1000 N
+    const Input heavy = in_contact_with(1351.0F);               // 1.35 times 1000 N
     CHECK(repeat(controller, heavy, 12).fault == Fault::none);  // three revolutions of four teeth
     const Output output = controller.step(heavy);
     CHECK(output.fault == Fault::overload);
@@ -39,8 +43,7 @@ TEST(Faults, an_overload_is_none_before_a_lower_override_has_acted) {
     p.reaction_s = 0.1F;  // 25.5 tooth periods
     Controller controller(p);
     bring_into_cut(controller);
-    Input heavy = in_contact();
-    heavy.cut.tooth_force_N = 1351.0F;
+    Input heavy = in_contact_with(1351.0F);
     CHECK(repeat(controller, heavy, 12 + 25).fault == Fault::none);
     CHECK(controller.step(heavy).fault == Fault::overload);
     controller.reset();
@@ -50,22 +53,20 @@ TEST(Faults, an_overload_is_none_before_a_lower_override_has_acted) {
     CHECK(controller.step(heavy).fault == Fault::overload);
 }
 
-TEST(Faults, an_overload_that_is_only_forecast_is_none) {
+TEST(Faults, an_overload_that_is_only_forecast_or_possible_is_none) {
     Controller controller;
     bring_into_cut(controller);
-    Input growing = in_contact();
-    growing.cut.tooth_force_N = 1500.0F;
-    growing.cut.forecast = 1.2F;
+    Input growing = in_contact_with(1500.0F);
+    growing.cut.certain_tooth_force_N = 1349.0F;
     CHECK(repeat(controller, growing, 100).fault == Fault::none);
-    growing.cut.forecast = 1.1F;
+    growing.cut.certain_tooth_force_N = 1351.0F;
     CHECK(repeat(controller, growing, 100).fault == Fault::overload);
 }
 
 TEST(Faults, overload_is_forgotten_by_one_tooth_below_it_and_does_not_count_old_estimates) {
     Controller controller;
     bring_into_cut(controller);
-    Input heavy = in_contact();
-    heavy.cut.tooth_force_N = 2000.0F;
+    Input heavy = in_contact_with(2000.0F);
     for (int k = 0; k < 20; ++k) {
         CHECK(repeat(controller, heavy, 12).fault == Fault::none);
         CHECK(controller.step(in_contact()).fault == Fault::none);
@@ -78,8 +79,7 @@ TEST(Faults, overload_is_forgotten_by_one_tooth_below_it_and_does_not_count_old_
 TEST(Faults, one_estimate_is_a_revolution_of_overload_however_many_teeth_have_passed_since_the_last) {
     Controller controller;
     bring_into_cut(controller);
-    Input heavy = in_contact();
-    heavy.cut.tooth_force_N = 2000.0F;
+    Input heavy = in_contact_with(2000.0F);
     heavy.cut.tooth_periods = 40.0F;
     CHECK(repeat(controller, heavy, 3).fault == Fault::none);
     CHECK(controller.step(heavy).fault == Fault::overload);
@@ -89,10 +89,9 @@ TEST(Faults, a_guessed_tooth_force_is_no_overload_but_lowers_the_feed) {
     for (const bool is_bound : {false, true}) {
         Controller controller;
         bring_into_cut(controller);
-        Input guessed = in_contact();
+        Input guessed = in_contact_with(2000.0F);
         guessed.cut.tooth_force_valid = is_bound;
         guessed.cut.tooth_force_is_bound = is_bound;
-        guessed.cut.tooth_force_N = 2000.0F;
         const Output output = repeat(controller, guessed, 1000);
         CHECK(output.fault == Fault::none);
         const float law = std::pow(970.0F / 2000.0F, 1.0F / 0.75F);
@@ -171,8 +170,7 @@ TEST(Faults, a_spindle_that_stops_in_air_or_with_the_tool_at_rest_is_none) {
 TEST(Faults, a_force_on_a_tooth_without_a_valid_force_behind_it_is_no_overload) {
     Controller controller;
     bring_into_cut(controller);
-    Input heavy = in_contact();
-    heavy.cut.tooth_force_N = 1351.0F;
+    Input heavy = in_contact_with(1351.0F);
     heavy.cut.force_valid = false;
     CHECK(repeat(controller, heavy, 100).fault == Fault::none);
 }

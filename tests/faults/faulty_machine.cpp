@@ -32,7 +32,9 @@ hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample,
     }
     const hal::FeedOverride output = controller_.step(seen, told);
     judge(output);
-    judge_rise(output, since_s);
+    if (!program.rapid) {
+        judge_rise(output, since_s);
+    }
     if (!reaction_.has_reacted && (output.hold || output.fault != 0)) {
         reaction_.has_reacted = true;
         reaction_.after_s = since_s;

@@ -21,7 +21,7 @@ struct Reaction {
     std::uint8_t fault = 0;        ///< control::Fault
     bool is_beyond_bound = false;  ///< at any time: an override that is not a number within [0, override_max]
     bool ran_in_fault = false;     ///< a fault was latched, and the feed free
-    bool rose_blind = false;       ///< the free override rose later than detection_s after the begin
+    bool rose_blind = false;       ///< the free override of a feed rose later than detection_s after the begin
     double held_s = 0.0;           ///< how long the feed is held at the end
 };
 

@@ -13,7 +13,8 @@ constexpr float tick_s = 0.001F;
 
 void follow(Settled& feed, float feed_mm_s, int ticks) {
     for (int i = 0; i < ticks; ++i) {
-        feed.follow(feed_mm_s, tick_s);
+        feed.take(feed_mm_s);
+        feed.wait(tick_s);
     }
 }
 

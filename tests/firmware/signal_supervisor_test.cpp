@@ -98,6 +98,20 @@ TEST(SignalSupervisor, lets_a_cut_end_at_a_straight_edge) {
     CHECK(bench.tick().control().state == CutState::air);
 }
 
+/// The tool is bent by the cut, and machine and tool spring back by a tenth of a millimetre: so long it cuts on.
+TEST(SignalSupervisor, lets_a_bent_tool_cut_on_where_the_path_turns_back) {
+    constexpr int turns_back = 400;
+    constexpr float slow = 0.1F;
+    Bench bench(in_the_cut, [](hal::DriveSample& sample, hal::ProgramStatus&, int since) {
+        sample.axis_velocity_mm_s[0] *= since < turns_back ? slow : -slow;
+        const float back_mm = slow * sample_mm * static_cast<float>(since - turns_back);
+        if (back_mm > 0.1F) {
+            sample.spindle_current_A = idle_A();
+        }
+    });
+    CHECK(bench.after_ms(turns_back + 1000) == Fault::none);
+}
+
 TEST(SignalSupervisor, lets_a_cut_end_where_the_feed_stops) {
     Bench bench(in_the_cut, [](hal::DriveSample& sample, hal::ProgramStatus&, int since) {
         const float left = std::max(0.0F, 1.0F - 0.1F * static_cast<float>(since));  // 2 m/s²

@@ -12,6 +12,8 @@ using SteadyCut = millforce::firmware::SteadyCut<float>;
 namespace {
 
 constexpr int settled = 16;
+constexpr float drift_N_per_s = 60.0F;
+constexpr float tooth_period_s = 0.01F;
 
 Measurement<float> force(float value_N) {
     return {true, value_N, 1.0F, 1.0F};
@@ -24,6 +26,7 @@ CutEstimate<float> cut_of(float tangential_N, float feed_N) {
     e.feed_N = force(feed_N);
     e.tooth_force_N = force(2.0F * tangential_N);
     e.feed_per_tooth_mm = 0.1F;
+    e.tooth_periods = 1;
     e.engagement.immersion_valid = true;
     e.engagement.radial_immersion = 0.5F;
     e.engagement.radial_immersion_sd = 0.05F;
@@ -40,18 +43,26 @@ CutEstimate<float> cut_with_drift(float tangential_N, float feed_N) {
     return e;
 }
 
+/// A cut of the same depth and F_at, whose width makes the force on a tooth smaller by `factor`.
+CutEstimate<float> wider(float factor, float feed_N = 150.0F) {
+    CutEstimate<float> e = cut_of(300.0F, feed_N);
+    e.tooth_force_N.value /= factor;
+    e.engagement.radial_immersion *= factor;
+    return e;
+}
+
 float per_root_feed(const CutEstimate<float>& e) {
     return e.feed_per_tooth_mm > 0.0F ? 1.0F / std::sqrt(e.feed_per_tooth_mm) : 0.0F;
 }
 
 void follow(SteadyCut& cut, const CutEstimate<float>& e, int times) {
     for (int k = 0; k < times; ++k) {
-        cut.follow(e, per_root_feed(e));
+        cut.follow(e, per_root_feed(e), tooth_period_s);
     }
 }
 
 SteadyCut in_steady_cut() {
-    SteadyCut cut;
+    SteadyCut cut(drift_N_per_s);
     follow(cut, cut_of(300.0F, 150.0F), 2 * settled);
     return cut;
 }
@@ -95,6 +106,49 @@ TEST(SteadyCut, leaves_the_force_of_a_ramp_and_of_a_wall_that_converges) {
     narrower.engagement.radial_immersion = 0.3F;
     follow(wall, narrower, 4 * settled);
     DOUBLES_EQUAL(520.0, largest_N(wall, narrower), 1e-3);
+    CHECK_FALSE(wall.has_question());
+}
+
+TEST(SteadyCut, asks_whether_a_width_that_makes_the_tooth_force_smaller_is_a_drift) {
+    SteadyCut cut = in_steady_cut();
+    follow(cut, wider(1.1F), 4 * settled);
+    CHECK_FALSE(cut.has_question());
+    follow(cut, wider(1.3F), 4 * settled);
+    CHECK_TRUE(cut.has_question());
+    DOUBLES_EQUAL(wider(1.3F).tooth_force_N.value, largest_N(cut, wider(1.3F)), 1e-3);
+}
+
+TEST(SteadyCut, doubts_the_width_where_the_answer_is_a_drift_and_begins_anew_where_it_is_none) {
+    SteadyCut drifted = in_steady_cut();
+    follow(drifted, wider(1.3F), 4 * settled);
+    SteadyCut sound = drifted;
+    drifted.take_answer(false);
+    follow(drifted, wider(1.3F), settled);
+    CHECK_TRUE(drifted.is_doubtful());
+    DOUBLES_EQUAL(600.0, largest_N(drifted, wider(1.3F)), 1e-3);
+
+    sound.take_answer(true);
+    follow(sound, wider(1.3F), 1);
+    CHECK_TRUE(sound.begins());
+    follow(sound, wider(1.3F), 2 * settled);
+    CHECK_FALSE(sound.has_question());
+    CHECK_FALSE(sound.is_doubtful());
+}
+
+TEST(SteadyCut, asks_nothing_about_a_force_that_changes_faster_than_a_current_can_drift) {
+    const CutEstimate<float> slowly = wider(1.3F, 140.0F);
+    const CutEstimate<float> fast = wider(1.3F, 300.0F);
+    SteadyCut cut = in_steady_cut();
+    follow(cut, slowly, 60);
+    CHECK_TRUE(cut.has_question());
+    cut = in_steady_cut();
+    follow(cut, fast, 60);
+    CHECK_FALSE(cut.has_question());
+
+    SteadyCut of_unknown_drift(0.0F);
+    follow(of_unknown_drift, cut_of(300.0F, 150.0F), 2 * settled);
+    follow(of_unknown_drift, fast, 60);
+    CHECK_TRUE(of_unknown_drift.has_question());
 }
 
 TEST(SteadyCut, is_not_misled_by_an_immersion_that_is_hardly_known) {
@@ -110,7 +164,7 @@ TEST(SteadyCut, begins_anew_where_both_forces_change_at_once) {
     SteadyCut cut = in_steady_cut();
     const CutEstimate<float> other = cut_with_drift(200.0F, 110.0F);
     for (int k = 0; k < 4 * settled; ++k) {
-        cut.follow(other, per_root_feed(other));
+        cut.follow(other, per_root_feed(other), tooth_period_s);
         DOUBLES_EQUAL(400.0, largest_N(cut, other), 1e-3);
     }
 }
@@ -120,7 +174,7 @@ TEST(SteadyCut, takes_a_jump_of_one_current_for_no_other_cut) {
     follow(cut, cut_with_drift(200.0F, 150.0F), 2 * settled);
     DOUBLES_EQUAL(600.0, largest_N(cut, cut_with_drift(200.0F, 150.0F)), 1e-3);
 
-    SteadyCut pulled;  // along the feed by the cut
+    SteadyCut pulled(drift_N_per_s);  // along the feed by the cut
     follow(pulled, cut_of(300.0F, -150.0F), 2 * settled);
     follow(pulled, cut_with_drift(200.0F, -150.0F), 2 * settled);
     DOUBLES_EQUAL(600.0, largest_N(pulled, cut_with_drift(200.0F, -150.0F)), 1e-3);
@@ -180,7 +234,7 @@ TEST(SteadyCut, begins_with_a_tooth_force_that_is_known) {
     CutEstimate<float> bound = cut_of(300.0F, 150.0F);
     bound.tooth_force_is_bound = true;
     for (const CutEstimate<float>& e : {unknown, bound}) {
-        SteadyCut cut;
+        SteadyCut cut(drift_N_per_s);
         follow(cut, e, 2 * settled);
         follow(cut, drifted, 2 * settled);
         DOUBLES_EQUAL(480.0, largest_N(cut, drifted), 1e-3);
@@ -188,7 +242,7 @@ TEST(SteadyCut, begins_with_a_tooth_force_that_is_known) {
 }
 
 TEST(SteadyCut, knows_nothing_of_a_cut_before_its_first_estimates) {
-    SteadyCut cut;
+    SteadyCut cut(drift_N_per_s);
     follow(cut, cut_of(300.0F, 150.0F), settled - 1);
     follow(cut, cut_with_drift(240.0F, 150.0F), settled);
     DOUBLES_EQUAL(480.0, largest_N(cut, cut_with_drift(240.0F, 150.0F)), 1e-3);
@@ -223,7 +277,7 @@ TEST(SteadyCut, does_not_mix_a_cut_with_the_one_before) {
 }
 
 TEST(SteadyCut, is_not_misled_by_a_feed_force_that_is_lost_in_its_noise) {
-    SteadyCut cut;
+    SteadyCut cut(drift_N_per_s);
     CutEstimate<float> e = cut_of(300.0F, 0.5F);  // standard deviation 1 N
     follow(cut, e, 2 * settled);
     follow(cut, cut_with_drift(240.0F, 2.0F), 2 * settled);

@@ -26,6 +26,24 @@ TEST(TickInAir, learns_no_force_below_zero_as_drift_while_the_axes_move) {
     DOUBLES_EQUAL(-0.06 * 250.0, force_N(), 1.5);
 }
 
+/// The idle torque is 3.6 of its deviations above the calibrated one, and the cut as much as its own noise may hide.
+TEST(TickInAir, takes_torque_beyond_the_doubt_of_the_idle_torque_for_a_cut_where_the_tool_may_be_in_one) {
+    constexpr Load idle{0.144F, 0.0F};  // 0.18 N·m
+    constexpr Load light_cut{0.224F, 0.0F};
+    Parameters p = well_known_machine();
+    p.machine.spindle.idle_torque_sd_Nm = 0.05F;
+    p.tool.control.contact_force_N = 60.0F;
+    milling = Milling{Tick(p)};
+    milling.dwell(idle, 300);
+    DOUBLES_EQUAL(0.0, force_N(), 1.5);
+    milling.mill(light_cut, 2000);
+    CHECK(milling.tick().control().fault == control::Fault::none);
+    CHECK(milling.tick().estimate().tangential_N.valid);
+    DOUBLES_EQUAL(20.0, force_N(), 5.0);
+    milling.dwell(light_cut, 2000);
+    CHECK(milling.tick().control().fault == control::Fault::idle_torque);
+}
+
 TEST(TickInAir, learns_no_friction_where_no_spindle_current_says_that_it_is_air) {
     constexpr Load axis_alone{0.0F, 1.0F};
     const Milling begun = milling.rest(300);

@@ -45,6 +45,7 @@ TEST_GROUP(ForceSensor) {
         const Ended ended = inputs.replay();
         LONGS_EQUAL(0, ended.exit_code);
         error = ended.error;
+        out = ended.out;
         std::vector<CsvRow> rows = csv_rows(inputs.read("out.csv"));
         std::erase_if(rows, [&](const CsvRow& row) { return row.at(column).empty(); });
         return rows;
@@ -70,6 +71,7 @@ TEST_GROUP(ForceSensor) {
     }
 
     std::string error;
+    std::string out;
 };
 
 TEST(ForceSensor, replay_tells_the_immersion_from_force_drops) {
@@ -116,6 +118,14 @@ TEST(ForceSensor, what_the_tools_file_lacks_is_told_once_and_its_cells_are_empty
     filled_rows(face_mill_recording(0.4, along_x), with(face_mill_tool_text, "low_pass_hz = 300.0", ""),
                 "force_drop_immersion");
     CHECK(contains(error, "low_pass_hz"));
+}
+
+TEST(ForceSensor, a_low_pass_of_half_the_corner_that_was_told_gives_no_immersion_and_is_named) {
+    const auto rows =
+        filled_rows(face_mill_recording(0.4, along_x),
+                    with(face_mill_tool_text, "low_pass_hz = 300.0", "low_pass_hz = 600.0"), "force_drop_immersion");
+    LONGS_EQUAL(0, rows.size());
+    CHECK(contains(out, "force_sensor.low_pass_hz is not as told"));
 }
 
 TEST(ForceSensor, one_force_alone_is_told_and_not_used) {

@@ -71,8 +71,8 @@ class Program {
     }
     /// It takes 4 kB then, and not 64.
     void narrow_pipe_of_error() const { ::fcntl(pipes_[1], F_SETPIPE_SZ, 4096); }
-    /// Reads its standard error until this is in it; false: it was not in half a minute.
-    bool says(const std::string& part) { return reads(1, part, std::chrono::seconds(30)); }
+    /// Reads its standard error until this is in it; false: it was not in two minutes.
+    bool says(const std::string& part) { return reads(1, part, std::chrono::seconds(120)); }
     /// The same of its standard output.
     bool prints(const std::string& part, std::chrono::seconds patience) { return reads(0, part, patience); }
 

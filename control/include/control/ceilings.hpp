@@ -28,6 +28,7 @@
 ///   spindle    override_min while the spindle loses its speed, then what holds F_at below that at the loss
 ///              (spindle_torque.hpp, limit spindle_torque)
 ///   load       where a spindle load comes seldom: the feed that it has answered (limit load_unanswered)
+///   doubt      the feed that a current allows which may have drifted in the cut (limit current_in_doubt)
 ///   surface    the feed at which the upper bound of R_a meets Ra_limit_um (limit roughness)
 ///   blind      override_min out of the cut without F_at, unless the spindle stands or turns backwards: the tool may
 ///              meet the workpiece unnoticed (limit no_estimate)
@@ -37,8 +38,8 @@
 ///
 /// At the feed of an entry the tool may meet anything: surge, turn and a step of the depth hold it no lower. A program
 /// that has run at proven_override without a broken tooth has met at that feed whatever comes without warning: none of
-/// these, nor air, entry and exit, hold it lower. The force, which is measured, may. So it is at depth_step_share times
-/// safe_override, at which whatever comes is survived.
+/// these, nor air, entry, exit and doubt, hold it lower. The force, which is measured, may. So it is at
+/// depth_step_share times safe_override, at which whatever comes is survived.
 ///
 /// No estimate, no rise: the present override is a ceiling (limit no_estimate) where feed, speed or F_at is not known,
 /// in a cut without a tooth force, without a prediction of R_a that is asked for, and in state hold; also where the

@@ -248,6 +248,10 @@ void Ceilings<Scalar>::lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& p
     if (input.cut.answered_feed_mm_s > Scalar(0)) {
         lowest.lower_to(input.cut.answered_feed_mm_s / input.programmed_feed_mm_s, Limit::load_unanswered);
     }
+    if (input.cut.doubted_feed_mm_s > Scalar(0)) {
+        const Scalar doubted = input.cut.doubted_feed_mm_s / input.programmed_feed_mm_s;
+        lowest.lower_to(not_below_proven(parameters, doubted), Limit::current_in_doubt);
+    }
     const bool asks_for_roughness = parameters.Ra_limit_um > Scalar(0);
     if (asks_for_roughness) {
         lowest.lower_to(surface_ceiling_, Limit::roughness);

@@ -87,18 +87,19 @@ enum class Limit : std::uint8_t {
     operator_limit = 7,
     no_estimate = 8,  ///< there is no estimate: held where it was, out of the cut at its minimum
     feed_per_tooth = 9,
-    roughness = 10,        ///< the upper bound of the predicted R_a is at its limit
-    law_misfit = 11,       ///< held where it was: the forces contradict each other, the law, or the declared depth
-    way_ahead = 12,        ///< the part map knows a place ahead that the machine must be slow enough for
-    feed_mismatch = 13,    ///< held where it was: the axes are faster than programmed feed and largest override allow
-    depth_step = 14,       ///< as `surge`, of the depth: by depth_step_ratio
-    load_unanswered = 15,  ///< the spindle's load, which comes seldom, has not changed as the feed did, or for 2 s
-    spindle_torque = 16,   ///< the spindle loses its speed in the cut, or has lost it at a force as large
+    roughness = 10,         ///< the upper bound of the predicted R_a is at its limit
+    law_misfit = 11,        ///< held where it was: the forces contradict each other, the law, or the declared depth
+    way_ahead = 12,         ///< the part map knows a place ahead that the machine must be slow enough for
+    feed_mismatch = 13,     ///< held where it was: the axes are faster than programmed feed and largest override allow
+    depth_step = 14,        ///< as `surge`, of the depth: by depth_step_ratio
+    load_unanswered = 15,   ///< the spindle's load, which comes seldom, has not changed as the feed did, or for 2 s
+    spindle_torque = 16,    ///< the spindle loses its speed in the cut, or has lost it at a force as large
+    current_in_doubt = 17,  ///< a current may have drifted in the cut: a dip of the feed asks, or is waited for
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
 inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::idle_torque) + 1U;
-inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::spindle_torque) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::current_in_doubt) + 1U;
 
 constexpr const char* name(CutState state) {
     constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
@@ -125,9 +126,9 @@ constexpr const char* name(Fault fault) {
 
 constexpr const char* name(Limit limit) {
     constexpr const char* names[limit_count] = {
-        "none",      "force",          "override_max", "override_min",    "air_feed",      "entry_feed",
-        "surge",     "operator_limit", "no_estimate",  "feed_per_tooth",  "roughness",     "law_misfit",
-        "way_ahead", "feed_mismatch",  "depth_step",   "load_unanswered", "spindle_torque"};
+        "none",      "force",          "override_max", "override_min",    "air_feed",       "entry_feed",
+        "surge",     "operator_limit", "no_estimate",  "feed_per_tooth",  "roughness",      "law_misfit",
+        "way_ahead", "feed_mismatch",  "depth_step",   "load_unanswered", "spindle_torque", "current_in_doubt"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

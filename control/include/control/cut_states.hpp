@@ -22,7 +22,8 @@
 ///                    encoder at rest for longer than stale_s; the controller adds a spindle that stalls
 ///                    (spindle_torque.hpp)
 ///   overload         F_tooth > overload_share · F_tooth,max for more than overload_revolutions beyond reaction_s,
-///                    before which no lower override acts; judged on estimates only, bounds and guesses do not count.
+///                    before which no lower override acts; F_tooth as far as it is certain, by an estimate: what is
+///                    only possible or forecast does not count.
 ///                    Not in monitor_only.
 ///
 /// Forces in N, ≥ 0; times in s, travel in mm, both as StepMotion has made them finite. A NaN in a force compares as

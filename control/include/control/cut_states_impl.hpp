@@ -172,7 +172,7 @@ void CutStates<Scalar>::watch_overload(const Parameters& parameters, const Estim
     }
     const bool is_estimate = cut.force_valid && cut.tooth_force_valid && !cut.tooth_force_is_bound;
     const Scalar most_N = parameters.overload_share * parameters.tooth_force_limit_N;
-    const bool over = is_estimate && cut.tooth_force_N > most_N * cut.forecast;  // what is only forecast is none
+    const bool over = is_estimate && cut.certain_tooth_force_N > most_N;  // what is forecast or only possible is none
     if (!over) {
         overload_tooth_periods_ = Scalar(0);
         return;

@@ -43,7 +43,7 @@ struct FeedControllerParameters {
     Scalar surge_share{1};             ///< share of the limit that the force may reach in a surge
     Scalar depth_step_ratio{2};  ///< largest ratio of depths that may follow each other without warning; 1: no step
     Scalar depth_step_share{
-        Scalar(1.5F)};  ///< share of the limit that the force may reach in such a step: the tooth survives it
+        literal<Scalar>(1.4L)};  ///< share of the limit that the force may reach in such a step: the tooth survives it
     /// Override at which the program has run before, and no contact broke a tooth: what may come without warning holds
     /// the feed no lower. 0: not known.
     Scalar proven_override{0};
@@ -75,7 +75,7 @@ struct CutEstimateForControl {
     bool tooth_force_valid = false;     ///< the immersion behind tooth_force_N is an estimate, not a guess
     bool tooth_force_is_bound = false;  ///< tooth_force_N is an upper bound: no sign of an overload
     Scalar tooth_force_N{0};            ///< peak force of one tooth; without an immersion, the worst it can be
-    Scalar forecast{1};                 ///< tooth_force_N over the force that is there now, of a cut that grows; ≥ 1
+    Scalar certain_tooth_force_N{0};    ///< what a tooth carries now at least, by the 95 % interval of the immersion
     Scalar least_tooth_force_N{0};      ///< smallest peak force of one tooth, whatever the immersion
     bool law_is_refuted =
         false;                ///< no cut by the law, or of the declared depth, has these forces: a signal may be wrong
@@ -89,6 +89,7 @@ struct CutEstimateForControl {
     Scalar section_noise_mm2{0};   ///< part of the section's deviation that differs from one window to the next
     Scalar feed_mm_s{0};           ///< path speed over the window of tangential_N
     Scalar answered_feed_mm_s{0};  ///< no faster until a load that comes seldom has answered; 0: no bound
+    Scalar doubted_feed_mm_s{0};   ///< no faster while a current may have drifted in the cut; 0: no bound
     Scalar spindle_speed_rad_s{0};
     bool spindle_turning = false;
     bool spindle_does_not_mill = false;   ///< its encoder is there, and stands or counts backwards

@@ -83,6 +83,7 @@ struct CutEstimate {
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
     bool tooth_force_is_bound = false;    ///< tooth_force_N is the most that it can be, and may be far above it
+    Scalar certain_tooth_force_N{0};      ///< tooth_force_N at the wide end of the immersion's 95 % interval
     Scalar least_tooth_force_N{0};        ///< smallest peak force of one tooth: F_at shared by the widest cut
     Scalar runout_mm{0};                  ///< by how much its chip is thicker, at most: runout_meter.hpp
     Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one
@@ -108,6 +109,7 @@ struct CutEstimate {
         Scalar speed_ratio{1};                        ///< speed of the spindle now over that before
         Scalar feed_growth{0};        ///< (f − f_before)/f of a feed that has risen, by up to a half; ≥ 0
         bool feed_is_steady = false;  ///< the velocities differ by less than a tenth
+        bool feed_is_new = false;     ///< by more than the present one: a sharp turn, or less than half the feed
     };
     ToothChange tooth_change{};
     Scalar feed_mm_s{0};         ///< path speed in the plane over the window

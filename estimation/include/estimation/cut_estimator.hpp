@@ -71,6 +71,9 @@ class CutEstimator {
     /// how noisy their currents are. Uses the window from one revolution earlier, so that first contact is not taken
     /// for drift. Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
     bool rezero();
+    /// The last re-zeroing found more torque than the idle torque can be, and this may be a cut: one so light that its
+    /// noise hides it. Then the idle torque stays as it was. Returns whether it was so.
+    bool find_hidden_cut() { return drives_.spindle.find_hidden_cut(); }
     void leave_air();
     /// What was learnt in air, up to now: for the estimator of the next tool, before its first sample.
     [[nodiscard]] MachineDrives<Scalar> drives() const;

@@ -294,6 +294,7 @@ void CutEstimator<Scalar>::estimate_tooth_change() {
     const Scalar now2 = now.mean.template tail<velocities>().squaredNorm();
     const Scalar risen2 = now2 - before.mean.template tail<velocities>().squaredNorm();
     c.feed_is_steady = changed2 < steady_share2 * now2;
+    c.feed_is_new = changed2 > now2;
     c.feed_growth = risen2 > Scalar(0) ? halved(risen2 / now2) : Scalar(0);
 }
 

@@ -23,7 +23,8 @@
 ///   force_jumped       F_x or F_y changes within two teeth by more than that
 ///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
 ///                      3 revolutions
-///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end
+///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end.
+///                      In a feed move only where it is too small: too large, it may be a light cut
 ///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions, or in the mean of
 ///                      16, whose noise is smaller
 ///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is of that
@@ -41,7 +42,9 @@
 /// deviations of noise. A load that is told once in load_period_s shows at once what the cut changed by since the last
 /// one: s then includes the travel in that time. Where the feed changes in the revolution before or after, or before a
 /// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged.
-/// Nor is it in state entry: a cut may begin with a whole tooth.
+/// Nor is it in the 0.2 mm after a sharp turn or a fall to less than half the feed: tool and machine were bent by the
+/// cut, and cut on while they spring back.
+/// Nor in state entry: a cut may begin with a whole tooth.
 /// A jump of an axis must also exceed the inertia 0.2 m f n: an acceleration that a feed f which seems steady within a
 /// tenth may hide in a revolution.
 ///
@@ -134,7 +137,8 @@ class SignalSupervisor {
 
     Jump tangential_{};
     std::array<Jump, 2> axis_jumps_{};
-    int steady_periods_ = 0;  // tooth periods at an unchanged velocity
+    int steady_periods_ = 0;         // tooth periods at an unchanged velocity
+    Scalar spring_back_left_mm_{0};  // travel in which a bent tool may still cut where the path has turned
     /// A sudden change, until the velocity has stayed as it was for a revolution: a drive's current brakes before the
     /// axis slows down.
     control::Fault suspected_ = control::Fault::none;

@@ -173,15 +173,21 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     constexpr Scalar level_share = literal<Scalar>(0.05L);  // of the feed: a slower change of height is no ramp
     constexpr Scalar more_periods = Scalar(3);  // than a revolution: the filters have forgotten the last change
     constexpr Scalar fastest_change = literal<Scalar>(1.4L);
+    constexpr Scalar spring_back_mm = literal<Scalar>(0.2L);
     const typename Estimate::ToothChange& change = e.tooth_change;
     const bool is_level = square(e.axial_speed_mm_s) < square(level_share * e.feed_mm_s);
     steady_periods_ = change.feed_is_steady && feed_is_settled && is_level ? steady_periods_ + e.tooth_periods : 0;
+    if (change.feed_is_new) {
+        spring_back_left_mm_ = spring_back_mm;
+    } else if (spring_back_left_mm_ > Scalar(0)) {
+        spring_back_left_mm_ -= e.feed_per_tooth_mm * Scalar(e.tooth_periods);
+    }
     const control::Fault sudden = sudden_change(e);
     const bool cuts = control::is_cutting(state);
     if (cuts && (change.speed_ratio > fastest_change || change.speed_ratio * fastest_change < Scalar(1))) {
         find(control::Fault::encoder_mismatch);
     }
-    const bool is_steady = Scalar(steady_periods_) > teeth_ + more_periods;
+    const bool is_steady = Scalar(steady_periods_) > teeth_ + more_periods && !(spring_back_left_mm_ > Scalar(0));
     if (suspected_ == control::Fault::none) {
         const bool has_entered = cuts && state != control::CutState::entry;  // a cut may begin with a whole tooth
         suspected_ = has_entered && is_steady ? sudden : control::Fault::none;

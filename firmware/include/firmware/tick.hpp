@@ -6,13 +6,11 @@
 #include "control/feed_controller.hpp"
 #include "estimation/cut_estimator.hpp"
 #include "firmware/carried_immersion.hpp"
+#include "firmware/drift_doubt.hpp"
 #include "firmware/load_answer.hpp"
-#include "firmware/lone_fall.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/settled_feed.hpp"
 #include "firmware/signal_supervisor.hpp"
-#include "firmware/slow_fall.hpp"
-#include "firmware/steady_cut.hpp"
 #include "firmware/surface_monitor.hpp"
 #include "firmware/wide_band_monitor.hpp"
 #include "hal/drive_sample.hpp"
@@ -137,7 +135,6 @@ class ForceControlTick {
     void ask_load();
     void set_cut();
     void allow_for_drift();
-    void allow_for_drift_of_the_spindle_alone();
     void set_motion(Velocity velocity);
     void run_law(const hal::ProgramStatus& program);
     [[nodiscard]] bool belongs_to_this_feed() const;
@@ -147,9 +144,7 @@ class ForceControlTick {
     estimation::CutEstimator<Scalar> estimator_;
     WideBand wide_band_;
     CarriedImmersion<Scalar> drops_{};
-    SteadyCut<Scalar> steady_cut_{};
-    LoneFall<Scalar> lone_fall_{};
-    SlowFall<Scalar> slow_fall_;
+    DriftDoubt<Scalar> drift_doubt_;
     LoadAnswer<Scalar> load_answer_;
     SurfaceMonitor<Scalar> surface_;
     SignalSupervisor<Scalar> supervisor_;

@@ -5,7 +5,7 @@
 
 #include "estimation/engagement/side_choice.hpp"
 #include "firmware/carried_immersion_impl.hpp"
-#include "firmware/steady_cut_impl.hpp"
+#include "firmware/drift_doubt_impl.hpp"
 #include "firmware/surface_monitor_impl.hpp"
 #include "firmware/tick.hpp"
 #include "firmware/usable_signals.hpp"
@@ -20,22 +20,12 @@ static Scalar contact_torque_Nm(const Parameters<Scalar>& p) {
     return p.tool.control.contact_force_N * radius_m - p.machine.spindle.K_t2_Nm;
 }
 
-/// Of its current, as a force at the cutter's radius.
-template <typename Scalar>
-static Scalar drift_N_per_s(const Parameters<Scalar>& p) {
-    constexpr Scalar share_per_s = estimation::literal<Scalar>(0.05L);
-    constexpr Scalar mm_per_m{1000};
-    const Scalar drift_Nm_per_s = share_per_s * p.machine.spindle_rated_current_A * p.machine.spindle.K_t1_Nm_per_A;
-    return p.tool.diameter_mm > Scalar(0) ? drift_Nm_per_s * mm_per_m / estimation::halved(p.tool.diameter_mm)
-                                          : Scalar(0);
-}
-
 template <typename Scalar, typename WideBand>
 ForceControlTick<Scalar, WideBand>::ForceControlTick(const Parameters<Scalar>& parameters)
     : estimator_(estimator_settings(parameters), spindle_parameters(parameters.machine), parameters.machine.axes,
                  estimator_law(parameters.tool)),
       wide_band_(parameters),
-      slow_fall_(drift_N_per_s(parameters)),
+      drift_doubt_(parameters),
       load_answer_(parameters),
       surface_(parameters.tool),
       supervisor_(parameters),
@@ -81,7 +71,7 @@ void ForceControlTick<Scalar, WideBand>::take(const hal::DriveSample& sample) {
     input_.motion_is_unseen = false;
     input_.height_is_known = hal::knows_velocity(sample, 2);
     input_.dt_s = dt_s;
-    settled_feed_.follow(estimator_.estimate().feed_per_tooth_mm, dt_s);
+    settled_feed_.wait(dt_s);
     watch_sample(sample, signals, dt_s);
 }
 
@@ -220,7 +210,6 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     }
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     cut.tooth_force_valid = true;
-    cut.forecast = Scalar(1);
     const Scalar by_map_per_N = input_.way.tooth_per_tangential * e.runout_factor;
     const Scalar now_N = e.newest_tangential_N;
     const Scalar sd_N = sqrt(e.tangential_N.variance);
@@ -239,6 +228,7 @@ void ForceControlTick<Scalar, WideBand>::use_tooth_force_of_map() {
     const Scalar by_map_N = by_map_per_N * tangential_N;
     cut.tooth_force_is_bound = cut.tooth_force_is_bound || !(by_map_N < cut.least_tooth_force_N);
     cut.tooth_force_N = by_map_N > cut.least_tooth_force_N ? by_map_N : cut.least_tooth_force_N;
+    cut.certain_tooth_force_N = cut.tooth_force_N;
 }
 
 template <typename Scalar, typename WideBand>
@@ -269,6 +259,7 @@ void ForceControlTick<Scalar, WideBand>::work() {
 
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::take_estimate() {
+    settled_feed_.take(estimator_.estimate().feed_per_tooth_mm);
     rezero_in_air();
     if (is_in_cut()) {
         estimator_.learn_in_cut();
@@ -300,6 +291,7 @@ void ForceControlTick<Scalar, WideBand>::ask_load() {
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::forget_estimate() {
     estimator_.restart();
+    settled_feed_.take(Scalar(0));
     supervisor_.restart();
     set_cut();
     has_new_estimate_ = false;
@@ -328,16 +320,19 @@ template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
     const bool in_air = controller_.state() == control::CutState::air && !input_.way.may_cut;
-    const bool looks_idle = estimator_.axes_rest() || (was_rezeroed_ && is_idle(estimate));
+    const bool axes_rest = estimator_.axes_rest();
+    const bool looks_idle = axes_rest || (was_rezeroed_ && is_idle(estimate));
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
     air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
     // The first windows after a change hold a mixture of air and cut.
     const int enough = 2 * static_cast<int>(controller_.parameters().teeth) + 1;
     if (air_periods_ >= enough) {
         was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
-        steady_cut_.clear();
-        lone_fall_.clear();
-        slow_fall_.clear();
+        const bool may_cut = !program_.rapid && !axes_rest;
+        if (may_cut && estimator_.find_hidden_cut()) {
+            was_rezeroed_ = false;  // nothing is learnt in a feed move until a rapid or a rest has shown what is air
+        }
+        drift_doubt_.clear();
         air_periods_ = enough;
     } else {
         estimator_.leave_air();
@@ -359,17 +354,16 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
     cut.tooth_force_valid = tooth.valid;
     cut.tooth_force_is_bound = e.tooth_force_is_bound;
     cut.least_tooth_force_N = e.least_tooth_force_N;
+    cut.certain_tooth_force_N = e.certain_tooth_force_N;
     cut.law_is_refuted =
         estimation::is_refuted(e.engagement) || e.engagement.law_is_in_doubt || e.engagement.declared_depth_is_refuted;
     cut.tooth_force_N =
         tooth.valid ? tooth.value + controller_.parameters().caution_sd * tooth_sd_N : e.worst_tooth_force_N;
     allow_for_drift();
     // What the force will be once the CNC acts on this override: it grows meanwhile as it grew in the last window.
-    cut.forecast = Scalar(1);
     if (e.newest_tangential_N > Scalar(0)) {
         const Scalar lead_s = reaction_s_ + estimation::halved(e.window_s);
-        cut.forecast += e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
-        cut.tooth_force_N *= cut.forecast;
+        cut.tooth_force_N *= Scalar(1) + e.tangential_growth_N_per_s * lead_s / e.newest_tangential_N;
     }
     cut.tooth_periods = Scalar(e.tooth_periods);
     // Of the tooth that stands out: what runout adds to its chip does not fall with the feed.
@@ -389,33 +383,15 @@ void ForceControlTick<Scalar, WideBand>::set_cut() {
 /// Of currents, within the cut.
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::allow_for_drift() {
-    using std::sqrt;
     const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
     control::CutEstimateForControl<Scalar>& cut = input_.cut;
-    const bool has_feed = e.feed_per_tooth_mm > Scalar(0);
-    const Scalar per_root_feed = has_feed ? Scalar(1) / sqrt(e.feed_per_tooth_mm) : Scalar(0);
-    if (is_in_cut()) {
-        steady_cut_.follow(e, per_root_feed);
-    } else if (!control::is_cutting(control_.state)) {
-        steady_cut_.leave_cut();
-        lone_fall_.leave_cut();
-    }
-    const Scalar by_steady_cut_N = steady_cut_.largest_force_N(e, cut.tooth_force_N);
-    const Scalar largest_N = lone_fall_.largest_force_N(e, by_steady_cut_N, per_root_feed, is_in_cut());
-    cut.tooth_force_is_bound = cut.tooth_force_is_bound || largest_N > cut.tooth_force_N;
-    cut.tooth_force_N = largest_N;
-    if (!e.x_N.valid && !e.y_N.valid && !input_.way.known) {
-        allow_for_drift_of_the_spindle_alone();
-    }
-}
-
-template <typename Scalar, typename WideBand>
-void ForceControlTick<Scalar, WideBand>::allow_for_drift_of_the_spindle_alone() {
-    const estimation::CutEstimate<Scalar>& e = estimator_.estimate();
-    if (is_in_cut()) {
-        slow_fall_.follow(e, control::tooth_period_s(controller_.parameters().teeth, e.spindle_speed_rad_s));
-    }
-    input_.cut.tooth_force_N *= slow_fall_.largest_ratio(e);
+    const DoubtStage stage{is_in_cut(), control::is_cutting(control_.state), input_.way.known,
+                           wide_band_.estimate().force_drop_immersion.valid};
+    const Scalar period_s = control::tooth_period_s(controller_.parameters().teeth, e.spindle_speed_rad_s);
+    const PossibleForce<Scalar> possible = drift_doubt_.follow(e, cut.tooth_force_N, period_s, stage);
+    cut.tooth_force_is_bound = cut.tooth_force_is_bound || possible.is_bound;
+    cut.tooth_force_N = possible.tooth_N;
+    cut.doubted_feed_mm_s = drift_doubt_.bound_mm_s();
 }
 
 // What is shown

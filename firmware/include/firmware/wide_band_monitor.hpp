@@ -31,6 +31,7 @@ struct WideBandEstimate {
     estimation::Measurement<Scalar> radial_width_mm{};
     std::uint32_t force_drops = 0;  ///< evaluations, counted from 0; and those that gave an estimate
     std::uint32_t force_drops_valid = 0;
+    std::uint32_t force_drops_of_another_filter = 0;  ///< evaluations in which the low-pass was not as told
     std::uint32_t depths = 0;
     std::uint32_t depths_valid = 0;
 };

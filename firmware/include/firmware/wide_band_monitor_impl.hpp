@@ -96,6 +96,8 @@ void WideBandMonitor<Scalar>::evaluate_force_drop() {
     estimate_.force_drop_immersion = {made.valid(), made.radial_immersion, variance, variance};
     ++estimate_.force_drops;
     estimate_.force_drops_valid += made.valid() ? 1U : 0U;
+    using Reason = typename estimation::ForceDropEstimate<Scalar>::Reason;
+    estimate_.force_drops_of_another_filter += made.reason == Reason::other_filter ? 1U : 0U;
     force_drop_travel_ = {};
 }
 

@@ -28,7 +28,7 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
         faults.emplace_back(
             "a current that drifts within one cut looks like a cut that changes in width and depth; the larger of the "
             "forces by the spindle and by the axes counts then, and may still be too small: the drift is found in the "
-            "next air");
+            "next air. Where the width alone seems to change a dip of the feed asks (limit current_in_doubt)");
     } else {
         faults.emplace_back(
             "a spindle current that drifts within one cut looks like a cut that becomes lighter: a fall of the force "

@@ -121,6 +121,7 @@ std::optional<int> MqttClient::publish_acknowledged(const std::string& topic, st
 }
 
 void MqttClient::disconnect() {
+    is_open_ = false;  // a connection that is ended is not lost
     mosquitto_disconnect(client_);
     mosquitto_loop(client_, 0, 1);
 }
@@ -139,7 +140,7 @@ void MqttClient::on_connect(mosquitto*, void* self, int code) {
 void MqttClient::on_disconnect(mosquitto*, void* self, int code) {
     auto& client = *static_cast<MqttClient*>(self);
     if (client.is_open_) {
-        client.lose(code == 0 ? "disconnected" : reason_of(code));
+        client.lose(reason_of(code));
     }
 }
 

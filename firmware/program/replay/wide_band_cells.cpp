@@ -82,6 +82,12 @@ std::string WideBandCells::summary(const Estimates& made) const {
     if (is_there_ && lacking_for_force_drops().empty()) {
         text += fmt::format("immersion from force drops: {} estimates of {} that were due\n", made.force_drops_valid,
                             made.force_drops);
+        if (made.force_drops_of_another_filter > 0) {
+            text += fmt::format(
+                "  in {} of them another corner of the low-pass explains the force clearly better: {} is not as told\n",
+                made.force_drops_of_another_filter,
+                has_sensor_ ? "force_sensor.low_pass_hz" : "that of the drives, by sample_rate_hz,");
+        }
     }
     if (has_sensor_ && lacking_for_depths().empty()) {
         text += fmt::format("depths from the force's shape: {} estimates of {} that were due\n", made.depths_valid,

@@ -104,8 +104,10 @@ const CeilingWords& words_of(control::Limit limit) {
          "The spindle's load, which comes seldom, had not changed as the feed did, or had stood still for 2 s."},
         {"the spindle's torque", "",
          "The spindle had lost more than 5 % of its speed in a cut: its drive was at its torque limit. From then on "
-         "the "
-         "force was kept below the one at which it did."},
+         "the force was kept below the one at which it did."},
+        {"a current that may have drifted", "",
+         "The cut seemed to become wider and the tooth's force smaller. A current that drifts looks the same, so the "
+         "feed dipped, to see whether both forces follow it, or waited for that."},
     };
     static_assert(sizeof words / sizeof words[0] == control::limit_count);
     return words[static_cast<unsigned>(limit) % control::limit_count];

@@ -10,8 +10,8 @@ using namespace millforce::estimation;
 namespace {
 
 /// Changes with this standard deviation, where the drive's parameters say 1 N.
-void learn(NoiseRatio<double>& noise, double true_sd_N, int changes) {
-    std::mt19937 random(1);
+void learn(NoiseRatio<double>& noise, double true_sd_N, int changes, unsigned seed = 1) {
+    std::mt19937 random(seed);
     std::normal_distribution<double> change_N(0.0, true_sd_N);
     for (int k = 0; k < changes; ++k) {
         const double variance = noise.value();
@@ -23,6 +23,17 @@ double learnt(double true_sd_N, int changes) {
     NoiseRatio<double> noise;
     learn(noise, true_sd_N, changes);
     return noise.value();
+}
+
+/// Of 2000 currents, how many pass for as noisy as stated.
+int as_stated(double true_sd_N, int changes) {
+    int count = 0;
+    for (unsigned seed = 1; seed <= 2000; ++seed) {
+        NoiseRatio<double> noise;
+        learn(noise, true_sd_N, changes, seed);
+        count += noise.is_as_stated() ? 1 : 0;
+    }
+    return count;
 }
 
 }  // namespace
@@ -55,4 +66,11 @@ TEST(NoiseRatio, follows_a_current_that_becomes_noisier_after_hours) {
     learn(noise, 1.0, 100'000);
     learn(noise, 3.0, 200);
     DOUBLES_EQUAL(9.0, noise.value(), 3.0);
+}
+
+TEST(NoiseRatio,
+     takes_a_sound_current_for_a_weak_one_in_less_than_one_of_200_cases_and_one_of_a_third_nearly_never_for_sound) {
+    CHECK(as_stated(1.0, 200) > 1990);
+    CHECK(as_stated(0.5, 200) <= 700);
+    CHECK(as_stated(0.3, 200) < 10);
 }

@@ -3,6 +3,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <array>
 #include <cmath>
 
 using namespace millforce::estimation;
@@ -85,6 +86,24 @@ TEST(SpindleDrive, does_not_learn_a_dead_current_as_idle_torque) {
     CHECK(drive.tangential_force_N(at_current(15.0), 4.0).valid);
 }
 
+TEST(SpindleDrive, takes_more_torque_than_its_idle_torque_can_be_for_a_cut_and_less_for_none) {
+    auto p = paper_spindle();  // known to 0.2 N·m
+    p.warm_up_torque_Nm = 2.0;
+    p.warm_up_torque_sd_Nm = 0.05;
+    p.warm_up_time_s = 200.0;
+    SpindleDrive<double> cold(p);
+    const auto at_idle_and = [&](double torque_Nm) { return at_current((torque_Nm - p.K_t2_Nm) / p.K_t1_Nm_per_A); };
+    for (const double torque_Nm : std::array{-1.0, 0.5, 3.5}) {  // 2.0 is right
+        cold.rezero(at_idle_and(torque_Nm));
+        CHECK(cold.is_implausible());
+        const bool is_cut = torque_Nm > 2.0;
+        CHECK_EQUAL(is_cut, cold.find_hidden_cut());
+        CHECK_EQUAL(!is_cut, cold.is_implausible());
+    }
+    cold.rezero(at_idle_and(2.0));
+    CHECK_FALSE(cold.find_hidden_cut());
+}
+
 TEST(SpindleDrive, doubts_its_gain_where_much_of_the_idle_torque_is_missing) {
     auto p = paper_spindle();  // idles at 9.72 A
     p.idle_torque_sd_Nm = 2.0;
@@ -121,8 +140,8 @@ TEST(SpindleDrive, doubts_its_gain_although_a_cut_that_a_weak_current_hides_is_n
     p.idle_torque_sd_Nm = 2.0;
     SpindleDrive<double> weak(p);
     weak.rezero(at_current(0.3 * 9.72));
-    for (int k = 0; k < 40; ++k) {
-        weak.learn_noise(weak.change_N(k < 10 ? 0.0 : 1.0, 100.0, 10.0, 250.0));
+    for (int k = 0; k < 100; ++k) {
+        weak.learn_noise(weak.change_N(k < 24 ? 0.0 : 1.0, 100.0, 10.0, 250.0));
     }
     CHECK(weak.gain_doubt() > 1.0);
 }

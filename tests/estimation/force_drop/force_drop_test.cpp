@@ -35,12 +35,13 @@ FaceMillSignal up_cut(double immersion) {
     return signal;
 }
 
+/// `told_corner_hz`: of the low-pass; 0: the true one.
 Estimate estimate_of(const FaceMillSignal& signal, int samples_per_rev = 512,
-                     const ForceDropLaw<float>& law = law_with_edges(0.03, 0.04)) {
+                     const ForceDropLaw<float>& law = law_with_edges(0.03, 0.04), double told_corner_hz = 0.0) {
     ForceDropSettings<float> settings;
     settings.revolutions = 1;
     settings.detector.teeth = signal.teeth;
-    settings.detector.response.corner_hz = static_cast<float>(signal.corner_hz);
+    settings.detector.response.corner_hz = static_cast<float>(told_corner_hz > 0.0 ? told_corner_hz : signal.corner_hz);
     ForceDrop<float> force_drop(law, settings);
     Estimate estimate;
     for (const auto& sample : signal.samples(2.1, samples_per_rev)) {
@@ -112,6 +113,17 @@ TEST(ForceDrop, gives_no_estimate_where_teeth_pass_too_quickly) {
     signal.revs_per_s = 33.3;
     signal.corner_hz = 60.0;
     CHECK(estimate_of(signal).reason == Estimate::Reason::too_fast);
+}
+
+/// At 0.1 the edge where the tooth enters acts on the window of the jump.
+TEST(ForceDrop, gives_no_estimate_where_the_low_pass_was_told_a_third_too_low_or_twice_too_high) {
+    for (const double immersion : {0.1, 0.2, 0.35, 0.5, 0.65}) {
+        const auto signal = up_cut(immersion);
+        for (const double factor : {0.5, 0.67, 2.0}) {
+            const auto estimate = estimate_of(signal, 512, law_with_edges(0.03, 0.04), factor * signal.corner_hz);
+            CHECK(estimate.reason == Estimate::Reason::other_filter);
+        }
+    }
 }
 
 TEST(ForceDrop, gives_no_estimate_without_calibration) {

@@ -74,3 +74,14 @@ TEST(ToothForce, without_an_immersion_is_no_smaller_than_at_the_last_one) {
     DOUBLES_EQUAL(static_cast<double>(e.newest_tangential_N * peaks.factors().now),
                   static_cast<double>(e.tooth_force_N.value), 1e-3);
 }
+
+TEST(ToothForce, is_certain_as_far_as_the_widest_cut_of_the_interval_makes_it) {
+    e.engagement = narrow_and_shallow();
+    e.engagement.engagement_low_rad = 0.5F * e.engagement.engagement_rad;
+    e.engagement.engagement_high_rad = 2.0F * e.engagement.engagement_rad;
+    e.engagement.radial_immersion_low = 1.0F - std::cos(e.engagement.engagement_low_rad);
+    e.engagement.radial_immersion_high = 1.0F - std::cos(e.engagement.engagement_high_rad);
+    set_tangential_N(100.0F);
+    CHECK(e.certain_tooth_force_N > e.least_tooth_force_N);
+    CHECK(e.certain_tooth_force_N < 0.7F * e.tooth_force_N.value);
+}

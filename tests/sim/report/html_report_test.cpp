@@ -60,8 +60,8 @@ TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
     }
     const std::string data = report_data_json(info, std::span(&run, 1));
     CHECK(data.find("\"limits\":\"ffff") != std::string::npos);
-    CHECK(data.find("\"way_ahead\",\"feed_mismatch\",\"depth_step\",\"load_unanswered\",\"spindle_torque\"]") !=
-          std::string::npos);
+    CHECK(data.find("\"way_ahead\",\"feed_mismatch\",\"depth_step\",\"load_unanswered\",\"spindle_torque\","
+                    "\"current_in_doubt\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {

@@ -125,12 +125,20 @@ class SpindleDrive {
         drift_Nm_.widen(square(speed_doubt_Nm(average)));
         zeroed_speed_rad_s_ = average.speed_rad_s;
         is_implausible_ = !drift_Nm_.is_within_doubt(seen);
+        is_above_idle_ = seen.value > drift_Nm_.excess();
         if (!is_implausible_) {
             drift_Nm_.correct(seen);
             doubt_gain(average.speed_rad_s);
         }
     }
     [[nodiscard]] bool is_implausible() const { return is_implausible_; }
+    /// The tool may have been in a cut: if the last torque in air was more than the idle torque can be, it was one, and
+    /// the signal is plausible. Returns whether it was.
+    bool find_hidden_cut() {
+        const bool is_cut = is_implausible_ && is_above_idle_;
+        is_implausible_ = is_implausible_ && !is_cut;
+        return is_cut;
+    }
 
     /// Relative deviation of F_at that the idle torque brings about, beyond that of force_N: a current that shows too
     /// little of the cut shows too little of the idle torque as well. 0, unless less of it was seen in air than
@@ -199,6 +207,7 @@ class SpindleDrive {
     Scalar zeroed_speed_rad_s_{0};
     Scalar gain_doubt_{0};
     bool is_implausible_ = false;
+    bool is_above_idle_ = false;
 };
 
 }  // namespace millforce::estimation

@@ -32,8 +32,8 @@
 ///  - Down milling: the jump is a rise where the tooth enters, φ_st = π − θ; the averages run from φ_st to π.
 ///  - Table 1 prints mm/min for a feed per tooth: read mm. The nomenclature's r is F_R/F_T (Eq. 2), not its inverse.
 ///
-/// Memory (float, 512 bins): 4.2 KB. Cost per sample: some 20 operations; per estimate 2 · Bins · window + 13 × teeth
-/// × window × 60 operations, about 0.2 million at 3 teeth; 20 times that where the other edge acts on the window.
+/// Memory (float, 512 bins): 4.2 KB. Cost per sample: some 20 operations; per estimate 2 · Bins · window + 52 × teeth
+/// × window × 60 operations, about 0.5 million at 3 teeth; some 4 million where the other edge acts on the window.
 /// Not thread-safe. Bodies: force_drop_impl.hpp.
 
 namespace millforce::estimation {

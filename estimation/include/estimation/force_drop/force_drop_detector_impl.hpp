@@ -54,6 +54,24 @@ bool ForceDropDetector<Scalar, Bins, MaxWindow>::acts_on_window(const Profile& p
 }
 
 template <typename Scalar, int Bins, int MaxWindow>
+bool ForceDropDetector<Scalar, Bins, MaxWindow>::another_filter_fits(const Profile& profile,
+                                                                     const ForceJump<Scalar>& jump,
+                                                                     const OtherEdge<Scalar>& other_edge) const {
+    constexpr Scalar clearly_less = literal<Scalar>(0.6L);
+    const Scalar s_per_rev = profile.seconds_per_bin() * Scalar(Bins);
+    bool fits = false;
+    for (const Scalar factor : {Scalar(0.5F), literal<Scalar>(1.4L), Scalar(2)}) {
+        Settings other = settings_;
+        other.response.corner_hz *= factor;
+        const Scalar earlier_rev = (other.response.lag_s() - settings_.response.lag_s()) / s_per_rev;
+        const ForceJump<Scalar> with_other =
+            ForceDropDetector(other).detect_near(profile, jump.angle_rev - earlier_rev, other_edge);
+        fits = fits || (with_other.valid() && with_other.sample_variance_N2 < clearly_less * jump.sample_variance_N2);
+    }
+    return fits;
+}
+
+template <typename Scalar, int Bins, int MaxWindow>
 ForceJump<Scalar> ForceDropDetector<Scalar, Bins, MaxWindow>::measure_at(const Profile& profile,
                                                                          Scalar angle_rev) const {
     const Window window = window_of(profile.seconds_per_bin());
@@ -267,6 +285,7 @@ ForceJump<Scalar> ForceDropDetector<Scalar, Bins, MaxWindow>::judge(const Profil
     jump.x_N = measured(fit.step_x_N, fit.residual_x_N2);
     jump.y_N = measured(fit.step_y_N, fit.residual_y_N2);
     jump.residual_N2 = fit.residual_N2;
+    jump.sample_variance_N2 = fit.residual_N2 / Scalar(2 * fit.free_points);
     jump.slope_x_N_per_rev = fit.slope_x_N_per_rev;
     jump.slope_y_N_per_rev = fit.slope_y_N_per_rev;
     fill_means(profile, inflation, fit, jump);

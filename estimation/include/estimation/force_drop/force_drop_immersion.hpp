@@ -59,6 +59,7 @@ struct ForceDropEstimate {
         estimated,
         no_drop,       ///< no significant jump, or no forces
         too_fast,      ///< the tooth passes too quickly for the low-pass
+        other_filter,  ///< the low-pass is not as told: another corner explains the signal clearly better
         no_law,        ///< not calibrated
         side_unknown,  ///< neither up nor down milling
         no_root,       ///< no immersion in the valid range explains the forces

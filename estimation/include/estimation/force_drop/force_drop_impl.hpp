@@ -80,8 +80,13 @@ void ForceDrop<Scalar, Bins>::estimate_profile(Scalar feed_per_tooth_mm) {
     }
     estimate_from(jump_, feed_per_tooth_mm, first_rad);
     const Scalar reach = first_share_in_doubt * first_rad;
+    OtherEdge<Scalar> edge;
     if (other_edge_acts_between(first_rad - reach, first_rad + reach)) {
         close_other_edge(first_rad, reach, feed_per_tooth_mm);
+        edge = other_edge(estimate_.theta_rad, feed_per_tooth_mm);
+    }
+    if (jump_.valid() && detector_.another_filter_fits(profile_, jump_, edge)) {
+        estimate_.reason = Estimate::Reason::other_filter;
     }
 }
 

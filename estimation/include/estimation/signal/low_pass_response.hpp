@@ -42,11 +42,14 @@ struct LowPassResponse {
         const Scalar decay = exp(-damping * omega * time_s);
         const Scalar cosine = cos(omega * root * time_s);
         const Scalar sine = sin(omega * root * time_s);
-        const Scalar lag_s = Scalar(2) * damping / omega;
+        const Scalar lag = lag_s();
         return {Scalar(1) - decay * (cosine + damping / root * sine),
-                time_s - lag_s +
-                    decay * (lag_s * cosine + (Scalar(2) * damping * damping - Scalar(1)) / (omega * root) * sine)};
+                time_s - lag +
+                    decay * (lag * cosine + (Scalar(2) * damping * damping - Scalar(1)) / (omega * root) * sine)};
     }
+
+    /// By which a ramp comes out late, 2ζ/ω.
+    [[nodiscard]] Scalar lag_s() const { return Scalar(2) * damping / omega_rad_s(); }
 
     /// After this time a step is within 3 % of its end.
     [[nodiscard]] Scalar settling_s() const { return Scalar(4) / (damping * omega_rad_s()); }

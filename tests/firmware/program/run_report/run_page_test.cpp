@@ -100,6 +100,14 @@ TEST(RunPage, names_keys_that_the_parameter_files_have) {
     }
 }
 
+TEST(RunPage, has_a_colour_for_each_ceiling) {
+    const std::string html = page();
+    for (unsigned k = 0; k < control::limit_count; ++k) {
+        const std::string colour = "--limit-" + std::to_string(k) + ": #";
+        CHECK_TEXT(has(html, colour), colour.c_str());
+    }
+}
+
 TEST(RunPage, says_at_once_which_fault_came_and_when) {
     mill();
     auto tick = in_cut(1.4F);

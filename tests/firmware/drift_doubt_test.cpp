@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/drift_doubt_impl.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include <cmath>
+
+#include "estimation/cut_estimate.hpp"
+#include "firmware/default_parameters.hpp"
+
+using DriftDoubt = millforce::firmware::DriftDoubt<float>;
+using millforce::estimation::CutEstimate;
+using millforce::firmware::DoubtStage;
+
+namespace {
+
+constexpr float programmed_mm_s = 10.0F;
+constexpr float tooth_period_s = 0.01F;
+constexpr DoubtStage in_cut{true, true, false, false};
+
+millforce::firmware::Parameters<float> parameters() {
+    millforce::firmware::Parameters<float> p = millforce::firmware::default_parameters<float>();
+    p.machine.spindle_rated_current_A = 12.0F;
+    p.machine.axis_rated_current_A = {12.0F, 12.0F, 12.0F};
+    p.machine.axes[0].K_x4_N_per_A = p.machine.axes[1].K_x4_N_per_A = 100.0F;
+    p.tool.control.entry_feed_per_tooth_mm = 0.02F;
+    return p;
+}
+
+/// A cut whose feed follows the bound. Its width makes the force on a tooth smaller by `widening`.
+class Milling {
+  public:
+    float tangential_N = 300.0F;
+    float feed_N = 150.0F;
+    float feed_drift_N = 0.0F;
+    float widening = 1.0F;
+    float deepening = 1.0F;
+    DoubtStage stage = in_cut;
+
+    float mill(int estimates) {
+        float tooth_N = 0.0F;
+        for (int k = 0; k < estimates; ++k) {
+            const float bound_mm_s = doubt_.bound_mm_s();
+            feed_mm_s_ = bound_mm_s > 0.0F ? std::fmin(bound_mm_s, programmed_mm_s) : programmed_mm_s;
+            lowest_mm_s_ = std::fmin(lowest_mm_s_, feed_mm_s_);
+            const CutEstimate<float> e = estimate();
+            tooth_N = doubt_.follow(e, e.tooth_force_N.value, tooth_period_s, stage).tooth_N / e.tangential_N.value;
+        }
+        return tooth_N;
+    }
+    [[nodiscard]] float lowest_mm_s() const { return lowest_mm_s_; }
+    DriftDoubt& doubt() { return doubt_; }
+
+  private:
+    [[nodiscard]] CutEstimate<float> estimate() const {
+        const float share = std::sqrt(feed_mm_s_ / programmed_mm_s);
+        CutEstimate<float> e;
+        e.feed_mm_s = feed_mm_s_;
+        e.feed_per_tooth_mm = feed_mm_s_ * tooth_period_s;
+        e.tooth_periods = 1;
+        e.tangential_N = {true, tangential_N * share, 1.0F, 1.0F};
+        e.feed_N = {true, feed_N * share + feed_drift_N, 1.0F, 1.0F};
+        e.x_N = e.feed_N;
+        e.tooth_force_N = {true, 2.0F * e.tangential_N.value / widening, 1.0F, 1.0F};
+        e.engagement.immersion_valid = true;
+        e.engagement.radial_immersion = 0.5F * widening;
+        e.engagement.radial_immersion_sd = 0.05F;
+        e.engagement.depth_valid = true;
+        e.engagement.axial_depth_mm = 5.0F * deepening;
+        return e;
+    }
+
+    DriftDoubt doubt_{parameters()};
+    float feed_mm_s_ = programmed_mm_s;
+    float lowest_mm_s_ = programmed_mm_s;
+};
+
+/// Half of the force along the feed is drift, and the cut seems to have changed in width and depth.
+void mill_into_doubt(Milling& milling) {
+    milling.widening = 1.4F;
+    milling.deepening = 0.7F;
+    milling.feed_N = 75.0F;
+    milling.feed_drift_N = 75.0F;
+    milling.mill(40);
+}
+void jump(Milling& milling, int estimates) {
+    milling.tangential_N = 450.0F;
+    milling.feed_N = 150.0F;
+    milling.mill(estimates);
+}
+
+void check_free(Milling& milling) {
+    DOUBLES_EQUAL(0.0, static_cast<double>(milling.doubt().bound_mm_s()), 0.0);
+}
+
+}  // namespace
+
+// clang-format off
+TEST_GROUP(DriftDoubt) {
+    Milling milling;
+    void setup() override { milling.mill(40); }
+};
+// clang-format on
+
+TEST(DriftDoubt, bounds_no_feed_of_a_cut_that_stays) {
+    milling.mill(200);
+    check_free(milling);
+    DOUBLES_EQUAL(10.0, static_cast<double>(milling.lowest_mm_s()), 1e-6);
+}
+
+TEST(DriftDoubt, believes_a_wall_whose_forces_both_follow_a_dip_of_the_feed) {
+    milling.widening = 1.4F;
+    DOUBLES_EQUAL(2.0 / 1.4, static_cast<double>(milling.mill(100)), 1e-3);
+    DOUBLES_EQUAL(7.0, static_cast<double>(milling.lowest_mm_s()), 1e-3);
+    milling.mill(100);
+    check_free(milling);
+}
+
+TEST(DriftDoubt, lets_the_force_of_no_wall_count_that_is_a_drift_of_an_axis) {
+    milling.widening = 1.4F;
+    milling.feed_N = 80.0F;
+    milling.feed_drift_N = 70.0F;
+    DOUBLES_EQUAL(2.0, static_cast<double>(milling.mill(100)), 1e-3);
+}
+
+TEST(DriftDoubt, asks_again_after_a_pause) {
+    milling.widening = 1.4F;
+    milling.feed_N = 80.0F;
+    milling.feed_drift_N = 70.0F;
+    milling.mill(60);
+    check_free(milling);
+    milling.feed_N = 150.0F;
+    milling.feed_drift_N = 0.0F;
+    DOUBLES_EQUAL(2.0 / 1.4, static_cast<double>(milling.mill(200)), 1e-3);
+}
+
+TEST(DriftDoubt, asks_nothing_of_a_cut_that_a_map_knows_or_force_drops_show) {
+    for (const DoubtStage& known : {DoubtStage{true, true, true, false}, DoubtStage{true, true, false, true}}) {
+        Milling other;
+        other.stage = known;
+        other.mill(40);
+        other.widening = 1.4F;
+        other.mill(200);
+        DOUBLES_EQUAL(10.0, static_cast<double>(other.lowest_mm_s()), 1e-6);
+    }
+}
+
+TEST(DriftDoubt, asks_nothing_of_a_cut_that_ends) {
+    milling.widening = 1.4F;
+    milling.mill(20);
+    CHECK_COMPARE(milling.doubt().bound_mm_s(), >, 0.0F);
+    milling.stage.in_cut = false;
+    milling.mill(1);
+    check_free(milling);
+}
+
+TEST(DriftDoubt, holds_the_feed_after_a_jump_in_a_cut_in_doubt_until_a_dip_finds_the_forces_alike) {
+    mill_into_doubt(milling);
+    check_free(milling);
+    jump(milling, 100);
+    CHECK_COMPARE(milling.doubt().bound_mm_s(), >, 0.0F);
+    milling.feed_drift_N = 0.0F;
+    milling.mill(300);
+    check_free(milling);
+}
+
+TEST(DriftDoubt, holds_it_no_lower_than_at_an_entry_and_not_once_air_has_found_the_currents_sound) {
+    mill_into_doubt(milling);
+    jump(milling, 1);
+    CHECK_COMPARE(milling.doubt().bound_mm_s(), >=, 0.02F / tooth_period_s);
+    milling.doubt().clear();
+    check_free(milling);
+}
