@@ -99,7 +99,7 @@ void add_cut_table(host::Command& program) {
     command.option("scenario", options->scenario, "Scenario with tool and material")
         .required()
         .value_name("SCENARIO.toml");
-    command.option("-o,--output", options->output, "Conditions and measured values")
+    command.output_file("-o,--output", options->output, "Conditions and measured values")
         .required()
         .value_name("CONDITIONS.csv");
     command.option("--spindle-speed", options->spindle_speed_rpm, "Speed of the spindle in 1/min")

@@ -13,7 +13,6 @@
 #include "commands/plant_commands.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/overwriting.hpp"
 #include "files/results_folder.hpp"
 #include "loop/simulation.hpp"
 #include "parameters/tool_set.hpp"
@@ -91,7 +90,6 @@ double write_map(const std::string& output, const host::MapOrigin& origin, const
 }
 
 double write_map_of_tool(const PreviewOptions& options, const Scenario& scenario) {
-    host::refuse_overwriting(options.output, {options.part, options.stock, options.tools.file});
     const std::string name = std::filesystem::path(scenario.tool_file).stem().string();
     return write_map(options.output, host::origin_of(scenario.program_file, name, scenario.parameters.tool),
                      preview_within(scenario, options.stock_tolerance_mm));
@@ -163,7 +161,7 @@ void add_preview(host::Command& program) {
         .one_each_time()
         .value_name("NUMBER")
         .within(1.0, largest_tool);
-    command.option("-o,--output", options->output, "Part map to write; with --tools the folder of the maps")
+    command.output_file("-o,--output", options->output, "Part map to write; with --tools the folder of the maps")
         .required()
         .value_name("PART.map");
     command

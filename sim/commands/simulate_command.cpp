@@ -15,6 +15,7 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "files/progress.hpp"
 #include "files/results_folder.hpp"
 #include "loop/bounds.hpp"
@@ -180,6 +181,8 @@ RunResult run_with_socket(const SimulateOptions& options, const Scenario& scenar
 
 int simulate_scenario(const SimulateOptions& options) {
     const Scenario scenario = scenario_of(options);
+    host::refuse_overwriting(options.learn,
+                             {options.scenario, scenario.machine_file, scenario.tool_file, scenario.program_file});
     const std::filesystem::path out = host::results_folder(options.out, "summary.json");
     const auto recording = options.record ? std::optional(out / "recording.csv") : std::nullopt;
     const bool is_baseline = options.controller == baseline;

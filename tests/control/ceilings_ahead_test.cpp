@@ -200,14 +200,17 @@ TEST(CeilingsAhead, the_way_ahead_lowers_the_feed_though_the_spindle_s_speed_is_
     CHECK(controller.step(near_a_wall).limit == Limit::no_estimate);
 }
 
-TEST(CeilingsAhead, the_way_ahead_says_nothing_where_the_programmed_feed_is_missing) {
+TEST(CeilingsAhead, the_way_ahead_counts_by_the_highest_feed_where_the_programmed_one_is_missing) {
     Controller controller;
-    const float before = repeat(controller, with_way(in_contact(), 18.0F), 2000).ratio;
+    Input fast = with_way(in_contact(), 18.0F);
+    fast.programmed_feed_mm_s = 40.0F;
+    controller.step(fast);
+    repeat(controller, with_way(in_contact(), 18.0F), 2000);
     Input input = with_way(in_contact(), 6.0F);
     input.programmed_feed_mm_s = not_a_number;
-    const Output output = controller.step(input);
-    check_ratio(before, output);
-    CHECK(output.limit == Limit::no_estimate);
+    const Output output = repeat(controller, input, 2000);
+    check_ratio(6.0F / 40.0F, output);
+    CHECK(output.limit == Limit::way_ahead);
 }
 
 TEST(CeilingsAhead, a_feed_of_the_way_ahead_that_is_not_a_number_is_no_feed) {

@@ -171,6 +171,30 @@ TEST(CeilingsInAir, without_a_force_the_override_does_not_rise_though_the_spindl
     check_ratio(Parameters{}.override_min, repeat(controller, blind, 2000));
 }
 
+TEST(CeilingsInAir, a_feed_that_is_told_no_more_is_taken_for_the_highest_so_far) {
+    for (const float untold : {0.0F, not_a_number}) {
+        Controller controller;
+        Input input = in_air();
+        input.programmed_feed_mm_s = 40.0F;
+        controller.step(input);
+        input.rapid = true;
+        check_ratio(1.0F, repeat(controller, input, 2000));
+        input.rapid = false;
+        input.programmed_feed_mm_s = untold;
+        check_ratio(0.5F * ratio_of(0.05F, in_air()), repeat(controller, input, 2000));
+    }
+}
+
+TEST(CeilingsInAir, before_a_feed_was_told_the_override_in_air_is_its_minimum) {
+    Controller controller;
+    Input input = in_air();
+    input.rapid = true;
+    input.programmed_feed_mm_s = 0.0F;
+    repeat(controller, input, 2000);
+    input.rapid = false;
+    check_ratio(Parameters{}.override_min, repeat(controller, input, 2000));
+}
+
 TEST(CeilingsInAir, contact_that_begins_in_a_rapid_ends_its_freedom) {
     Controller controller;
     Input input = in_air();

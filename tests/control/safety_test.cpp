@@ -302,6 +302,20 @@ TEST(Safety, a_feed_that_was_not_known_for_a_step_leaves_no_demand_behind) {
     DOUBLES_EQUAL(static_cast<double>(before), static_cast<double>(controller.step(heavy).ratio), 1e-3);
 }
 
+TEST(Safety, a_feed_that_is_told_no_more_raises_nothing_and_still_falls_before_the_force) {
+    for (const float untold : {0.0F, not_a_number}) {
+        Controller controller(quick_entry());
+        Input input = in_contact();
+        input.cut.tooth_force_N = 960.0F;
+        const float before = repeat(controller, input, 500).ratio;
+        input.programmed_feed_mm_s = untold;
+        input.cut.tooth_force_N = 300.0F;
+        CHECK_COMPARE(repeat(controller, input, 500).ratio, <=, before);
+        input.cut.tooth_force_N = 1300.0F;
+        CHECK_COMPARE(repeat(controller, input, 500).ratio, <, 0.9F * before);
+    }
+}
+
 TEST(Safety, a_step_of_unknown_length_raises_nothing) {
     CHECK_FALSE(rises_in_a_step_of(not_a_number, 300.0F));
 }

@@ -72,8 +72,10 @@ FaultyMachine::Corrupt corruption(const Part& part, const Fault& fault, std::uin
     if (of_signal == nullptr || *of_signal == SignalFault::none) {
         return {};
     }
-    const auto rated_A = static_cast<double>(part.stated.machine.spindle_rated_current_A);
-    return [corruption = SignalCorruption(*of_signal, rated_A, seed)](
+    const firmware::MachineParameters<float>& machine = part.stated.machine;
+    const auto spindle_rated_A = static_cast<double>(machine.spindle_rated_current_A);
+    const auto axis_rated_A = static_cast<double>(machine.axis_rated_current_A[0]);
+    return [corruption = SignalCorruption(*of_signal, spindle_rated_A, axis_rated_A, seed)](
                hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before,
                double since_s) mutable { corruption.corrupt(sample, program, before, since_s); };
 }
@@ -83,15 +85,19 @@ bool is_in_message_alone(SignalFault fault) {
         case SignalFault::not_a_number:
         case SignalFault::spindle_absent:
         case SignalFault::encoder_absent:
+        case SignalFault::feed_not_a_number:
+        case SignalFault::operator_not_a_number:
         case SignalFault::time_frozen:
         case SignalFault::time_backwards:
+        case SignalFault::time_double:
+        case SignalFault::time_half:
             return true;
         default:
             return false;
     }
 }
 
-bool is_of_x(SignalFault fault) {
+bool is_of_axes(SignalFault fault) {
     return fault >= SignalFault::x_tenfold && fault <= SignalFault::x_and_y_swapped;
 }
 
@@ -171,7 +177,7 @@ std::vector<Fault> faults_on(Path path, const Part& part) {
     append<SignalFault>(faults, 0, signal_faults);
     std::erase_if(faults, [&](const Fault& fault) {
         const auto kind = std::get<SignalFault>(fault);
-        return (path == Path::can && is_in_message_alone(kind)) || (part.is_spindle_alone && is_of_x(kind));
+        return (path == Path::can && is_in_message_alone(kind)) || (part.is_spindle_alone && is_of_axes(kind));
     });
     if (path == Path::can) {
         append<BusFault>(faults, 0, bus_faults);
@@ -180,6 +186,21 @@ std::vector<Fault> faults_on(Path path, const Part& part) {
     }
     return faults;
 }
+
+namespace {
+
+/// `begins_s`, `held_s`: in the time of the trace.
+double peak_between(const sim::RunResult& run, double begins_s, double held_s, double limit_N) {
+    constexpr double braking_s = 0.1;
+    double peak_N = 0.0;
+    for (const sim::TracePoint& point : run.trace) {
+        const bool is_between = point.time_s >= begins_s && point.time_s <= held_s + braking_s;
+        peak_N = is_between ? std::max(peak_N, point.true_tooth_force_N) : peak_N;
+    }
+    return peak_N / limit_N;
+}
+
+}  // namespace
 
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
                              const std::function<void()>& begin) {
@@ -201,6 +222,11 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
     Outcome outcome;
     outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
     outcome.reaction = machine.reaction();
+    if (outcome.reaction.has_reacted) {
+        const auto limit_N = static_cast<double>(part.stated.tool.control.tooth_force_limit_N);
+        outcome.peak_until_held =
+            peak_between(outcome.run, into_part_s, into_part_s + outcome.reaction.after_s, limit_N);
+    }
     outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
     return outcome;
 }
@@ -242,7 +268,9 @@ void Tally::add(const Outcome& outcome) {
     beyond_bound += outcome.reaction.is_beyond_bound ? 1 : 0;
     ran_in_fault += outcome.reaction.ran_in_fault ? 1 : 0;
     rose_blind += outcome.reaction.rose_blind ? 1 : 0;
+    stopped_silently += outcome.reaction.stopped_silently ? 1 : 0;
     crawled += outcome.crawled ? 1 : 0;
+    largest_peak_until_held = std::max(largest_peak_until_held, outcome.peak_until_held);
     largest_peak = std::max(largest_peak, figures.peak_over_limit);
     if (outcome.reaction.has_reacted) {
         reactions_s.push_back(outcome.reaction.after_s);

@@ -54,7 +54,8 @@ Part part_named(const std::string& name);
 struct Outcome {
     Reaction reaction;
     sim::RunResult run;
-    bool crawled = false;  ///< the part took half as long again, without a fault or a hold
+    bool crawled = false;          ///< the part took half as long again, without a fault or a hold
+    double peak_until_held = 0.0;  ///< force of a tooth over its limit, from the fault's begin until the axes stood
 };
 Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed);
 /// On another path, e.g. a controller in another process; `begin` is called where the fault begins.
@@ -69,15 +70,19 @@ struct Tally {
     int beyond_bound = 0;  ///< an override outside its bounds
     int ran_in_fault = 0;
     int rose_blind = 0;
+    int stopped_silently = 0;
     int crawled = 0;
     double largest_peak = 0.0;
-    std::vector<double> reactions_s;  ///< of the runs that held the feed or faulted
+    double largest_peak_until_held = 0.0;  ///< of the runs that held the feed or faulted
+    std::vector<double> reactions_s;       ///< of the runs that held the feed or faulted
 
     void add(const Outcome& outcome);
     [[nodiscard]] double median_reaction_s() const;
     [[nodiscard]] double longest_reaction_s() const;
     /// What must never be.
-    [[nodiscard]] int violations() const { return broken_parts + beyond_bound + ran_in_fault + rose_blind; }
+    [[nodiscard]] int violations() const {
+        return broken_parts + beyond_bound + ran_in_fault + rose_blind + stopped_silently;
+    }
 };
 
 }  // namespace millforce::faults

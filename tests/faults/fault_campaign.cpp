@@ -162,11 +162,12 @@ void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Option
 void print(const Row& row) {
     const Tally& t = row.tally;
     const bool has_reacted = !t.reactions_s.empty();
-    fmt::print("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {} |\n", name_of(row.fault), name_of(row.path),
+    fmt::print("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {} | {} |\n", name_of(row.fault), name_of(row.path),
                t.runs, percent(t.broken_parts, t.runs), percent(t.over, t.runs), 100.0 * t.largest_peak,
                percent(static_cast<int>(t.reactions_s.size()), t.runs),
                has_reacted ? fmt::format("{:.2f}, {:.2f}", t.median_reaction_s(), t.longest_reaction_s()) : "",
-               percent(t.crawled, t.runs), t.violations());
+               has_reacted ? fmt::format("{:.0f}", 100.0 * t.largest_peak_until_held) : "", percent(t.crawled, t.runs),
+               t.violations());
 }
 
 int run(const Options& options) {
@@ -182,7 +183,8 @@ int run(const Options& options) {
     mill_all(runs_of(options, rows), rows, options);
     fmt::print(
         "| fault | path | runs | tooth broken, % | peak above 110 %, % | largest peak, % | feed held, % | after, s: "
-        "median, longest | crawls, % | violations |\n|---|---|---|---|---|---|---|---|---|---|\n");
+        "median, longest | peak until held, % | crawls, % | violations "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     int violations = 0;
     int unseen = 0;
     int sound_runs = 0;

@@ -34,6 +34,7 @@ hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample,
     judge(output);
     if (!program.rapid) {
         judge_rise(output, since_s);
+        judge_stop(output, told);
     }
     if (!reaction_.has_reacted && (output.hold || output.fault != 0)) {
         reaction_.has_reacted = true;
@@ -50,6 +51,15 @@ void FaultyMachine::judge(const hal::FeedOverride& output) {
     reaction_.ran_in_fault = reaction_.ran_in_fault || (output.fault != 0 && !output.hold);
     reaction_.fault = output.fault;
     reaction_.held_s = output.hold ? reaction_.held_s + dt_s_ : 0.0;
+}
+
+void FaultyMachine::judge_stop(const hal::FeedOverride& output, const hal::ProgramStatus& told) {
+    constexpr float standing = 0.01F;
+    constexpr double too_long_s = 1.0;
+    const bool is_operators = !(told.operator_override >= standing);
+    const bool is_silent = output.ratio < standing && !output.hold && output.fault == 0 && !is_operators;
+    stopped_s_ = is_silent ? stopped_s_ + dt_s_ : 0.0;
+    reaction_.stopped_silently = reaction_.stopped_silently || stopped_s_ > too_long_s;
 }
 
 void FaultyMachine::judge_rise(const hal::FeedOverride& output, double since_s) {

@@ -18,11 +18,12 @@ struct Reaction {
     bool has_begun = false;  ///< the part was not over before
     bool has_reacted = false;
     double after_s = 0.0;
-    std::uint8_t fault = 0;        ///< control::Fault
-    bool is_beyond_bound = false;  ///< at any time: an override that is not a number within [0, override_max]
-    bool ran_in_fault = false;     ///< a fault was latched, and the feed free
-    bool rose_blind = false;       ///< the free override of a feed rose later than detection_s after the begin
-    double held_s = 0.0;           ///< how long the feed is held at the end
+    std::uint8_t fault = 0;         ///< control::Fault
+    bool is_beyond_bound = false;   ///< at any time: an override that is not a number within [0, override_max]
+    bool ran_in_fault = false;      ///< a fault was latched, and the feed free
+    bool rose_blind = false;        ///< the free override of a feed rose later than detection_s after the begin
+    bool stopped_silently = false;  ///< the axes stood for a second in a feed without a hold, a fault or the operator
+    double held_s = 0.0;            ///< how long the feed is held at the end
 };
 
 /// An invalid signal is to be noticed by then.
@@ -56,6 +57,7 @@ class FaultyMachine : public sim::OverrideSource {
     [[nodiscard]] hal::FeedOverride step_with_fault(const hal::DriveSample& sample, const hal::ProgramStatus& program);
     void judge(const hal::FeedOverride& output);
     void judge_rise(const hal::FeedOverride& output, double since_s);
+    void judge_stop(const hal::FeedOverride& output, const hal::ProgramStatus& told);
 
     sim::OverrideSource& controller_;
     Settings settings_;
@@ -65,6 +67,7 @@ class FaultyMachine : public sim::OverrideSource {
     double dt_s_ = 0.0;
     hal::DriveSample before_{};  ///< the last good one
     double blind_ratio_ = -1.0;  ///< the lowest free override later than detection_s
+    double stopped_s_ = 0.0;     ///< without a word
     Reaction reaction_{};
 };
 

@@ -41,14 +41,18 @@ class Milling {
         float tooth_N = 0.0F;
         for (int k = 0; k < estimates; ++k) {
             const float bound_mm_s = doubt_.bound_mm_s();
+            const float last_feed_mm_s = feed_mm_s_;
             feed_mm_s_ = bound_mm_s > 0.0F ? std::fmin(bound_mm_s, programmed_mm_s) : programmed_mm_s;
             lowest_mm_s_ = std::fmin(lowest_mm_s_, feed_mm_s_);
+            dips_ += feed_mm_s_ < last_feed_mm_s ? 1 : 0;
             const CutEstimate<float> e = estimate();
             tooth_N = doubt_.follow(e, e.tooth_force_N.value, tooth_period_s, stage).tooth_N / e.tangential_N.value;
         }
         return tooth_N;
     }
+    [[nodiscard]] bool may_still_cut() const { return doubt_.may_still_cut(estimate()); }
     [[nodiscard]] float lowest_mm_s() const { return lowest_mm_s_; }
+    [[nodiscard]] int dips() const { return dips_; }
     DriftDoubt& doubt() { return doubt_; }
 
   private:
@@ -73,6 +77,7 @@ class Milling {
     DriftDoubt doubt_{parameters()};
     float feed_mm_s_ = programmed_mm_s;
     float lowest_mm_s_ = programmed_mm_s;
+    int dips_ = 0;
 };
 
 /// Half of the force along the feed is drift, and the cut seems to have changed in width and depth.
@@ -123,7 +128,7 @@ TEST(DriftDoubt, lets_the_force_of_no_wall_count_that_is_a_drift_of_an_axis) {
     DOUBLES_EQUAL(2.0, static_cast<double>(milling.mill(100)), 1e-3);
 }
 
-TEST(DriftDoubt, asks_again_after_a_pause) {
+TEST(DriftDoubt, asks_again_after_a_pause_and_no_more_once_the_forces_are_alike) {
     milling.widening = 1.4F;
     milling.feed_N = 80.0F;
     milling.feed_drift_N = 70.0F;
@@ -131,7 +136,8 @@ TEST(DriftDoubt, asks_again_after_a_pause) {
     check_free(milling);
     milling.feed_N = 150.0F;
     milling.feed_drift_N = 0.0F;
-    DOUBLES_EQUAL(2.0 / 1.4, static_cast<double>(milling.mill(200)), 1e-3);
+    DOUBLES_EQUAL(2.0 / 1.4, static_cast<double>(milling.mill(400)), 1e-3);
+    LONGS_EQUAL(2, milling.dips());
 }
 
 TEST(DriftDoubt, asks_nothing_of_a_cut_that_a_map_knows_or_force_drops_show) {
@@ -152,6 +158,16 @@ TEST(DriftDoubt, asks_nothing_of_a_cut_that_ends) {
     milling.stage.in_cut = false;
     milling.mill(1);
     check_free(milling);
+}
+
+TEST(DriftDoubt, sees_no_air_where_the_force_of_the_spindle_alone_has_gone) {
+    milling.tangential_N = 0.0F;
+    CHECK_TRUE(milling.may_still_cut());
+    milling.feed_N = 60.0F;
+    CHECK_FALSE(milling.may_still_cut());
+    milling.feed_N = 150.0F;
+    milling.doubt().clear();
+    CHECK_FALSE(milling.may_still_cut());
 }
 
 TEST(DriftDoubt, holds_the_feed_after_a_jump_in_a_cut_in_doubt_until_a_dip_finds_the_forces_alike) {

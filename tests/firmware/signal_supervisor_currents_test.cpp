@@ -112,11 +112,31 @@ TEST(SignalSupervisorCurrents, does_not_judge_index_pulses_without_a_count) {
     CHECK(of_index_pulses(supervisor, 20, 1U, 8192U, without_count) == Fault::none);
 }
 
-TEST(SignalSupervisorCurrents, lets_the_speed_of_the_spindle_change_at_once_out_of_the_cut_alone) {
-    for (const float ratio : {0.6F, 1.5F}) {
+TEST(SignalSupervisorCurrents, lets_the_speed_of_the_spindle_double_out_of_the_cut_where_a_spindle_can) {
+    for (const float speed_rad_s : {150.0F, 800.0F}) {
         Estimate e = one_tooth();
+        e.spindle_speed_rad_s = speed_rad_s;
+        Supervisor supervisor(machine_and_tool());
+        for (const float ratio : {1.0F, 1.5F, 2.0F, 2.0F, 1.0F}) {
+            e.tooth_change.speed_ratio = ratio;
+            supervisor.judge(e, {}, CutState::air, true);
+        }
+        CHECK(supervisor.fault() == (speed_rad_s < 200.0F ? Fault::none : Fault::encoder_mismatch));
+    }
+}
+
+TEST(SignalSupervisorCurrents, lets_the_speed_of_the_spindle_change_at_once_out_of_the_cut_alone) {
+    Estimate even = one_tooth();
+    even.spindle_speed_rad_s = 150.0F;  // a fast spindle cannot
+    for (const float ratio : {0.6F, 1.5F}) {
+        Estimate e = even;
         e.tooth_change.speed_ratio = ratio;
-        CHECK(of_change(e, 8, CutState::air) == Fault::none);
-        CHECK(of_change(e, 8, CutState::in_cut) == Fault::encoder_mismatch);
+        for (const CutState state : {CutState::air, CutState::in_cut}) {
+            Supervisor supervisor(machine_and_tool());
+            judged(supervisor, even, 8, state);
+            judged(supervisor, e, 1, state);
+            CHECK(judged(supervisor, even, 6, state) ==
+                  (state == CutState::air ? Fault::none : Fault::encoder_mismatch));
+        }
     }
 }

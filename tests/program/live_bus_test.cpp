@@ -132,6 +132,11 @@ TEST(LiveBus, an_output_that_is_an_input_or_the_other_output_is_refused_by_whate
         }
     }
     STRCMP_EQUAL(before.c_str(), in.read("machine.toml").c_str());
+    in.write("part.ngc", "G1 X10 F600\nM30\n");
+    STRCMP_EQUAL("", not_refused(run({"--program", in.name("part.ngc"), "--log", in.name("part.ngc"), "--learn",
+                                      in.name("part.map")}),
+                                 {"part.ngc", "would be overwritten"})
+                         .c_str());
     STRCMP_EQUAL("", not_refused(run({"--log", in.name("a"), "--record", in.name("./a")}),
                                  {"--log, --record: both are", "expected two files"})
                          .c_str());

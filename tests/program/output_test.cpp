@@ -71,6 +71,18 @@ TEST(Output, an_input_is_not_overwritten_by_whatever_name) {
                                  {"stock.toml", "would be overwritten"})
                          .c_str());
     STRCMP_EQUAL(stock.c_str(), in.read("stock.toml").c_str());
+    const std::string block_file = in.name("tool.toml");
+    STRCMP_EQUAL("", not_refused(run_millforce({"parameters", "--write-block", block_file, "--machine",
+                                                in.name("machine.toml"), "--tool", block_file}),
+                                 {"tool.toml", "would be overwritten"})
+                         .c_str());
+    STRCMP_EQUAL("", not_refused(run_millforce({"cut-table", in.name("scenario.toml"), "-o", in.name("scenario.toml")}),
+                                 {"scenario.toml", "would be overwritten"})
+                         .c_str());
+    STRCMP_EQUAL("", not_refused(run_millforce({"simulate", in.name("scenario.toml"), "--out", in.name("out"),
+                                                "--learn", in.name("tool.toml")}),
+                                 {"tool.toml", "would be overwritten"})
+                         .c_str());
 }
 
 TEST(Output, a_table_without_rows_and_a_folder_in_place_of_a_file_are_refused) {

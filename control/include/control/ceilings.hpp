@@ -96,6 +96,8 @@ class Ceilings {
     [[nodiscard]] Ceiling<Scalar> lowest(const Parameters& parameters, const ControlInput<Scalar>& input,
                                          const Situation& situation) const;
 
+    /// Of the blocks so far, or of the whole program where the parameters tell it; 0: not known.
+    [[nodiscard]] Scalar highest_programmed_feed_mm_s() const { return highest_programmed_feed_mm_s_; }
     /// The section of the cut falls.
     [[nodiscard]] bool is_fading() const { return trend_.fading(); }
 

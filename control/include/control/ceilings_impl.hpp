@@ -182,8 +182,13 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest_in_feed(const Parameters& parameters, c
     if (input.way.known && is_known(input.programmed_feed_mm_s)) {
         lowest.lower_to(input.way.feed_mm_s / input.programmed_feed_mm_s, Limit::way_ahead);
     }
-    if (!feed_and_speed_are_known(input)) {
+    if (is_out_of_cut(situation.state) && !is_known(input.programmed_feed_mm_s)) {
+        lowest.lower_to(parameters.override_min, Limit::no_estimate);
+    }
+    if (input.feed_is_assumed || !feed_and_speed_are_known(input)) {
         lowest.lower_to(situation.override_ratio, Limit::no_estimate);
+    }
+    if (!feed_and_speed_are_known(input)) {
         return lowest;
     }
     constexpr Scalar surely_too_fast = Scalar(1.25F);

@@ -21,6 +21,9 @@
 ///
 /// All of it is worked out at each step, from the input and from what the parts remember.
 ///
+/// A programmed feed that is not told is taken for the highest of the program so far, with which every ceiling is as
+/// low as can be, and nothing rises on it. Before one was told the override stays, in air at its minimum.
+///
 /// No estimate, no rise: without an estimate the override may fall (the tangential force alone suffices for that) or
 /// stay, never grow. The override is finite and within [override_min, override_max] whatever the input. Parameters that
 /// make no sense are the fault bad_configuration from the start: override 0, feed held, and reset() does not leave it.
@@ -48,6 +51,7 @@ class FeedController {
     ControlOutput<Scalar> step(const ControlInput<Scalar>& input);
 
   private:
+    [[nodiscard]] ControlOutput<Scalar> step_at_feed(const ControlInput<Scalar>& input);
     [[nodiscard]] StepMotion<Scalar> motion_of(const ControlInput<Scalar>& input);
     [[nodiscard]] Ceiling<Scalar> wanted(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion);
     void follow_law(const ControlInput<Scalar>& input);

@@ -115,6 +115,7 @@ struct ControlInput {
     Scalar velocity_z_mm_s{0};     ///< along the tool's axis, away from the workpiece
     bool height_is_known = false;  ///< velocity_z_mm_s is told
     Scalar time_since_sample_s{0};
+    bool feed_is_assumed = false;  ///< programmed_feed_mm_s is not told: the controller's own, see feed_controller.hpp
     bool rapid = false;
     bool motion_is_unseen = false;  ///< no velocity is known in this step
     bool plunging = false;          ///< the way goes mainly along the tool's axis

@@ -56,6 +56,17 @@ void FeedController<Scalar>::reset() {
 
 template <typename Scalar>
 ControlOutput<Scalar> FeedController<Scalar>::step(const ControlInput<Scalar>& input) {
+    if (input.rapid || is_known(input.programmed_feed_mm_s)) {
+        return step_at_feed(input);
+    }
+    ControlInput<Scalar> at_highest_feed = input;
+    at_highest_feed.programmed_feed_mm_s = ceilings_.highest_programmed_feed_mm_s();
+    at_highest_feed.feed_is_assumed = true;
+    return step_at_feed(at_highest_feed);
+}
+
+template <typename Scalar>
+ControlOutput<Scalar> FeedController<Scalar>::step_at_feed(const ControlInput<Scalar>& input) {
     const StepMotion<Scalar> motion = motion_of(input);
     const CutState last_state = states_.state();
     states_.step(parameters_, input, motion);

@@ -52,10 +52,13 @@ class DriftDoubt {
     /// A new estimate. Returns the tooth force that it leaves possible, not below `tooth_force_N`. `period_s`: of a
     /// tooth.
     PossibleForce<Scalar> follow(const Estimate& e, Scalar tooth_force_N, Scalar period_s, const DoubtStage& stage);
+    /// The spindle's force has gone, but not that of the axes: no air to re-zero in.
+    [[nodiscard]] bool may_still_cut(const Estimate& e) const;
     /// No faster than this; 0: no bound.
     [[nodiscard]] Scalar bound_mm_s() const { return dip_.is_asking() ? dip_.bound_mm_s() : held_mm_s_; }
 
   private:
+    [[nodiscard]] static Scalar per_root_feed(const Estimate& e);
     Scalar by_two_forces(const Estimate& e, Scalar tooth_force_N, Scalar period_s, const DoubtStage& stage);
     void ask(const Estimate& e, const DoubtStage& stage);
     void take(typename FeedDip<Scalar>::Answer answer);

@@ -67,25 +67,36 @@ PossibleForce<Scalar> DriftDoubt<Scalar>::follow(const Estimate& e, Scalar tooth
     return possible;
 }
 
+/// 1/√f, 0 without a feed.
+template <typename Scalar>
+Scalar DriftDoubt<Scalar>::per_root_feed(const Estimate& e) {
+    using std::sqrt;
+    return e.feed_per_tooth_mm > Scalar(0) ? Scalar(1) / sqrt(e.feed_per_tooth_mm) : Scalar(0);
+}
+
+template <typename Scalar>
+bool DriftDoubt<Scalar>::may_still_cut(const Estimate& e) const {
+    return lone_fall_.axes_still_cut(e, per_root_feed(e));
+}
+
 template <typename Scalar>
 Scalar DriftDoubt<Scalar>::by_two_forces(const Estimate& e, Scalar tooth_force_N, Scalar period_s,
                                          const DoubtStage& stage) {
-    using std::sqrt;
-    const bool has_feed = e.feed_per_tooth_mm > Scalar(0);
-    const Scalar per_root_feed = has_feed ? Scalar(1) / sqrt(e.feed_per_tooth_mm) : Scalar(0);
+    const Scalar per_root = per_root_feed(e);
     const bool was_doubtful = steady_cut_.is_doubtful();
     if (stage.in_cut) {
-        steady_cut_.follow(e, per_root_feed, period_s);
+        steady_cut_.follow(e, per_root, period_s);
     } else if (!stage.is_cutting) {
         steady_cut_.leave_cut();
         lone_fall_.leave_cut();
     }
     const Scalar by_steady_cut_N = steady_cut_.largest_force_N(e, tooth_force_N);
-    const Scalar largest_N = lone_fall_.largest_force_N(e, by_steady_cut_N, per_root_feed, stage.in_cut);
+    const Scalar largest_N = lone_fall_.largest_force_N(e, by_steady_cut_N, per_root, stage.in_cut);
     const bool begins = stage.in_cut && steady_cut_.begins();
     if (was_doubtful && begins && !(held_mm_s_ > Scalar(0)) && period_s > Scalar(0)) {
         const Scalar entry_mm_s = entry_feed_per_tooth_mm_ / period_s;
         held_mm_s_ = e.feed_mm_s > entry_mm_s ? e.feed_mm_s : entry_mm_s;
+        pause_ = 0;  // another cut, another question
     }
     return largest_N;
 }

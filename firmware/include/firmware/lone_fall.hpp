@@ -37,6 +37,14 @@ class LoneFall {
     /// Re-zeroing in air has found the currents to be as they should.
     void clear() { *this = LoneFall(); }
 
+    /// Along the feed there is surely still half the force of the last cut: the spindle's has fallen alone.
+    [[nodiscard]] bool axes_still_cut(const Estimate& e, Scalar per_root_feed) const {
+        using std::sqrt;
+        constexpr Scalar surely = Scalar(3);
+        const Scalar least_N = size(e.feed_N.value) - surely * sqrt(e.feed_N.variance);
+        return e.feed_N.valid && mean_.axes > Scalar(0) && least_N * per_root_feed > estimation::halved(mean_.axes);
+    }
+
     /// The tooth force that a new estimate leaves possible, not below the `tooth_force_N` by its own account.
     /// `per_root_feed`: 1/√f, 0 without a feed. `follows`: the cut neither begins nor ends.
     [[nodiscard]] Scalar largest_force_N(const Estimate& e, Scalar tooth_force_N, Scalar per_root_feed, bool follows) {

@@ -73,6 +73,7 @@ class SteadyCut {
     /// long as it is another than ₀.
     void take_answer(bool is_sound) {
         estimates_ = is_sound ? std::uint8_t{0} : estimates_;
+        is_doubtful_ = is_doubtful_ && !is_sound;
         is_refuted_ = !is_sound;
         has_question_ = false;
     }

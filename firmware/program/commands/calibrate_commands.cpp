@@ -17,7 +17,6 @@
 #include "calibration/warm_up_calibration.hpp"
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
-#include "files/overwriting.hpp"
 #include "parameters/parameter_files.hpp"
 
 namespace millforce::host {
@@ -36,22 +35,12 @@ void add_side(Command& command, Side& side, const std::string& help) {
 template <typename Options>
 void add_data_and_output(Command& command, Options& options) {
     command.option("data", options.data, "Measured data (CSV)").required().value_name("DATA.csv");
-    command.option("-o,--output", options.output, "The fitted parameters").required().value_name("FILE.toml");
-}
-
-using Files = std::vector<std::filesystem::path>;
-
-Files files_of(const std::filesystem::path& file) {
-    return {file};
-}
-const Files& files_of(const Files& files) {
-    return files;
+    command.output_file("-o,--output", options.output, "The fitted parameters").required().value_name("FILE.toml");
 }
 
 /// A refusal is one line on standard error alone: the report goes out when all is done.
 template <typename Calibration, typename Options>
 int report_when_done(Calibration calibration, const Options& options) {
-    refuse_overwriting(options.output, files_of(options.data));
     std::ostringstream report;
     const int exit_code = calibration(options, report);
     std::cout << report.str();
@@ -143,7 +132,7 @@ void add_warm_up(Command& calibrate) {
     command.option("--machine", options->machine, "Machine file with the spindle's torque per ampere")
         .required()
         .value_name("M.toml");
-    command.option("-o,--output", options->output, "The fitted parameters").required().value_name("FILE.toml");
+    command.output_file("-o,--output", options->output, "The fitted parameters").required().value_name("FILE.toml");
     command.on_run([options] { return report_when_done(calibrate_warm_up, *options); });
 }
 
@@ -255,13 +244,10 @@ void add_estimate(Command& program) {
         "spindle_torque_Nm if they are known. An empty cell is \"no estimate\".");
     command.option("conditions", options->conditions, "One straight cut a row").required().value_name("CONDITIONS.csv");
     command.option("--tool", options->tool, "Tool with its [cutting] table").required().value_name("T.toml");
-    command.option("-o,--output", options->output, "The rows with estimates; default: standard output")
+    command.output_file("-o,--output", options->output, "The rows with estimates; default: standard output")
         .value_name("OUT.csv");
     add_side(command, options->side, "Side of the cuts; default: that of the tool's file");
-    command.on_run([options] {
-        refuse_overwriting(options->output, {options->conditions, options->tool});
-        return estimate(*options, std::cout);
-    });
+    command.on_run([options] { return estimate(*options, std::cout); });
 }
 
 }  // namespace millforce::host

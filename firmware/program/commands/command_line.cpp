@@ -11,6 +11,8 @@
 #include <memory>
 
 #include "commands/usage.hpp"
+#include "files/input_error.hpp"
+#include "files/overwriting.hpp"
 #include "parameters/tool_set.hpp"
 #include "run_log/bus_clock.hpp"
 
@@ -58,6 +60,30 @@ std::string list_of(const std::vector<std::string>& words) {
 std::size_t place_of(const std::vector<std::string>& words, const std::string& text) {
     const std::string lower = CLI::detail::to_lower(text);
     return static_cast<std::size_t>(std::find(words.begin(), words.end(), lower) - words.begin());
+}
+
+bool is_same_name(const std::filesystem::path& one, const std::filesystem::path& other) {
+    return std::filesystem::absolute(one).lexically_normal() == std::filesystem::absolute(other).lexically_normal();
+}
+
+/// Also of two files that are not there yet.
+void check_output_files(const CLI::App& app, const std::vector<const CLI::Option*>& outputs) {
+    for (const CLI::Option* output : outputs) {
+        const std::string file = output->count() > 0 ? output->as<std::string>() : std::string();
+        for (const CLI::Option* other : app.get_options()) {
+            if (file.empty() || other == output || other->count() == 0) {
+                continue;
+            }
+            const bool is_output = std::find(outputs.begin(), outputs.end(), other) != outputs.end();
+            for (const std::string& name : other->results()) {
+                if (is_output && is_same_name(file, name)) {
+                    throw InputError(fmt::format("{}, {}: both are {}, expected two files", output->get_name(),
+                                                 other->get_name(), file));
+                }
+                refuse_overwriting(file, {name});
+            }
+        }
+    }
 }
 
 void set_common_rules(CLI::App& app, const std::string& version) {
@@ -152,6 +178,16 @@ template Option Command::option(const std::string&, std::vector<std::string>&, c
 template Option Command::option(const std::string&, std::vector<std::uint32_t>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
 
+template <typename Name>
+Option Command::output_file(const std::string& names, Name& value, const std::string& help) {
+    Option file = option(names, value, help);
+    output_files_->push_back(file.option_);
+    return file;
+}
+
+template Option Command::output_file(const std::string&, std::string&, const std::string&);
+template Option Command::output_file(const std::string&, std::filesystem::path&, const std::string&);
+
 Option Command::flag(const std::string& names, bool& value, const std::string& help) {
     return Option(app_->add_flag(names, value, help));
 }
@@ -167,7 +203,10 @@ Option Command::named_choice(const std::string& names, const std::string& help, 
 }
 
 void Command::on_run(std::function<int()> run) {
-    app_->callback([run = std::move(run), exit_code = exit_code_] { *exit_code = run(); });
+    app_->callback([app = app_, output_files = output_files_, run = std::move(run), exit_code = exit_code_] {
+        check_output_files(*app, *output_files);
+        *exit_code = run();
+    });
 }
 
 void add_tools(Command& command, ToolChoice& tools) {

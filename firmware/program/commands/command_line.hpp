@@ -62,6 +62,10 @@ class Command {
     /// `names`: "--long", "-s,--long", or a bare word for a positional argument.
     template <typename T>
     Option option(const std::string& names, T& value, const std::string& help);
+    /// A file to write: refused where it is a file of another option, by whatever name or link, or stands as *.toml in
+    /// the folder of one.
+    template <typename Name>
+    Option output_file(const std::string& names, Name& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);
 
     /// An option that takes one of several names, each for a value of T (an enumeration). Upper or lower case.
@@ -84,12 +88,14 @@ class Command {
 
   private:
     friend class CommandLine;
-    Command(CLI::App* app, int* exit_code) : app_(app), exit_code_(exit_code) {}
+    Command(CLI::App* app, int* exit_code)
+        : app_(app), exit_code_(exit_code), output_files_(std::make_shared<std::vector<const CLI::Option*>>()) {}
     Option named_choice(const std::string& names, const std::string& help, const std::vector<std::string>& words,
                         const std::function<void(std::size_t)>& chosen);
 
     CLI::App* app_;
     int* exit_code_;
+    std::shared_ptr<std::vector<const CLI::Option*>> output_files_;  ///< one list for all copies
 };
 
 extern template Option Command::option(const std::string&, std::string&, const std::string&);
@@ -103,6 +109,8 @@ extern template Option Command::option(const std::string&, std::optional<std::ui
 extern template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
 extern template Option Command::option(const std::string&, std::vector<std::uint32_t>&, const std::string&);
 extern template Option Command::option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
+extern template Option Command::output_file(const std::string&, std::string&, const std::string&);
+extern template Option Command::output_file(const std::string&, std::filesystem::path&, const std::string&);
 
 /// --tool and --tools, of which one must be given: ToolChoice::require_one().
 void add_tools(Command& command, ToolChoice& tools);

@@ -7,7 +7,6 @@
 #include "commands/command_line.hpp"
 #include "commands/machine_commands.hpp"
 #include "files/input_error.hpp"
-#include "files/overwriting.hpp"
 #include "import/import_recording.hpp"
 
 namespace millforce::host {
@@ -26,9 +25,6 @@ int import_files(const ImportOptions& options) {
     } else if (settings.output.empty()) {
         throw InputError("--output: missing, expected a file to write, or --dry-run (see 'millforce import --help')");
     }
-    std::vector<std::filesystem::path> inputs(settings.files.begin(), settings.files.end());
-    inputs.emplace_back(settings.map);
-    refuse_overwriting(settings.output, inputs);
     const ImportedRecording recording = import_recording(settings);
     if (!options.dry_run) {
         fmt::print("{}: {} rows\n", settings.output, recording.steps.rows());
@@ -66,7 +62,7 @@ void add_import(Command& program) {
         "right, with the likely mistake in a unit.\n"
         "Several files are parts of one recording: time continues from one file to the next.");
     command.option("files", settings.files, "Measurements").required().value_name("FILE");
-    command.option("-o,--output", settings.output, "The recording").value_name("RECORDING.csv");
+    command.output_file("-o,--output", settings.output, "The recording").value_name("RECORDING.csv");
     command.option("--map", settings.map, "What the columns are").value_name("MAP.toml");
     command.choice<SourceFormat>("--format", settings.format,
                                  "Default: as the map says, else by the file's first characters",

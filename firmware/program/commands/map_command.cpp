@@ -18,7 +18,6 @@
 #include "files/atomic_file.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/overwriting.hpp"
 #include "map_page/map_page.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
@@ -84,7 +83,6 @@ int join(const JoinOptions& options) {
     const PartMapFile geometry = read_part_map(options.geometry);
     const PartMapFile run = read_part_map(options.run);
     require_same_origin(options.run, run.origin, geometry.origin);
-    refuse_overwriting(options.output, {options.geometry, options.run, options.tool});
     const auto tool = tool_of(options.tool, options.geometry, geometry.origin);
     const JoinedMap result = joined(geometry.map, run.map, tool);
     write_part_map(options.output, {geometry.origin, result.map});
@@ -95,7 +93,6 @@ int join(const JoinOptions& options) {
 int show(const ShowOptions& options) {
     const PartMapFile map = read_part_map(options.map);
     const auto tool = tool_of(options.tool, options.map, map.origin);
-    refuse_overwriting(options.output, {options.map, options.tool});
     AtomicFile page(options.output);
     page.stream() << map_page_html(map, std::filesystem::path(options.map).filename().string(), tool);
     page.commit();
@@ -288,7 +285,9 @@ void add_map_commands(Command& program) {
         .value_name("GEOMETRY.map");
     join_command.option("run", join_options->run, "Part map of --learn").required().value_name("RUN.map");
     join_command.option("--tool", join_options->tool, "Tool file of both").required().value_name("TOOL.toml");
-    join_command.option("-o,--output", join_options->output, "Part map to write").required().value_name("PART.map");
+    join_command.output_file("-o,--output", join_options->output, "Part map to write")
+        .required()
+        .value_name("PART.map");
     join_command.on_run([join_options] { return join(*join_options); });
 
     auto show_options = std::make_shared<ShowOptions>();
@@ -297,7 +296,7 @@ void add_map_commands(Command& program) {
     show_command.option("--tool", show_options->tool, "Tool file of the map: its law predicts the force")
         .required()
         .value_name("TOOL.toml");
-    show_command.option("-o,--output", show_options->output, "Page to write").required().value_name("PAGE.html");
+    show_command.output_file("-o,--output", show_options->output, "Page to write").required().value_name("PAGE.html");
     show_command.on_run([show_options] { return show(*show_options); });
 
     add_send(map);

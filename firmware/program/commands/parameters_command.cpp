@@ -48,7 +48,7 @@ void add_parameters(Command& program) {
         "parameters",
         "Print every key of machine.toml and tool.toml as Markdown; make or print a target's flash block");
     Option write =
-        command.option("--write-block", options->block_to_write, "Make a target's flash block from the files")
+        command.output_file("--write-block", options->block_to_write, "Make a target's flash block from the files")
             .value_name("FILE");
     Option machine = command.option("--machine", options->machine, "For --write-block").value_name("M.toml");
     Option tool = command.option("--tool", options->tools.file, "For --write-block").value_name("T.toml");

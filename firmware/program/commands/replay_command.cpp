@@ -15,7 +15,6 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/overwriting.hpp"
 #include "firmware/tick_record.hpp"
 #include "firmware/tool_tick.hpp"
 #include "parameters/parameter_files.hpp"
@@ -160,13 +159,6 @@ int replay_table(const ReplayOptions& options) {
 
 int replay(const ReplayOptions& options) {
     options.tools.require_one();
-    std::vector<std::filesystem::path> inputs = options.tools.files();
-    inputs.insert(inputs.end(), {options.log, options.machine, options.run_log});
-    refuse_overwriting(options.output, inputs);
-    refuse_overwriting(options.mcap, inputs);
-    if (!options.mcap.empty() && options.mcap == options.output) {
-        throw InputError(fmt::format("--output, --mcap: both are {}, expected two files", options.mcap));
-    }
     if (!is_candump_log(options.log)) {
         if (options.maps.is_any()) {
             throw InputError(
@@ -235,11 +227,11 @@ void add_replay(Command& program) {
     command.option("log", options->log, "Recording: CSV, or a candump log").required().value_name("LOG");
     command.option("--machine", options->machine, "Machine parameters").required().value_name("M.toml");
     add_tools(command, options->tools);
-    command.option("-o,--output", options->output, "Estimates; default: standard output; with --view: nowhere")
+    command.output_file("-o,--output", options->output, "Estimates; default: standard output; with --view: nowhere")
         .value_name("OUT.csv");
     command
-        .option("--mcap", options->mcap,
-                "The same rows with currents and velocities, as MCAP for Foxglove and PlotJuggler")
+        .output_file("--mcap", options->mcap,
+                     "The same rows with currents and velocities, as MCAP for Foxglove and PlotJuggler")
         .value_name("OUT.mcap");
     command
         .option("--programmed-feed", options->programmed_feed_mm_min,

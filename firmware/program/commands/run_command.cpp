@@ -19,7 +19,6 @@
 #include "daemon/service.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/overwriting.hpp"
 #include "parameters/machine_bus.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
@@ -51,21 +50,6 @@ MachineBus bus_of(const std::string& machine_file) {
                         machine_file));
     }
     return *bus;
-}
-
-void check_outputs(const RunOptions& options) {
-    const auto plain = [](const std::string& name) { return std::filesystem::absolute(name).lexically_normal(); };
-    const auto refuse_same = [&plain](const char* names, const std::string& one, const std::string& other) {
-        if (!one.empty() && !other.empty() && plain(one) == plain(other)) {
-            throw InputError(fmt::format("{}: both are {}, expected two files", names, one));
-        }
-    };
-    refuse_same("--log, --record", options.log, options.record);
-    refuse_same("--log, --mcap", options.log, options.watch.mcap);
-    refuse_same("--record, --mcap", options.record, options.watch.mcap);
-    for (const std::string& output : {options.log, options.record, options.watch.mcap}) {
-        refuse_overwriting(output, {options.machine, options.tools.file});
-    }
 }
 
 void print_summary(const RunOptions& options, const CanDaemon& daemon, const Journal& journal) {
@@ -102,7 +86,6 @@ int run_on_bus(const RunOptions& options) {
     }
     const BusTime time{options.pace.slow_motion, options.pace.lock_step, bus.drives.sync_id, bus.drives.sync_period_us};
     const socketcan::CanSocketSettings interface = socket_on(options.interface);
-    check_outputs(options);
     if (tools.source() != nullptr && program_status::tool_frame_id(bus.program.id) == 0) {
         throw InputError(
             fmt::format("--tools: {}: bus.program_status_id = {}, expected 1 to {}: the frame of the tool's "
@@ -179,10 +162,10 @@ void add_run(Command& program) {
     command.option("interface", options->interface, "CAN interface, e.g. can0").required().value_name("IFACE");
     command.option("--machine", options->machine, "Machine parameters, with [bus]").required().value_name("M.toml");
     add_tools(command, options->tools);
-    command.option("--log", options->log, "Write estimates and states as JSON lines").value_name("FILE.jsonl");
+    command.output_file("--log", options->log, "Write estimates and states as JSON lines").value_name("FILE.jsonl");
     command
-        .option("--record", options->record,
-                "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
+        .output_file("--record", options->record,
+                     "Every frame of the bus as a candump log, and this computer's own inputs, for 'millforce replay'")
         .value_name("FILE.log");
     add_map(command, options->maps);
     add_report(command, options->report);

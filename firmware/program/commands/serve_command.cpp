@@ -20,7 +20,6 @@
 #include "daemon/unix_socket.hpp"
 #include "files/console.hpp"
 #include "files/input_error.hpp"
-#include "files/overwriting.hpp"
 #include "firmware_link/link_controller.hpp"
 #include "parameters/parameter_files.hpp"
 #include "parameters/tool_set.hpp"
@@ -194,9 +193,6 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
 
 int serve(const ServeOptions& options) {
     options.tools.require_one();
-    std::vector<std::filesystem::path> inputs{options.machine, options.tools.file, options.maps.program};
-    inputs.insert(inputs.end(), options.maps.maps.begin(), options.maps.maps.end());
-    refuse_overwriting(options.watch.mcap, inputs);
     const auto largest_override = static_cast<float>(options.override_max);
     const ToolSet tools(firmware::capped(read_machine_parameters(options.machine), largest_override), options.tools);
     const firmware::Parameters<float>& parameters = tools.parameters();

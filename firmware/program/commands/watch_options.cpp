@@ -30,7 +30,7 @@ void add_live_watch(Command& command, WatchOptions& options) {
 
 void add_watch(Command& command, WatchOptions& options) {
     add_live_watch(command, options);
-    command.option("--mcap", options.mcap, "Write the telemetry as MCAP, for Foxglove and PlotJuggler")
+    command.output_file("--mcap", options.mcap, "Write the telemetry as MCAP, for Foxglove and PlotJuggler")
         .value_name("FILE.mcap");
     command.option("--jobs", options.jobs, "Write a report of each job as a JSON file").value_name("FOLDER");
     command.option("--gateway", options.gateway, "Tell 'millforce gateway' the state and events").value_name("SOCKET");

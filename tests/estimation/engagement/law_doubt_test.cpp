@@ -51,10 +51,10 @@ TEST(LawDoubt, takes_four_fits_for_each_contradiction_to_close) {
     LONGS_EQUAL(4 * 3 * teeth, estimates_until_trusted(doubt));
 }
 
-TEST(LawDoubt, closes_after_a_hundred_windows_that_fit_however_long_it_was_open) {
+TEST(LawDoubt, closes_after_a_thousand_windows_that_fit_however_long_it_was_open) {
     LawDoubt doubt;
     follow(doubt, true, 100000);
-    LONGS_EQUAL(100 * teeth, estimates_until_trusted(doubt));
+    LONGS_EQUAL(1000 * teeth, estimates_until_trusted(doubt));
 }
 
 TEST(LawDoubt, estimates_that_stand_for_several_teeth_count_as_many) {
