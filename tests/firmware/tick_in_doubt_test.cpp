@@ -86,7 +86,7 @@ TEST(TickInDoubt, does_not_trust_forces_that_fit_a_cut_after_many_that_fitted_no
     CHECK(milling.state() == CutState::in_cut);
     CHECK_FALSE(milling.tick().engagement().immersion_valid);
     CHECK(milling.tick().control().limit == control::Limit::law_misfit);
-    milling.mill(whole, 2000);
+    milling.mill(whole, 6500);  // four times as long
     CHECK(milling.tick().engagement().immersion_valid);
 }
 

@@ -209,9 +209,11 @@ bool SignalSupervisor<Scalar>::gains_more_than_any_spindle(const Estimate& e) {
     constexpr Scalar least_growth = estimation::literal<Scalar>(0.3L);  // a doubled speed may begin within a tooth
     const Scalar growth = e.tooth_change.speed_ratio - last_speed_ratio_;
     last_speed_ratio_ = e.tooth_change.speed_ratio;
+    if (!(growth > least_growth)) {
+        return false;
+    }
     const Scalar tooth_s = control::tooth_period_s(teeth_, e.spindle_speed_rad_s) * Scalar(e.tooth_periods);
-    return growth > least_growth && tooth_s < longest_s &&
-           e.spindle_speed_rad_s * growth / e.tooth_change.speed_ratio > most_rad_s2 * tooth_s;
+    return tooth_s < longest_s && e.spindle_speed_rad_s * growth / e.tooth_change.speed_ratio > most_rad_s2 * tooth_s;
 }
 
 /// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.

@@ -319,11 +319,13 @@ bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<S
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     const auto& estimate = estimator_.estimate();
-    const bool in_air = controller_.state() == control::CutState::air && !input_.way.may_cut;
     const bool axes_rest = estimator_.axes_rest();
-    const bool looks_idle = axes_rest || (was_rezeroed_ && is_idle(estimate) && !drift_doubt_.may_still_cut(estimate));
+    const auto looks_idle = [&] {
+        return axes_rest || (was_rezeroed_ && is_idle(estimate) && !drift_doubt_.may_still_cut(estimate));
+    };
+    const bool is_air = controller_.state() == control::CutState::air && !input_.way.may_cut && looks_idle();
     // A rapid is the program's word for air, even where drift has grown to what looks like a cut.
-    air_periods_ = program_.rapid || (in_air && looks_idle) ? air_periods_ + estimate.tooth_periods : 0;
+    air_periods_ = program_.rapid || is_air ? air_periods_ + estimate.tooth_periods : 0;
     // The first windows after a change hold a mixture of air and cut.
     const int enough = 2 * static_cast<int>(controller_.parameters().teeth) + 1;
     if (air_periods_ >= enough) {
