@@ -189,15 +189,15 @@ std::vector<Fault> faults_on(Path path, const Part& part) {
 
 namespace {
 
-/// `begins_s`, `held_s`: in the time of the trace.
-double peak_between(const sim::RunResult& run, double begins_s, double held_s, double limit_N) {
+/// Over the limit. `begins_s`, `held_s`: in the time of the trace.
+double peak_between(const sim::RunResult& run, double begins_s, double held_s) {
     constexpr double braking_s = 0.1;
     double peak_N = 0.0;
     for (const sim::TracePoint& point : run.trace) {
         const bool is_between = point.time_s >= begins_s && point.time_s <= held_s + braking_s;
         peak_N = is_between ? std::max(peak_N, point.true_tooth_force_N) : peak_N;
     }
-    return peak_N / limit_N;
+    return peak_N > 0.0 ? peak_N / run.figures.peak_tooth_force_N * run.figures.peak_over_limit : 0.0;
 }
 
 }  // namespace
@@ -223,9 +223,7 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
     outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
     outcome.reaction = machine.reaction();
     if (outcome.reaction.has_reacted) {
-        const auto limit_N = static_cast<double>(part.stated.tool.control.tooth_force_limit_N);
-        outcome.peak_until_held =
-            peak_between(outcome.run, into_part_s, into_part_s + outcome.reaction.after_s, limit_N);
+        outcome.peak_until_held = peak_between(outcome.run, into_part_s, into_part_s + outcome.reaction.after_s);
     }
     outcome.crawled = !outcome.run.figures.finished && !(outcome.reaction.held_s > 0.0) && outcome.reaction.fault == 0;
     return outcome;

@@ -134,9 +134,21 @@ TEST(SignalSupervisorCurrents, lets_the_speed_of_the_spindle_change_at_once_out_
         for (const CutState state : {CutState::air, CutState::in_cut}) {
             Supervisor supervisor(machine_and_tool());
             judged(supervisor, even, 8, state);
-            judged(supervisor, e, 1, state);
+            judged(supervisor, e, 2, state);
             CHECK(judged(supervisor, even, 6, state) ==
                   (state == CutState::air ? Fault::none : Fault::encoder_mismatch));
         }
+    }
+}
+
+TEST(SignalSupervisorCurrents, does_not_take_a_sample_with_a_wrong_time_for_a_speed) {
+    for (const CutState state : {CutState::air, CutState::in_cut}) {
+        Supervisor supervisor(machine_and_tool());
+        Estimate e = one_tooth();
+        for (const float ratio : {1.0F, 0.5F, 3.0F, 1.0F, 1.0F, 2.0F, 0.3F, 1.0F}) {
+            e.tooth_change.speed_ratio = ratio;
+            supervisor.judge(e, {}, state, true);
+        }
+        CHECK(supervisor.fault() == Fault::none);
     }
 }

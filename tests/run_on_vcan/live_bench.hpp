@@ -2,8 +2,11 @@
 #pragma once
 
 #include <csignal>
+#include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -74,12 +77,32 @@ class LiveFolder {
     [[nodiscard]] Words plant_words() const {
         return {"simulate", file("scenario.toml"), "--bus", "vcan0", "--out", file("out")};
     }
-    /// Waits for a text in the run's log of conditions.
+    /// Waits for a text in the run's log of conditions. In vain: prints what was logged last beside estimates.
     [[nodiscard]] bool logged(const std::string& part) const {
-        return wait_until([&] { return text("run.jsonl").find(part) != std::string::npos; });
+        const bool is_logged = wait_until([&] { return text("run.jsonl").find(part) != std::string::npos; });
+        if (!is_logged) {
+            std::printf("%s was not logged, but:\n%s", part.c_str(), last_conditions().c_str());
+        }
+        return is_logged;
     }
 
   private:
+    [[nodiscard]] std::string last_conditions() const {
+        constexpr std::size_t enough = 12;
+        std::deque<std::string> last;
+        std::istringstream lines(text("run.jsonl"));
+        for (std::string line; std::getline(lines, line);) {
+            const bool is_fault = line.find("\"fault\":\"none\"") == std::string::npos;
+            if (line.find("\"type\":\"estimate\"") == std::string::npos || is_fault) {
+                last.push_back(line + "\n");
+            }
+            if (last.size() > enough) {
+                last.pop_front();
+            }
+        }
+        return std::accumulate(last.begin(), last.end(), std::string());
+    }
+
     std::string path_;
 };
 

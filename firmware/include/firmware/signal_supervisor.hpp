@@ -16,8 +16,8 @@
 ///
 ///   stale_input        the samples' time stands or runs backwards: 32 samples
 ///   encoder_mismatch   counts between two index pulses are not one revolution: three in a row;
-///                      the spindle's speed changes by 40 % within one revolution of a cut, or anywhere by more than
-///                      20,000 rad/s² from one tooth to the next: its encoder, or the samples' clock, has failed
+///                      the spindle's speed changes by 40 % within one revolution of a cut, or grows anywhere by more
+///                      than 20,000 rad/s²: its encoder, or the samples' clock, has failed. Two teeth on end
 ///   signal_stuck       the current of a turning spindle, or in a cut of a moving axis, stands (stuck_signal.hpp);
 ///                      a load that comes seldom does not answer the feed (load_answer.hpp)
 ///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
@@ -86,7 +86,8 @@ class SignalSupervisor {
     void watch_index(const hal::DriveSample& sample);
     void watch_currents(const hal::DriveSample& sample, control::CutState state);
     void judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled);
-    [[nodiscard]] bool gains_more_than_any_spindle(const Estimate& e);
+    [[nodiscard]] bool is_speed_impossible(const Estimate& e, bool cuts);
+    [[nodiscard]] bool gains_more_than_any_spindle(const Estimate& e, Scalar share);
     [[nodiscard]] control::Fault sudden_change(const Estimate& e);
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
                           bool feed_is_settled);
@@ -149,6 +150,7 @@ class SignalSupervisor {
     int periods_in_turn_ = 0;
     Scalar last_speed_rad_s_{0};
     Scalar last_speed_ratio_{1};  // of the tooth before
+    Scalar speed_ratio_before_{1};
     int implausible_periods_ = 0;
     std::uint8_t negative_turns_ = 0;
     struct MeanOfFeed {
