@@ -42,10 +42,12 @@ void replays_to_the_estimates_of_the_run(const LiveFolder& folder, const std::st
     }
 }
 
+/// A busy computer would lose samples, and then hold or fault.
+const Words slow_motion{"--slow-motion", "4"};
+
 void ends_with_hold_and_complete_files(int signal) {
     const LiveFolder folder;
     const Candump candump("vcan0");
-    const Words slow_motion{"--slow-motion", "4"};  // a busy computer would lose samples, and then hold
     test::Program controller(with(with(folder.run_words(), {"--report", folder.file("page")}), slow_motion));
     test::Program plant(with(folder.plant_words(), slow_motion));
     CHECK(folder.logged("\"state\":\"in_cut\""));
@@ -152,8 +154,8 @@ TEST(RunOnVcan, a_plant_that_vanishes_is_stale_input_and_lost_by_name_and_comes_
 
 TEST(RunOnVcan, an_interface_that_goes_down_is_told_and_waited_for) {
     const LiveFolder folder;
-    test::Program controller(folder.run_words());
-    test::Program plant(folder.plant_words());
+    test::Program controller(with(folder.run_words(), slow_motion));
+    test::Program plant(with(folder.plant_words(), slow_motion));
     CHECK(folder.logged("\"type\":\"estimate\""));
     LONGS_EQUAL(0, shell("ip link set vcan0 down"));
     CHECK(folder.logged("\"interface_down\""));
