@@ -87,7 +87,7 @@ class SignalSupervisor {
     void watch_currents(const hal::DriveSample& sample, control::CutState state);
     void judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled);
     [[nodiscard]] bool is_speed_impossible(const Estimate& e, bool cuts);
-    [[nodiscard]] bool gains_more_than_any_spindle(const Estimate& e, Scalar share);
+    [[nodiscard]] bool gains_more_than_any_spindle(const Estimate& e, Scalar growth, Scalar ratio);
     [[nodiscard]] control::Fault sudden_change(const Estimate& e);
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
                           bool feed_is_settled);

@@ -210,21 +210,21 @@ bool SignalSupervisor<Scalar>::is_speed_impossible(const Estimate& e, bool cuts)
     speed_ratio_before_ = last_speed_ratio_;
     last_speed_ratio_ = ratio;
     const bool is_sudden = smaller > fastest_change || larger * fastest_change < Scalar(1);
-    return (cuts && is_sudden) || gains_more_than_any_spindle(e, growth / smaller);
+    return (cuts && is_sudden) || gains_more_than_any_spindle(e, growth, smaller);
 }
 
-/// `share` of the speed within two teeth. Three times what the quickest tapping spindles do, from rest to 10,000/min in
-/// 0.15 s.
+/// By `growth` to `ratio` times an earlier speed within two teeth. Three times what the quickest tapping spindles do,
+/// from rest to 10,000/min in 0.15 s.
 template <typename Scalar>
-bool SignalSupervisor<Scalar>::gains_more_than_any_spindle(const Estimate& e, Scalar share) {
+bool SignalSupervisor<Scalar>::gains_more_than_any_spindle(const Estimate& e, Scalar growth, Scalar ratio) {
     constexpr Scalar most_rad_s2 = Scalar(20000);
     constexpr Scalar longest_s = Scalar(0.25F);
     constexpr Scalar least_share = estimation::literal<Scalar>(0.2L);
-    if (!(share > least_share)) {
+    if (!(growth > least_share * ratio)) {
         return false;
     }
     const Scalar tooth_s = control::tooth_period_s(teeth_, e.spindle_speed_rad_s) * Scalar(e.tooth_periods);
-    return tooth_s < longest_s && e.spindle_speed_rad_s * share > most_rad_s2 * (tooth_s + tooth_s);
+    return tooth_s < longest_s && e.spindle_speed_rad_s * (growth / ratio) > most_rad_s2 * (tooth_s + tooth_s);
 }
 
 /// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.
