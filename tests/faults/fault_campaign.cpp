@@ -40,10 +40,6 @@ struct Row {
     std::vector<const Part*> parts{};
     Tally tally{};
 
-    /// No signal contradicts it (firmware/program/check/unseen_faults.hpp).
-    [[nodiscard]] bool is_unseen() const {
-        return fault == Fault{SignalFault::spindle_drifts} || fault == Fault{SignalFault::x_drifts};
-    }
     [[nodiscard]] bool is_sound() const { return fault == Fault{SignalFault::none}; }
 };
 
@@ -194,7 +190,7 @@ int run(const Options& options) {
             continue;
         }
         print(row);
-        (row.is_unseen() ? unseen : violations) += row.tally.violations();
+        (is_unseen(row.fault) ? unseen : violations) += row.tally.violations();
         if (row.is_sound()) {
             sound_runs += row.tally.runs;
             false_alarms += static_cast<int>(row.tally.reactions_s.size());

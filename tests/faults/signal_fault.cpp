@@ -9,12 +9,42 @@ namespace millforce::faults {
 
 namespace {
 
-constexpr double drift_A_per_s = 0.5;
-constexpr double offset_of_rated = 0.1;
+enum class Drive : std::uint8_t { spindle, x, y };
 
-float drifted_A(double since_s) {
-    return static_cast<float>(drift_A_per_s * since_s);
-}
+/// The true current times a gain, and what is added to it.
+struct CurrentFault {
+    SignalFault kind;
+    Drive drive;
+    float gain = 1.0F;
+    double drift_A_per_s = 0.0;
+    double offset_of_rated = 0.0;
+};
+
+constexpr CurrentFault current_faults[] = {
+    {SignalFault::spindle_weak, Drive::spindle, 0.3F},
+    {SignalFault::spindle_strong, Drive::spindle, 3.0F},
+    {SignalFault::spindle_drifts, Drive::spindle, 1.0F, -0.5},
+    {SignalFault::spindle_drifts_up, Drive::spindle, 1.0F, 0.5},
+    {SignalFault::spindle_low, Drive::spindle, 1.0F, 0.0, -0.1},
+    {SignalFault::spindle_high, Drive::spindle, 1.0F, 0.0, 0.1},
+    {SignalFault::spindle_dead, Drive::spindle, 0.0F},
+    {SignalFault::spindle_reversed, Drive::spindle, -1.0F},
+    {SignalFault::x_tenfold, Drive::x, 10.0F},
+    {SignalFault::x_weak, Drive::x, 0.3F},
+    {SignalFault::x_reversed, Drive::x, -1.0F},
+    {SignalFault::x_drifts, Drive::x, 1.0F, 0.5},
+    {SignalFault::x_drifts_down, Drive::x, 1.0F, -0.5},
+    {SignalFault::x_high, Drive::x, 1.0F, 0.0, 0.1},
+    {SignalFault::x_dead, Drive::x, 0.0F},
+    {SignalFault::y_tenfold, Drive::y, 10.0F},
+    {SignalFault::y_weak, Drive::y, 0.3F},
+    {SignalFault::y_reversed, Drive::y, -1.0F},
+    {SignalFault::y_drifts, Drive::y, 1.0F, 0.5},
+    {SignalFault::y_dead, Drive::y, 0.0F},
+};
+constexpr std::pair<SignalFault, Drive> frozen_currents[] = {{SignalFault::spindle_frozen, Drive::spindle},
+                                                             {SignalFault::x_frozen, Drive::x},
+                                                             {SignalFault::y_frozen, Drive::y}};
 
 void make_absent(hal::DriveSample& sample, hal::Present quantity) {
     sample.present = static_cast<std::uint8_t>(sample.present & ~hal::mask(quantity));
@@ -82,111 +112,47 @@ const char* name_of(SignalFault fault) {
 
 void SignalCorruption::corrupt(hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before,
                                double since_s) {
-    corrupt_spindle(sample, before, since_s);
-    corrupt_axes(sample, before, since_s);
+    corrupt_currents(sample, before, since_s);
     corrupt_velocities(sample, before);
     corrupt_encoder(sample, before);
     corrupt_program(program);
     corrupt_time(sample, before);
 }
 
-void SignalCorruption::corrupt_spindle(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) {
-    float& current_A = sample.spindle_current_A;
+void SignalCorruption::corrupt_currents(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) {
+    const auto of = [](auto& of_sample, Drive drive) -> auto& {
+        return drive == Drive::spindle ? of_sample.spindle_current_A
+                                       : of_sample.axis_current_A[drive == Drive::x ? 0 : 1];
+    };
+    for (const CurrentFault& fault : current_faults) {
+        if (fault.kind == fault_) {
+            const double rated_A = fault.drive == Drive::spindle ? spindle_rated_A_ : axis_rated_A_;
+            const double beside_A = fault.drift_A_per_s * since_s + fault.offset_of_rated * rated_A;
+            float& current_A = of(sample, fault.drive);
+            current_A = fault.gain * current_A + static_cast<float>(beside_A);
+        }
+    }
+    for (const auto& [kind, drive] : frozen_currents) {
+        if (kind == fault_) {
+            of(sample, drive) = of(before, drive);
+        }
+    }
     switch (fault_) {
-        case SignalFault::spindle_weak:
-            current_A *= 0.3F;
-            break;
-        case SignalFault::spindle_strong:
-            current_A *= 3.0F;
-            break;
         case SignalFault::spindle_saturated:
-            current_A = std::min(current_A, before.spindle_current_A);
-            break;
-        case SignalFault::spindle_drifts:
-            current_A -= drifted_A(since_s);
-            break;
-        case SignalFault::spindle_drifts_up:
-            current_A += drifted_A(since_s);
-            break;
-        case SignalFault::spindle_low:
-            current_A -= static_cast<float>(offset_of_rated * spindle_rated_A_);
-            break;
-        case SignalFault::spindle_high:
-            current_A += static_cast<float>(offset_of_rated * spindle_rated_A_);
-            break;
-        case SignalFault::spindle_frozen:
-            current_A = before.spindle_current_A;
-            break;
-        case SignalFault::spindle_dead:
-            current_A = 0.0F;
-            break;
-        case SignalFault::spindle_reversed:
-            current_A = -current_A;
+            sample.spindle_current_A = std::min(sample.spindle_current_A, before.spindle_current_A);
             break;
         case SignalFault::spindle_noisy:
-            current_A += static_cast<float>(std::normal_distribution(0.0, 0.1 * spindle_rated_A_)(random_));
+            sample.spindle_current_A +=
+                static_cast<float>(std::normal_distribution(0.0, 0.1 * spindle_rated_A_)(random_));
             break;
         case SignalFault::spindle_absent:
             make_absent(sample, hal::Present::spindle_current);
             break;
-        case SignalFault::not_a_number:
-            current_A = std::numeric_limits<float>::quiet_NaN();
-            break;
-        default:
-            break;
-    }
-}
-
-void SignalCorruption::corrupt_axes(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) const {
-    float& x_A = sample.axis_current_A[0];
-    float& y_A = sample.axis_current_A[1];
-    switch (fault_) {
-        case SignalFault::x_tenfold:
-            x_A *= 10.0F;
-            break;
-        case SignalFault::x_weak:
-            x_A *= 0.3F;
-            break;
-        case SignalFault::x_reversed:
-            x_A = -x_A;
-            break;
-        case SignalFault::x_drifts:
-            x_A += drifted_A(since_s);
-            break;
-        case SignalFault::x_drifts_down:
-            x_A -= drifted_A(since_s);
-            break;
-        case SignalFault::x_high:
-            x_A += static_cast<float>(offset_of_rated * axis_rated_A_);
-            break;
-        case SignalFault::x_frozen:
-            x_A = before.axis_current_A[0];
-            break;
-        case SignalFault::x_dead:
-            x_A = 0.0F;
-            break;
-        case SignalFault::y_tenfold:
-            y_A *= 10.0F;
-            break;
-        case SignalFault::y_weak:
-            y_A *= 0.3F;
-            break;
-        case SignalFault::y_reversed:
-            y_A = -y_A;
-            break;
-        case SignalFault::y_drifts:
-            y_A += drifted_A(since_s);
-            break;
-        case SignalFault::y_frozen:
-            y_A = before.axis_current_A[1];
-            break;
-        case SignalFault::y_dead:
-            y_A = 0.0F;
-            break;
         case SignalFault::x_and_y_swapped:
-            std::swap(x_A, y_A);
+            std::swap(sample.axis_current_A[0], sample.axis_current_A[1]);
             break;
         case SignalFault::not_a_number:
+            sample.spindle_current_A = std::numeric_limits<float>::quiet_NaN();
             sample.axis_current_A.fill(std::numeric_limits<float>::quiet_NaN());
             break;
         default:

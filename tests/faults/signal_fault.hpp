@@ -80,8 +80,7 @@ class SignalCorruption {
     void corrupt(hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before, double since_s);
 
   private:
-    void corrupt_spindle(hal::DriveSample& sample, const hal::DriveSample& before, double since_s);
-    void corrupt_axes(hal::DriveSample& sample, const hal::DriveSample& before, double since_s) const;
+    void corrupt_currents(hal::DriveSample& sample, const hal::DriveSample& before, double since_s);
     void corrupt_velocities(hal::DriveSample& sample, const hal::DriveSample& before) const;
     void corrupt_encoder(hal::DriveSample& sample, const hal::DriveSample& before) const;
     void corrupt_program(hal::ProgramStatus& program) const;
