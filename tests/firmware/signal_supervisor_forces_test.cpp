@@ -48,6 +48,46 @@ TEST(SignalSupervisorForces, forgets_a_force_that_vanished_where_the_feed_change
     CHECK(judged(supervisor, one_tooth(), 100, CutState::in_cut) == Fault::none);
 }
 
+TEST(SignalSupervisorForces, finds_a_force_that_vanishes_at_a_feed_that_varies_where_the_feed_cannot_explain_it) {
+    const auto of_fall = [](float fall_N, bool is_alike) {
+        Estimate varies = one_tooth();
+        varies.tooth_change.feed_is_steady = false;
+        varies.tooth_change.feed_is_alike = is_alike;
+        Estimate fall = varies;
+        fall.tooth_tangential_N = known_N(250.0F - fall_N);
+        fall.tooth_change.tangential_N = known_N(-fall_N);
+        Supervisor supervisor(machine_and_tool());
+        judged(supervisor, varies, 8, CutState::in_cut);
+        judged(supervisor, fall, 1, CutState::in_cut);
+        return judged(supervisor, varies, 6, CutState::in_cut);
+    };
+    CHECK(of_fall(245.0F, true) == Fault::force_vanished);
+    CHECK(of_fall(245.0F, false) == Fault::none);
+    const float by_a_lower_feed_N = 0.3F * 250.0F;
+    CHECK(of_fall(245.0F - by_a_lower_feed_N, true) == Fault::none);
+}
+
+TEST(SignalSupervisorForces, needs_four_deviations_of_a_load_that_is_held) {
+    const auto of_fall = [](float period_s, float sd_N) {
+        auto parameters = machine_and_tool();
+        parameters.machine.spindle_load_period_s = period_s;
+        Supervisor supervisor(parameters);
+        Estimate slow = one_tooth();  // 0.2 mm in a reading
+        slow.feed_mm_s = 2.0F;
+        slow.feed_per_tooth_mm = 0.0075F;
+        Estimate fall = slow;
+        fall.tooth_tangential_N = known_N(0.0F);
+        fall.tooth_change.tangential_N = {.valid = true, .value = -250.0F, .variance = sd_N * sd_N};
+        judged(supervisor, slow, 8, CutState::in_cut);
+        judged(supervisor, fall, 1, CutState::in_cut);
+        return judged(supervisor, slow, 6, CutState::in_cut);
+    };
+    CHECK(of_fall(0.1F, 25.0F) == Fault::force_vanished);
+    CHECK(of_fall(0.1F, 60.0F) == Fault::none);
+    CHECK(of_fall(0.0F, 25.0F) == Fault::force_vanished);
+    CHECK(of_fall(0.0F, 28.0F) == Fault::none);
+}
+
 TEST(SignalSupervisorForces, does_not_take_a_force_for_vanished_that_is_not_known_or_was_none) {
     Estimate e = fallen_force();
     e.tooth_change.tangential_N.valid = false;

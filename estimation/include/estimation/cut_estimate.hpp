@@ -109,6 +109,7 @@ struct CutEstimate {
         Scalar speed_ratio{1};                        ///< speed of the spindle now over that before
         Scalar feed_growth{0};        ///< (f − f_before)/f of a feed that has risen, by up to a half; ≥ 0
         bool feed_is_steady = false;  ///< the velocities differ by less than a tenth
+        bool feed_is_alike = false;   ///< by less than three tenths
         bool feed_is_new = false;     ///< by more than the present one: a sharp turn, or less than half the feed
     };
     ToothChange tooth_change{};

@@ -289,11 +289,13 @@ void CutEstimator<Scalar>::estimate_tooth_change() {
         }
     }
     constexpr Scalar steady_share2 = literal<Scalar>(0.01L);
+    constexpr Scalar alike_share2 = literal<Scalar>(0.09L);
     constexpr int velocities = Signals::velocities;
     const Scalar changed2 = change.template tail<velocities>().squaredNorm();
     const Scalar now2 = now.mean.template tail<velocities>().squaredNorm();
     const Scalar risen2 = now2 - before.mean.template tail<velocities>().squaredNorm();
     c.feed_is_steady = changed2 < steady_share2 * now2;
+    c.feed_is_alike = changed2 < alike_share2 * now2;
     c.feed_is_new = changed2 > now2;
     c.feed_growth = risen2 > Scalar(0) ? halved(risen2 / now2) : Scalar(0);
 }

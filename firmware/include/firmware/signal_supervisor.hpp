@@ -41,8 +41,10 @@
 ///
 /// A narrower cut, or an edge at an angle, ends more slowly. The bound is 1.5 times that share, and six standard
 /// deviations of noise. A load that is told once in load_period_s shows at once what the cut changed by since the last
-/// one: s then includes the travel in that time. Where the feed changes in the revolution before or after, or before a
-/// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged.
+/// one: s then includes the travel in that time, and four deviations are enough: it has fewer noises to err by. Where the feed changes in the revolution before or after, or before a
+/// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged; but
+/// where the feed has changed by less than three tenths from revolution to revolution, F_at cannot fall by much more
+/// than that: it is judged with the share 0.3 added.
 /// Nor is it in the 0.2 mm after a sharp turn or a fall to less than half the feed: tool and machine were bent by the
 /// cut, and cut on while they spring back.
 /// Nor in state entry: a cut may begin with a whole tooth.
@@ -88,7 +90,11 @@ class SignalSupervisor {
     void judge_teeth(const Estimate& e, control::CutState state, bool feed_is_settled);
     [[nodiscard]] bool is_speed_impossible(const Estimate& e, bool cuts);
     [[nodiscard]] bool gains_more_than_any_spindle(const Estimate& e, Scalar growth, Scalar ratio);
-    [[nodiscard]] control::Fault sudden_change(const Estimate& e);
+    struct SuddenChange {
+        control::Fault fault = control::Fault::none;
+        bool exceeds_the_feeds = false;  // a fall that a feed three tenths lower does not explain either
+    };
+    [[nodiscard]] SuddenChange sudden_change(const Estimate& e);
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
                           bool feed_is_settled);
     [[nodiscard]] bool is_negative_in_the_mean(const estimation::Measurement<Scalar>& tangential_N, bool feeds);
@@ -96,6 +102,7 @@ class SignalSupervisor {
     void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
 
     static constexpr Scalar significant = Scalar(6);  // standard deviations
+    static constexpr Scalar significant_of_held_load = Scalar(4);
     static constexpr Scalar total_per_tangential =
         Scalar(2);                                   // the in-plane force is at most that much larger than F_at
     static constexpr std::uint8_t surely_turns = 3;  // revolutions in a row
@@ -141,11 +148,32 @@ class SignalSupervisor {
     Jump tangential_{};
     std::array<Jump, 2> axis_jumps_{};
     int steady_periods_ = 0;         // tooth periods at an unchanged velocity
+    int alike_periods_ = 0;          // at one that changes by less than three tenths
     Scalar spring_back_left_mm_{0};  // travel in which a bent tool may still cut where the path has turned
+
     /// A sudden change, until the velocity has stayed as it was for a revolution: a drive's current brakes before the
     /// axis slows down.
-    control::Fault suspected_ = control::Fault::none;
-    int steady_since_ = 0;
+    class Suspicion {
+      public:
+        /// `periods`: at such a velocity. The fault that is certain now.
+        [[nodiscard]] control::Fault follow(control::Fault sudden, int periods, bool is_steady, Scalar teeth) {
+            if (fault_ == control::Fault::none) {
+                fault_ = is_steady ? sudden : control::Fault::none;
+                since_ = periods;
+            } else if (!is_steady) {
+                fault_ = control::Fault::none;
+            } else if (Scalar(periods - since_) >= teeth) {
+                return fault_;
+            }
+            return control::Fault::none;
+        }
+
+      private:
+        control::Fault fault_ = control::Fault::none;
+        int since_ = 0;
+    };
+    Suspicion steady_suspicion_{};
+    Suspicion alike_suspicion_{};
     int last_periods_ = 0;  // of the estimate before
     int periods_in_turn_ = 0;
     Scalar last_speed_rad_s_{0};

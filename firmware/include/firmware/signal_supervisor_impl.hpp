@@ -46,8 +46,8 @@ template <typename Scalar>
 void SignalSupervisor<Scalar>::restart() {
     tangential_ = {};
     axis_jumps_ = {};
-    suspected_ = control::Fault::none;
-    steady_periods_ = 0;
+    steady_suspicion_ = alike_suspicion_ = {};
+    steady_periods_ = alike_periods_ = 0;
     periods_in_turn_ = 0;
     last_speed_rad_s_ = Scalar(0);
     last_speed_ratio_ = speed_ratio_before_ = Scalar(1);
@@ -176,27 +176,27 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     constexpr Scalar spring_back_mm = literal<Scalar>(0.2L);
     const typename Estimate::ToothChange& change = e.tooth_change;
     const bool is_level = square(e.axial_speed_mm_s) < square(level_share * e.feed_mm_s);
-    steady_periods_ = change.feed_is_steady && feed_is_settled && is_level ? steady_periods_ + e.tooth_periods : 0;
+    const bool is_known = feed_is_settled && is_level;
+    steady_periods_ = change.feed_is_steady && is_known ? steady_periods_ + e.tooth_periods : 0;
+    alike_periods_ = change.feed_is_alike && is_known ? alike_periods_ + e.tooth_periods : 0;
     if (change.feed_is_new) {
         spring_back_left_mm_ = spring_back_mm;
     } else if (spring_back_left_mm_ > Scalar(0)) {
         spring_back_left_mm_ -= e.feed_per_tooth_mm * Scalar(e.tooth_periods);
     }
-    const control::Fault sudden = sudden_change(e);
+    const SuddenChange sudden = sudden_change(e);
     const bool cuts = control::is_cutting(state);
     if (is_speed_impossible(e, cuts)) {
         find(control::Fault::encoder_mismatch);
     }
-    const bool is_steady = Scalar(steady_periods_) > teeth_ + more_periods && !(spring_back_left_mm_ > Scalar(0));
-    if (suspected_ == control::Fault::none) {
-        const bool has_entered = cuts && state != control::CutState::entry;  // a cut may begin with a whole tooth
-        suspected_ = has_entered && is_steady ? sudden : control::Fault::none;
-        steady_since_ = steady_periods_;
-    } else if (!is_steady) {
-        suspected_ = control::Fault::none;
-    } else if (Scalar(steady_periods_ - steady_since_) >= teeth_) {
-        find(suspected_);
-    }
+    const bool has_entered = cuts && state != control::CutState::entry;  // a cut may begin with a whole tooth
+    const auto suspect = [&](Suspicion& suspicion, bool is_sudden, int periods) {
+        const bool is_steady = Scalar(periods) > teeth_ + more_periods && !(spring_back_left_mm_ > Scalar(0));
+        find(suspicion.follow(has_entered && is_sudden ? sudden.fault : control::Fault::none, periods, is_steady,
+                              teeth_));
+    };
+    suspect(steady_suspicion_, true, steady_periods_);
+    suspect(alike_suspicion_, sudden.exceeds_the_feeds, alike_periods_);
 }
 
 /// In two teeth on end: a sample with a wrong time makes one tooth alone seem short, and the next one long.
@@ -229,10 +229,11 @@ bool SignalSupervisor<Scalar>::gains_more_than_any_spindle(const Estimate& e, Sc
 
 /// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.
 template <typename Scalar>
-control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
+typename SignalSupervisor<Scalar>::SuddenChange SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     using estimation::square;
     using std::sqrt;
     constexpr Scalar bound = Scalar(1.5F);
+    constexpr Scalar feeds_share = estimation::literal<Scalar>(0.3L);
     const typename Estimate::ToothChange& change = e.tooth_change;
     const Scalar tangential_N = tangential_.follow(change.tangential_N.value);
     const std::array<Scalar, 2> axis_N{axis_jumps_[0].follow(change.axis_N[0].value),
@@ -244,24 +245,29 @@ control::Fault SignalSupervisor<Scalar>::sudden_change(const Estimate& e) {
     const Scalar now_N = e.tooth_tangential_N.value;
     const Scalar before_N = now_N - change.tangential_N.value;
     if (!change.tangential_N.valid || !(share < Scalar(1)) || !(before_N > Scalar(0))) {
-        return control::Fault::none;
+        return {};
     }
-    const auto is_beyond_noise = [](Scalar excess_N, const estimation::Measurement<Scalar>& m) {
-        return excess_N > Scalar(0) && square(excess_N) > Scalar(2) * square(significant) * m.variance;
+    const auto is_beyond_noise = [](Scalar excess_N, Scalar variances, const estimation::Measurement<Scalar>& m) {
+        return excess_N > Scalar(0) && square(excess_N) > variances * m.variance;
     };
-    if (is_beyond_noise(-tangential_N - share * before_N, change.tangential_N)) {
-        return control::Fault::force_vanished;
+    constexpr Scalar by_jump = Scalar(2) * square(significant);  // the difference of two changes
+    // A load that is held does not change at all before it does, and has one noise in load_period_s.
+    const Scalar by_fall = load_period_s_ > Scalar(0) ? square(significant_of_held_load) : by_jump;
+    const Scalar vanished_N = -tangential_N - share * before_N;
+    if (is_beyond_noise(vanished_N, by_fall, change.tangential_N)) {
+        return {control::Fault::force_vanished,
+                is_beyond_noise(vanished_N - feeds_share * before_N, by_fall, change.tangential_N)};
     }
     const Scalar larger_N = now_N > before_N ? now_N : before_N;  // a cut begins as fast as it ends
     const Scalar most_N = share * total_per_tangential * larger_N;
     for (std::size_t k = 0; k < axis_N.size(); ++k) {
         const Scalar jump_N = axis_N[k] < Scalar(0) ? -axis_N[k] : axis_N[k];
         const Scalar hidden_N = hidden_inertia_[k] * e.feed_mm_s * e.spindle_speed_rad_s;
-        if (change.axis_N[k].valid && is_beyond_noise(jump_N - most_N - hidden_N, change.axis_N[k])) {
-            return control::Fault::force_jumped;
+        if (change.axis_N[k].valid && is_beyond_noise(jump_N - most_N - hidden_N, by_jump, change.axis_N[k])) {
+            return {control::Fault::force_jumped, false};
         }
     }
-    return control::Fault::none;
+    return {};
 }
 
 template <typename Scalar>
