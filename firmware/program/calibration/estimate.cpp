@@ -2,6 +2,8 @@
 #include "calibration/estimate.hpp"
 
 #include "calibration/calibration_report.hpp"
+#include "calibration/duplicate_rows.hpp"
+#include "calibration/plausible_units.hpp"
 #include "files/atomic_file.hpp"
 #include "files/input_error.hpp"
 #include "files/progress.hpp"
@@ -10,7 +12,10 @@
 
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace millforce::host {
 
@@ -78,6 +83,7 @@ struct Summary {
     std::size_t rows = 0;
     std::size_t outside = 0;
     ErrorMean torque, normal_force, depth, width;
+    std::vector<double> torques_over_law;
 
     void add(const CutRow& row, const RowEstimates& e, const CuttingLaw<double>& law) {
         ++rows;
@@ -88,6 +94,10 @@ struct Summary {
                        ? 1U
                        : 0U;
         torque.add(e.spindle_torque_Nm.value, row.spindle_torque_Nm);
+        const double over_law = row.spindle_torque_Nm / e.spindle_torque_Nm.value;
+        if (std::isfinite(over_law)) {
+            torques_over_law.push_back(over_law);
+        }
         normal_force.add(e.normal_force_N.value, row.normal_force_N);
         depth.add(e.axial_depth_mm.value, row.axial_depth_mm);
         width.add(e.radial_width_mm.value, row.radial_width_mm);
@@ -102,6 +112,18 @@ void print_summary(std::ostream& out, const Summary& summary, const CuttingLaw<d
         out << fmt::format("  {} rows lie outside the calibrated chip thickness of {:.4g} to {:.4g} mm: extrapolated\n",
                            summary.outside, law.minimum_chip_thickness_mm, law.maximum_chip_thickness_mm);
     }
+}
+
+/// Measured torques that are far from the tool's law: another unit, another material, or a reversed sign.
+UnitQuestions ask_about_torques(std::vector<double> torques_over_law) {
+    constexpr double most = 4.0;
+    const double middle = torques_over_law.empty() ? 1.0 : median_of(std::move(torques_over_law));
+    if (middle <= most && middle * most >= 1.0) {
+        return {};
+    }
+    return {fmt::format("spindle_torque_Nm is {:.3g} times what the tool's law predicts (median); expected a quarter to "
+                        "four times; is it in another unit, is spindle_rad_s in 1/s, or was another material cut?",
+                        middle)};
 }
 
 void refuse_present_columns(const CsvReader& csv) {
@@ -160,6 +182,9 @@ int estimate(const EstimateOptions& options, std::ostream& out) {
     CutRow row;
     Progress progress("estimating " + reader.csv().file_name());
     while (reader.next(row)) {
+        refuse_implausible_cut(row_place(reader.csv()),
+                               {row.tool_diameter_mm, row.feed_mm_s, row.feed_per_tooth_mm(), row.spindle_rad_s},
+                               "feed_mm_s", "spindle_rad_s");
         const RowEstimates e = estimate_row(tool.law, side, row);
         table += reader.csv().row_text();
         for (const Estimated& value : {e.spindle_torque_Nm, e.normal_force_N, e.axial_depth_mm, e.radial_width_mm}) {
@@ -176,14 +201,15 @@ int estimate(const EstimateOptions& options, std::ostream& out) {
     if (summary.rows == 0) {
         throw InputError(fmt::format("{}: no rows after the header, expected cuts", reader.csv().file_name()));
     }
+    const UnitQuestions questions = ask_about_torques(std::move(summary.torques_over_law));
     if (!file) {
         out << table;
-        return exit_done;
+        return ask(std::cerr, questions, exit_done);
     }
     file->stream() << table;
     file->commit();
     print_summary(out, summary, tool.law);
-    return exit_done;
+    return ask(out, questions, exit_done);
 }
 
 }  // namespace millforce::host

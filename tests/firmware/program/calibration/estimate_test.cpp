@@ -5,6 +5,8 @@
 #include "files/input_error.hpp"
 #include "temporary_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
@@ -170,4 +172,29 @@ TEST(Estimate, names_place_key_and_expectation_in_a_bad_tool_file) {
     CHECK(contains(error_of_tool("[cutting]\nk_s_N_per_mm2 = 900\np_s = -1.5\n"), "cutting.p_s = -1.5: expected"));
     CHECK(contains(error_of_tool(law_text + "cut_side = \"left\"\n"), "\"left\": expected one of down, up"));
     CHECK(!message_of<InputError>([] { read_tool_law("/nonexistent/tool.toml"); }).empty());
+}
+
+TEST(Estimate, refuses_a_speed_or_a_feed_in_another_unit_and_names_the_line) {
+    const auto error_of_cut = [](std::string_view speed, std::string_view feed) {
+        return run_estimate(header + fmt::format("\n10,2,600,2,5,20,1\n10,2,{},2,5,{},1\n", speed, feed), law_text, true)
+            .error;
+    };
+    STRCMP_EQUAL("", error_of_cut("600", "20").c_str());
+    STRCMP_CONTAINS("cuts.csv:3: column 'spindle_rad_s'", error_of_cut("30000", "20").c_str());
+    STRCMP_CONTAINS("is it in 1/min", error_of_cut("30000", "20").c_str());
+    STRCMP_CONTAINS("is spindle_rad_s in 1/min", error_of_cut("5730", "0.9").c_str());
+    STRCMP_CONTAINS("is it in mm/min?", error_of_cut("600", "1200").c_str());
+}
+
+TEST(Estimate, asks_about_torques_that_are_far_from_the_tools_law) {
+    const auto of_torque = [](double torque_Nm) {
+        return run_estimate(header + fmt::format("\n10,2,600,2,5,20,{}\n", torque_Nm), law_text, true);
+    };
+    CHECK_EQUAL(0, of_torque(1.0).code);
+    for (const double torque_Nm : {0.01, 100.0, -1.0}) {
+        const Run run = of_torque(torque_Nm);
+        CHECK_EQUAL(1, run.code);
+        STRCMP_CONTAINS("warning: spindle_torque_Nm is ", run.text.c_str());
+        CHECK(!run.csv.empty());
+    }
 }
