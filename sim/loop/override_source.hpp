@@ -57,6 +57,8 @@ class TickController : public OverrideSource {
           total_force_(firmware::total_force(firmware::parameters_in<Scalar>(parameters))) {}
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(TracePoint& point) const override;
+    /// The operator's acknowledgement of a latched fault.
+    void reset_fault() { tick_.reset_fault(); }
     [[nodiscard]] const estimation::CutEstimate<Scalar>& estimate() const { return tick_.estimate(); }
     [[nodiscard]] const estimation::RoughnessPrediction<Scalar>& roughness() const { return tick_.roughness(); }
     [[nodiscard]] const firmware::WideBandEstimate<Scalar>& wide_band() const { return tick_.wide_band(); }

@@ -260,7 +260,7 @@ TEST(CeilingsInAir, a_cut_goes_on_behind_a_feed_hold_as_fast_as_it_was_though_it
     held.feed_hold = true;
     CHECK(repeat(controller, held, 100).state == CutState::hold);
     const Output released = controller.step(input);
-    CHECK(released.state == CutState::entry);
+    CHECK(released.state == CutState::in_cut);
     check_ratio(before, released);
 }
 

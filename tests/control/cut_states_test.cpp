@@ -149,8 +149,38 @@ TEST(CutStates, holds_while_the_feed_is_held_and_goes_on_with_the_next_estimate)
         CHECK(hold.ratio <= before);
         held.feed_hold = false;
         const Output released = controller.step(held);
-        CHECK(released.state == (cutting ? CutState::entry : CutState::exit));
+        CHECK(released.state == (cutting ? CutState::in_cut : CutState::exit));
         CHECK_FALSE(released.hold);
+    }
+}
+
+TEST(CutStates, behind_a_hold_in_the_cut_looks_for_contact_for_the_exit_travel) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input held = in_contact();
+    held.feed_hold = true;
+    const float before = controller.step(held).ratio;
+    held.cut = in_air().cut;        // a tool that stands cuts nothing
+    repeat(controller, held, 300);  // moves by 6 mm, and the feed is not free yet
+    const Output released = repeat(controller, in_air(), 99);
+    CHECK(released.state == CutState::hold);
+    CHECK_FALSE(released.hold);
+    CHECK(released.ratio <= before);
+    CHECK(repeat(controller, in_air(), 3).state == CutState::exit);
+    CHECK(repeat(controller, in_contact(), 1).state == CutState::entry);
+}
+
+TEST(CutStates, behind_a_hold_out_of_the_cut_or_while_it_begins_the_cutter_enters) {
+    Controller in_air_before;
+    repeat(in_air_before, in_air(), 10);
+    Controller entering;
+    repeat(entering, in_contact(), 3);
+    CHECK(entering.state() == CutState::entry);
+    for (Controller* controller : {&in_air_before, &entering}) {
+        Input held = in_contact();
+        held.feed_hold = true;
+        CHECK(repeat(*controller, held, 10).state == CutState::hold);
+        CHECK(controller->step(in_contact()).state == CutState::entry);
     }
 }
 

@@ -210,16 +210,29 @@ TEST(Faults, a_fault_is_not_left_by_a_feed_hold_nor_by_another_fault) {
     CHECK(repeat(controller, in_air(), 10).state == CutState::fault);
 }
 
-TEST(Faults, reset_leaves_a_fault_for_air_at_the_lowest_override) {
+TEST(Faults, reset_leaves_a_fault_at_the_lowest_override_until_the_tool_has_moved) {
     Controller controller;
     bring_into_cut(controller);
     CHECK(into_overload(controller).fault == Fault::overload);
     controller.reset();
-    CHECK(controller.state() == CutState::air);
-    const Output output = controller.step(in_air());
+    CHECK(controller.state() == CutState::hold);
+    const Output output = repeat(controller, in_air(), 50);  // 1 mm, half the exit travel
     CHECK(output.fault == Fault::none);
     CHECK_FALSE(output.hold);
     CHECK(output.ratio < 0.11F);
+    CHECK(repeat(controller, in_air(), 52).state == CutState::exit);
+    CHECK(repeat(controller, in_air(), 102).state == CutState::air);
+}
+
+TEST(Faults, behind_a_reset_a_tool_that_stands_in_its_cut_is_in_the_cut_and_does_not_enter_it) {
+    Controller controller;
+    bring_into_cut(controller);
+    CHECK(into_overload(controller).fault == Fault::overload);
+    controller.reset();
+    Input at_rest = in_air();
+    at_rest.path_speed_mm_s = 0.0F;
+    CHECK(repeat(controller, at_rest, 1000).state == CutState::hold);
+    CHECK(controller.step(in_contact()).state == CutState::in_cut);
 }
 
 namespace {

@@ -22,13 +22,10 @@ namespace {
 /// Four times as fast as the plant's usual resolution; the force errs by at most (0.1 rad)²/6, 0.2 %.
 constexpr sim::EdgeResolution coarse{.largest_angle_per_slice_rad = 0.1, .largest_turn_rad = 0.11};
 
-/// What is held for so long is over.
-constexpr double held_for_good_s = 1.0;
-
 /// A controller on its path, and how a fault of that path begins.
 struct Seat {
     std::unique_ptr<sim::OverrideSource> controller;
-    std::function<void()> begin{};
+    OnPath on_path{};
 };
 
 Seat seat_on_bus(const sim::Scenario& scenario, const Fault& fault, std::uint64_t seed) {
@@ -37,8 +34,12 @@ Seat seat_on_bus(const sim::Scenario& scenario, const Fault& fault, std::uint64_
     controller->ticks.is_kept = false;
     Seat seat;
     if (const auto* of_bus = std::get_if<BusFault>(&fault)) {
-        seat.begin = [bus = controller.get(), kind = *of_bus, seed] { bus->wire.set_fault(on_bus(kind, seed)); };
+        seat.on_path.begin = [bus = controller.get(), kind = *of_bus, seed] {
+            bus->wire.set_fault(on_bus(kind, seed));
+        };
     }
+    seat.on_path.repair = [bus = controller.get()] { bus->wire.set_fault({}); };
+    seat.on_path.reset = [bus = controller.get()] { bus->cnc.press_reset(true); };
     seat.controller = std::move(controller);
     return seat;
 }
@@ -47,8 +48,21 @@ Seat seat_on_link(const sim::Scenario& scenario, const Fault& fault, std::uint64
     auto controller = std::make_unique<ControllerOnLink>(link_controller(scenario.parameters), seed);
     Seat seat;
     if (const auto* of_link = std::get_if<LinkFault>(&fault)) {
-        seat.begin = [link = controller.get(), kind = *of_link] { link->begin(kind); };
+        seat.on_path.begin = [link = controller.get(), kind = *of_link] { link->begin(kind); };
     }
+    seat.on_path.repair = [link = controller.get(), parameters = scenario.parameters] {
+        link->repair(link_controller(parameters));
+    };
+    seat.on_path.reset = [link = controller.get()] { link->press_reset(); };
+    seat.controller = std::move(controller);
+    return seat;
+}
+
+Seat seat_at_tick(const sim::Scenario& scenario) {
+    auto controller = std::make_unique<sim::MillforceController>(scenario.parameters);
+    Seat seat;
+    seat.on_path.repair = [] {};
+    seat.on_path.reset = [tick = controller.get()] { tick->reset_fault(); };
     seat.controller = std::move(controller);
     return seat;
 }
@@ -64,7 +78,7 @@ Seat seat_on(Path path, const Part& part, const Fault& fault, std::uint64_t seed
         case Path::tick:
             break;
     }
-    return {std::make_unique<sim::MillforceController>(part.stated), {}};
+    return seat_at_tick(stated);
 }
 
 FaultyMachine::Corrupt corruption(const Part& part, const Fault& fault, std::uint64_t seed) {
@@ -203,7 +217,7 @@ double peak_between(const sim::RunResult& run, double begins_s, double held_s) {
 }  // namespace
 
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
-                             const std::function<void()>& begin) {
+                             const OnPath& on_path) {
     constexpr double spindle_start_s = 2.0;  // of a simulation, before the program begins
     std::mt19937_64 random(seed);
     sim::Scenario scenario = part.scenario;
@@ -213,12 +227,15 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
     const double into_part_s = is_sound ? 0.0 : std::uniform_real_distribution(0.0, part.duration_s)(random);
     FaultyMachine machine(controller, {.begins_s = spindle_start_s + into_part_s,
                                        .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
-                                       .begin = begin,
+                                       .begin = on_path.begin,
                                        .corrupt = corruption(part, fault, seed),
+                                       .repair = on_path.repair,
+                                       .reset = on_path.reset,
                                        .leaves_blind = leaves_blind(fault, part)});
     sim::SimulationSettings stopped_early;
-    stopped_early.longest_run_s = 1.5 * part.duration_s;
-    stopped_early.progress = [&machine](double) { return machine.reaction().held_s < held_for_good_s; };
+    const double of_repair_s = on_path.repair ? part.duration_s : 0.0;
+    stopped_early.longest_run_s = 1.5 * part.duration_s + of_repair_s;
+    stopped_early.progress = [&machine](double) { return !machine.is_over(); };
     Outcome outcome;
     outcome.run = sim::simulate(scenario, machine, "millforce", stopped_early).result;
     outcome.reaction = machine.reaction();
@@ -249,10 +266,13 @@ Part with_drawn_noise(const Part& part, std::uint64_t seed) {
 
 }  // namespace
 
-Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed) {
+Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed, bool is_repaired) {
     const Part drawn = with_drawn_noise(part, seed);
-    const Seat seat = seat_on(path, drawn, fault, seed);
-    return mill_with_controller(drawn, *seat.controller, fault, seed, seat.begin);
+    Seat seat = seat_on(path, drawn, fault, seed);
+    if (!is_repaired) {
+        seat.on_path.repair = {};
+    }
+    return mill_with_controller(drawn, *seat.controller, fault, seed, seat.on_path);
 }
 
 void Tally::add(const Outcome& outcome) {
@@ -268,6 +288,8 @@ void Tally::add(const Outcome& outcome) {
     rose_blind += outcome.reaction.rose_blind ? 1 : 0;
     stopped_silently += outcome.reaction.stopped_silently ? 1 : 0;
     crawled += outcome.crawled ? 1 : 0;
+    repaired += outcome.reaction.is_repaired ? 1 : 0;
+    milled_on += outcome.reaction.is_repaired && figures.finished ? 1 : 0;
     largest_peak_until_held = std::max(largest_peak_until_held, outcome.peak_until_held);
     largest_peak = std::max(largest_peak, figures.peak_over_limit);
     if (outcome.reaction.has_reacted) {

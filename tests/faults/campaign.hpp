@@ -63,10 +63,17 @@ struct Outcome {
     bool crawled = false;          ///< the part took half as long again, without a fault or a hold
     double peak_until_held = 0.0;  ///< force of a tooth over its limit, from the fault's begin until the axes stood
 };
-Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed);
-/// On another path, e.g. a controller in another process; `begin` is called where the fault begins.
+/// `is_repaired`: what holds the feed for held_for_good_s is put right then, the operator resets, and the part goes on.
+Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed, bool is_repaired = false);
+/// What a path adds: each may be empty.
+struct OnPath {
+    std::function<void()> begin{};   ///< where the fault begins
+    std::function<void()> repair{};  ///< where it ends: FaultyMachine::Settings
+    std::function<void()> reset{};
+};
+/// On another path, e.g. a controller in another process.
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
-                             const std::function<void()>& begin = {});
+                             const OnPath& on_path = {});
 
 /// What the runs of one fault came to.
 struct Tally {
@@ -78,6 +85,8 @@ struct Tally {
     int rose_blind = 0;
     int stopped_silently = 0;
     int crawled = 0;
+    int repaired = 0;
+    int milled_on = 0;  ///< the part was finished after the repair
     double largest_peak = 0.0;
     double largest_peak_until_held = 0.0;  ///< of the runs that held the feed or faulted
     std::vector<double> reactions_s;       ///< of the runs that held the feed or faulted

@@ -32,6 +32,7 @@ hal::FeedOverride ControllerOnLink::step(const hal::DriveSample& sample, const h
         message_ = test::message_of(sample, program);
     }
     message_.sequence = ++sequence_;
+    message_.reset = resets_;
     if (fault_ == LinkFault::nothing_present) {
         message_.present = 0;
     }
@@ -40,6 +41,15 @@ hal::FeedOverride ControllerOnLink::step(const hal::DriveSample& sample, const h
     }
     is_guarded_ = is_guarded_ || sample.time_us - answered_us_ > guard_timeout_us;
     return {answer_.ratio, answer_.hold || is_guarded_, answer_.state, answer_.fault, answer_.heartbeat};
+}
+
+void ControllerOnLink::repair(Exchange exchange) {
+    fault_ = LinkFault::none;
+    if (is_guarded_) {
+        exchange_ = std::move(exchange);
+        is_guarded_ = false;
+        answered_us_ = message_.time_us;
+    }
 }
 
 bool ControllerOnLink::is_answered(const local_link::SampleMessage& message) {

@@ -40,6 +40,9 @@ class ControllerOnLink : public sim::OverrideSource {
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override;
     void describe(sim::TracePoint&) const override {}  // the controller keeps its estimates
     void begin(LinkFault fault) { fault_ = fault; }
+    /// The fault is over; where the guard holds, a new connection is made to `exchange`.
+    void repair(Exchange exchange);
+    void press_reset() { resets_ = true; }
 
   private:
     [[nodiscard]] bool is_answered(const local_link::SampleMessage& message);
@@ -53,6 +56,7 @@ class ControllerOnLink : public sim::OverrideSource {
     std::uint32_t answered_us_ = 0;
     std::uint32_t sequence_ = 0;
     bool is_guarded_ = false;  ///< the guard holds
+    bool resets_ = false;
 };
 
 /// A LinkController in this process.

@@ -7,9 +7,11 @@
 #include <atomic>
 #include <fstream>
 #include <mutex>
+#include <random>
 #include <thread>
 
 #include "faults/campaign.hpp"
+#include "files/input_error.hpp"
 #include "percent.hpp"
 #include "report/trace_csv.hpp"
 
@@ -25,6 +27,7 @@ struct Options {
     int runs = 1000;
     std::uint64_t seed = 1;
     double sound_share = 0.1;
+    double repaired_share = 0.2;
     std::vector<std::string> parts{"depth_ramp",         "width_step",         "slot_entry",
                                    "depth_ramp:spindle", "width_step:spindle", "slot_entry:spindle"};
     std::vector<std::string> paths{"tick", "can", "link"};
@@ -75,6 +78,7 @@ struct Run {
     std::size_t row = 0;
     const Part* part = nullptr;
     std::uint64_t seed = 0;
+    bool is_repaired = false;
 };
 
 /// The sound runs first; the others in turn, over all rows and their parts.
@@ -90,7 +94,10 @@ std::vector<Run> runs_of(const Options& options, const std::vector<Row>& rows) {
             const auto index = static_cast<std::size_t>(n);
             const std::size_t row = among[index % among.size()];
             const auto& parts = rows[row].parts;
-            runs.push_back({row, parts[index / among.size() % parts.size()], options.seed + runs.size()});
+            const std::uint64_t seed = options.seed + runs.size();
+            std::mt19937_64 random(seed);
+            runs.push_back({row, parts[index / among.size() % parts.size()], seed,
+                            std::bernoulli_distribution(options.repaired_share)(random)});
         }
     };
     const int sound_runs =
@@ -104,10 +111,14 @@ void say(const Row& row, const Run& run, const Outcome& outcome) {
     Tally one;
     one.add(outcome);
     const bool is_false_alarm = row.is_sound() && outcome.reaction.has_reacted;
-    if (one.violations() > 0 || is_false_alarm) {
+    const bool is_held_again = one.repaired > one.milled_on;
+    if (one.violations() > 0 || is_false_alarm || is_held_again) {
         fmt::print(stderr, "{}: {}, {}, {}, seed {}, peak {:.0f} %, teeth broken {}, fault {}\n",
-                   is_false_alarm ? "false alarm" : "violation", name_of(row.path), run.part->name, name_of(row.fault),
-                   run.seed, 100.0 * outcome.run.figures.peak_over_limit, outcome.run.figures.teeth_broken,
+                   is_false_alarm         ? "false alarm"
+                   : one.violations() > 0 ? "violation"
+                                          : "does not mill on",
+                   name_of(row.path), run.part->name, name_of(row.fault), run.seed,
+                   100.0 * outcome.run.figures.peak_over_limit, outcome.run.figures.teeth_broken,
                    outcome.reaction.fault);
     }
 }
@@ -133,7 +144,7 @@ void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Option
     const auto work = [&] {
         for (std::size_t k = next++; k < runs.size(); k = next++) {
             Row& row = rows[runs[k].row];
-            const Outcome outcome = mill_with(*runs[k].part, row.path, row.fault, runs[k].seed);
+            const Outcome outcome = mill_with(*runs[k].part, row.path, row.fault, runs[k].seed, runs[k].is_repaired);
             const std::scoped_lock hold(lock);
             row.tally.add(outcome);
             show_progress(++done, runs.size());
@@ -158,12 +169,12 @@ void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Option
 void print(const Row& row) {
     const Tally& t = row.tally;
     const bool has_reacted = !t.reactions_s.empty();
-    fmt::print("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {} | {} |\n", name_of(row.fault), name_of(row.path),
-               t.runs, percent(t.broken_parts, t.runs), percent(t.over, t.runs), 100.0 * t.largest_peak,
-               percent(static_cast<int>(t.reactions_s.size()), t.runs),
+    fmt::print("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", name_of(row.fault),
+               name_of(row.path), t.runs, percent(t.broken_parts, t.runs), percent(t.over, t.runs),
+               100.0 * t.largest_peak, percent(static_cast<int>(t.reactions_s.size()), t.runs),
                has_reacted ? fmt::format("{:.2f}, {:.2f}", t.median_reaction_s(), t.longest_reaction_s()) : "",
                has_reacted ? fmt::format("{:.0f}", 100.0 * t.largest_peak_until_held) : "", percent(t.crawled, t.runs),
-               t.violations());
+               t.repaired > 0 ? percent(t.milled_on, t.repaired) : "", t.violations());
 }
 
 int run(const Options& options) {
@@ -179,8 +190,8 @@ int run(const Options& options) {
     mill_all(runs_of(options, rows), rows, options);
     fmt::print(
         "| fault | path | runs | tooth broken, % | peak above 110 %, % | largest peak, % | feed held, % | after, s: "
-        "median, longest | peak until held, % | crawls, % | violations "
-        "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "median, longest | peak until held, % | crawls, % | mills on, % | "
+        "violations |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     int violations = 0;
     int unseen = 0;
     int sound_runs = 0;
@@ -212,6 +223,11 @@ int main(int argc, char** argv) {
     app.add_option("--sound", options.sound_share, "share of the runs without a fault")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    app.add_option("--repaired", options.repaired_share,
+                   "share of the runs in which a fault that held the feed for a second ends then, the operator resets, "
+                   "and the part goes on")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
     app.add_option("--part", options.parts,
                    "scenarios; NAME:spindle is a machine that reads its spindle's current alone, NAME:vfd one with a "
                    "frequency converter's load instead");
@@ -221,5 +237,10 @@ int main(int argc, char** argv) {
     app.add_flag("--list", options.lists_violations, "each run that broke a rule, with its seed");
     app.add_option("--trace", options.trace, "CSV file of the last run");
     CLI11_PARSE(app, argc, argv);
-    return run(options);
+    try {
+        return run(options);
+    } catch (const millforce::host::InputError& error) {
+        fmt::print(stderr, "fault_campaign: {}\n", error.what());
+        return 2;
+    }
 }

@@ -27,7 +27,8 @@ hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample,
     const double since_s = time_s_ - settings_.begins_s;
     hal::DriveSample seen = sample;
     hal::ProgramStatus told = program;
-    if (settings_.corrupt) {
+    repair_where_held();
+    if (settings_.corrupt && !reaction_.is_repaired) {
         settings_.corrupt(seen, told, before_, since_s);
     }
     const hal::FeedOverride output = controller_.step(seen, told);
@@ -41,6 +42,20 @@ hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample,
         reaction_.after_s = since_s;
     }
     return output;
+}
+
+void FaultyMachine::repair_where_held() {
+    if (settings_.repair && is_over() && !reaction_.is_repaired) {
+        settings_.repair();
+        reaction_.is_repaired = true;
+        reset_in_s_ = reset_after_s;
+    } else if (waits_for_reset()) {
+        reset_in_s_ -= dt_s_;
+        if (!waits_for_reset()) {
+            settings_.reset();
+            reaction_.held_s = 0.0;
+        }
+    }
 }
 
 void FaultyMachine::judge(const hal::FeedOverride& output) {
@@ -64,7 +79,7 @@ void FaultyMachine::judge_stop(const hal::FeedOverride& output, const hal::Progr
 
 void FaultyMachine::judge_rise(const hal::FeedOverride& output, double since_s) {
     constexpr double tolerance = 0.01;
-    if (!settings_.leaves_blind || output.hold || since_s < detection_s) {
+    if (!settings_.leaves_blind || reaction_.is_repaired || output.hold || since_s < detection_s) {
         return;
     }
     const auto ratio = static_cast<double>(output.ratio);

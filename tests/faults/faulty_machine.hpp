@@ -24,7 +24,12 @@ struct Reaction {
     bool rose_blind = false;        ///< the free override of a feed rose later than detection_s after the begin
     bool stopped_silently = false;  ///< the axes stood for a second in a feed without a hold, a fault or the operator
     double held_s = 0.0;            ///< how long the feed is held at the end
+    bool is_repaired = false;       ///< held for held_for_good_s, then Settings::repair and reset
 };
+
+/// What is held for so long is over, or is repaired; then the operator resets.
+inline constexpr double held_for_good_s = 1.0;
+inline constexpr double reset_after_s = 0.5;
 
 /// An invalid signal is to be noticed by then.
 inline constexpr double detection_s = 0.5;
@@ -38,9 +43,11 @@ class FaultyMachine : public sim::OverrideSource {
     struct Settings {
         double begins_s = 0.0;  ///< after the first sample
         double override_max = 1.0;
-        std::function<void()> begin{};  ///< once, at the fault's begin; may be empty
-        Corrupt corrupt{};              ///< may be empty
-        bool leaves_blind = false;      ///< the fault leaves nothing to go by: the override must not rise
+        std::function<void()> begin{};   ///< once, at the fault's begin; may be empty
+        Corrupt corrupt{};               ///< may be empty
+        std::function<void()> repair{};  ///< ends the fault; empty: nobody does
+        std::function<void()> reset{};   ///< of the controller, reset_after_s later
+        bool leaves_blind = false;       ///< the fault leaves nothing to go by: the override must not rise
     };
 
     FaultyMachine(sim::OverrideSource& controller, Settings settings)
@@ -52,9 +59,13 @@ class FaultyMachine : public sim::OverrideSource {
     [[nodiscard]] PlantSteps plant_steps(const PlantSteps& usual) override { return controller_.plant_steps(usual); }
 
     [[nodiscard]] const Reaction& reaction() const { return reaction_; }
+    /// Held, and nobody will repair it.
+    [[nodiscard]] bool is_over() const { return !waits_for_reset() && reaction_.held_s >= held_for_good_s; }
 
   private:
     [[nodiscard]] hal::FeedOverride step_with_fault(const hal::DriveSample& sample, const hal::ProgramStatus& program);
+    void repair_where_held();
+    [[nodiscard]] bool waits_for_reset() const { return reset_in_s_ > 0.0; }
     void judge(const hal::FeedOverride& output);
     void judge_rise(const hal::FeedOverride& output, double since_s);
     void judge_stop(const hal::FeedOverride& output, const hal::ProgramStatus& told);
@@ -68,6 +79,7 @@ class FaultyMachine : public sim::OverrideSource {
     hal::DriveSample before_{};  ///< the last good one
     double blind_ratio_ = -1.0;  ///< the lowest free override later than detection_s
     double stopped_s_ = 0.0;     ///< without a word
+    double reset_in_s_ = 0.0;    ///< after the repair
     Reaction reaction_{};
 };
 

@@ -204,3 +204,27 @@ TEST(SignalSupervisorForces, does_not_judge_a_jump_where_a_tooth_goes_far_enough
     e.tooth_change.axis_N[0] = known_N(2000.0F);
     CHECK(of_change(e) == Fault::none);
 }
+
+TEST(SignalSupervisorForces, doubts_what_air_taught_where_the_fault_may_come_from_it) {
+    Supervisor vanished(machine_and_tool());
+    judged(vanished, one_tooth(), 8, CutState::in_cut);
+    judged(vanished, fallen_force(), 1, CutState::in_cut);
+    CHECK(judged(vanished, one_tooth(), 6, CutState::in_cut) == Fault::force_vanished);
+    CHECK_FALSE(vanished.doubts_idle());
+    Supervisor idle(machine_and_tool());
+    CHECK_FALSE(idle.doubts_idle());
+    idle.judge_idle(true, 1000);
+    CHECK(idle.fault() == Fault::idle_torque);
+    CHECK(idle.doubts_idle());
+    Estimate loaded = revolution();
+    loaded.tangential_N = known_N(300.0F);
+    hal::ProgramStatus rapid = program();
+    rapid.rapid = true;
+    Supervisor in_rapid(machine_and_tool());
+    CHECK(judged(in_rapid, loaded, 6, CutState::air, rapid) == Fault::contact_in_rapid);
+    CHECK(in_rapid.doubts_idle());
+    loaded.tangential_N = known_N(-300.0F);
+    Supervisor negative(machine_and_tool());
+    CHECK(judged(negative, loaded, 20) == Fault::negative_torque);
+    CHECK(negative.doubts_idle());
+}

@@ -321,6 +321,61 @@ TEST(ToolTick, changes_the_tool_after_the_reset_of_a_fault_and_not_before) {
     UNSIGNED_LONGS_EQUAL(weak, mill.tick.tool());
 }
 
+TEST(ToolTick, lets_a_fault_be_reset_where_the_axes_only_shake) {
+    mill.run(Motion::rest, 1);
+    int k = 301;
+    const auto may_reset_at = [&](float mean_mm_s, float shake_mm_s) {
+        std::array<float, hal::axis_count> velocity_mm_s{};
+        for (const int end = k + 300; k < end; ++k) {
+            velocity_mm_s[0] = mean_mm_s + (k % 2 == 0 ? shake_mm_s : -shake_mm_s);
+            hal::DriveSample sample = sample_of(k);
+            sample.axis_velocity_mm_s = velocity_mm_s;
+            firmware::step_and_work(mill.tick, sample, mill.status);
+        }
+        return mill.tick.may_reset(velocity_mm_s);
+    };
+    CHECK(may_reset_at(0.0F, 0.0F));
+    CHECK(may_reset_at(0.0F, 5.0F));
+    const float smallest = machine_and_tool().machine.cnc.override_min;
+    const float slowest_mm_s = smallest * mill.status.programmed_feed_mm_s;
+    CHECK(may_reset_at(0.4F * slowest_mm_s, 5.0F));
+    CHECK_FALSE(may_reset_at(0.6F * slowest_mm_s, 5.0F));
+    CHECK_FALSE(may_reset_at(slowest_mm_s, 0.0F));
+}
+
+TEST(ToolTick, forgets_with_the_reset_what_a_rapid_taught_that_was_no_air) {
+    const auto is_learnt = [&] { return mill.tick.of_tool().machine_knowledge().was_rezeroed; };
+    mill.status.rapid = true;
+    mill.run(Motion::air, 500);
+    CHECK(is_learnt());
+    const hal::FeedOverride in_contact = mill.run(Motion::cut, 300);
+    UNSIGNED_LONGS_EQUAL(static_cast<unsigned>(control::Fault::idle_torque), in_contact.fault);
+    mill.tick.reset_fault();
+    CHECK_FALSE(is_learnt());
+}
+
+TEST(ToolTick, keeps_with_the_reset_what_air_taught_where_another_fault_was_found) {
+    mill.run(Motion::rest, 500);
+    const float before = variance_of_force(mill.tick);
+    mill.tick.step_without_sample(1.0F, 1.0F, mill.status);
+    mill.tick.reset_fault();
+    CHECK(mill.tick.of_tool().machine_knowledge().was_rezeroed);
+    CHECK_COMPARE(variance_of_force(mill.tick), <, 1.1F * before);
+}
+
+TEST(ToolTick, does_not_take_the_mean_of_a_revolution_that_is_long_over_for_rest) {
+    mill.run(Motion::rest, 300);
+    const std::array<float, hal::axis_count> moving_mm_s{5.0F, 0.0F, 0.0F};
+    CHECK(mill.tick.may_reset(moving_mm_s));
+    hal::DriveSample sample = sample_of(600);
+    for (int k = 600; k < 800; ++k) {  // the spindle stands, an axis moves
+        sample.time_us = sample_of(k).time_us;
+        sample.axis_velocity_mm_s = moving_mm_s;
+        firmware::step_and_work(mill.tick, sample, mill.status);
+    }
+    CHECK_FALSE(mill.tick.may_reset(moving_mm_s));
+}
+
 TEST(ToolTick, faults_where_samples_stay_away_with_an_unknown_tool_too) {
     mill.change_at_rest(99);
     CHECK(mill.tick.step_without_sample(1.0F, 1.0F, mill.status).hold);

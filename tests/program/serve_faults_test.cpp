@@ -38,7 +38,7 @@ TEST_GROUP(ServeWithFaults) {
         const auto* of_link = std::get_if<LinkFault>(&fault);
         const auto begin = [&] { controller.begin(of_link != nullptr ? *of_link : LinkFault::none); };
         Tally tally;
-        tally.add(mill_with_controller(part, controller, fault, seed, begin));
+        tally.add(mill_with_controller(part, controller, fault, seed, {.begin = begin}));
         LONGS_EQUAL_TEXT(1, tally.runs, name_of(fault));
         LONGS_EQUAL_TEXT(0, tally.violations(), name_of(fault));
         LONGS_EQUAL_TEXT(1, static_cast<long>(tally.reactions_s.size()), name_of(fault));

@@ -23,7 +23,7 @@ enum class CutState : std::uint8_t {
     entry = 1,
 
     /// The cutter is in the cut, and the estimate describes it.
-    /// Entered: from entry alone.
+    /// Entered: from entry, and from a hold in the cut.
     /// Left: contact lost → exit; no estimate for longer than no_estimate_hold_s → hold.
     in_cut = 2,
 
@@ -33,16 +33,17 @@ enum class CutState : std::uint8_t {
     /// estimate as air.
     exit = 3,
 
-    /// There is no estimate, or the feed is held: the override is not raised. Without an estimate the feed is held as
-    /// well, but not in a rapid.
-    /// Entered: from any state but fault while the feed is held, or without an estimate.
+    /// There is no estimate, or the feed is held or was until now: the override is not raised. Without an estimate the
+    /// feed is held as well, but not in a rapid.
+    /// Entered: from any state but fault while the feed is held, or without an estimate; from fault by a reset.
     /// Left: by the next estimate once the feed is free, with contact → entry, without → exit; → air once spindle and
-    /// axes have stood still for 2 s.
+    /// axes have stood still for 2 s. Where the axes stopped in a cut, or a fault was reset, the tool may stand in its
+    /// cut, where the engagement is there at once: contact → in_cut; the exit travel without contact → exit.
     hold = 4,
 
     /// The controller has given up: lowest override, feed held.
     /// Entered: from any state, by a Fault.
-    /// Left: by FeedController::reset() alone, → air.
+    /// Left: by FeedController::reset() alone, → hold.
     fault = 5,
 };
 

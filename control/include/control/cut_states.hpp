@@ -40,6 +40,8 @@ class CutStates {
 
     /// Latches a fault that is found elsewhere.
     void enter_fault(Fault fault);
+    /// Begins again with the axes at rest, perhaps in a cut.
+    void resume();
 
     [[nodiscard]] CutState state() const { return state_; }
     [[nodiscard]] Fault fault() const { return fault_; }
@@ -53,6 +55,7 @@ class CutStates {
 
     void go_to(CutState state);
     void follow_contact(const Parameters& parameters, const ControlInput<Scalar>& input);
+    void leave_hold(const Parameters& parameters, const ControlInput<Scalar>& input, bool contact);
     [[nodiscard]] bool has_entered(const Parameters& parameters) const;
     void watch_force(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion);
     [[nodiscard]] bool lacks_estimate(const Parameters& parameters) const;
@@ -67,6 +70,7 @@ class CutStates {
     bool has_cut_ = false;
     bool was_in_contact_ = false;
     bool is_blind_ = false;
+    bool may_stand_in_cut_ = false;  // in hold
     Scalar travel_in_state_mm_{0};
     Scalar tooth_periods_in_state_{0};  // counted: a sum of shares of a revolution would round
     Scalar without_force_s_{0};

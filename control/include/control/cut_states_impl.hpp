@@ -39,7 +39,10 @@ void CutStates<Scalar>::step(const Parameters& parameters, const ControlInput<Sc
         go_to(CutState::hold);
         is_blind_ = true;
     } else if (input.feed_hold) {
+        const bool stops_in_cut = state_ == CutState::in_cut;
         go_to(CutState::hold);
+        may_stand_in_cut_ = may_stand_in_cut_ || stops_in_cut;
+        travel_in_state_mm_ = Scalar(0);
     }
     watch_rest(input, motion);
     if (motion.turned && state_ == CutState::exit) {
@@ -79,14 +82,25 @@ void CutStates<Scalar>::follow_contact(const Parameters& parameters, const Contr
             }
             break;
         case CutState::hold:
-            if (input.cut.force_valid && !input.feed_hold) {
-                go_to(contact ? CutState::entry : CutState::exit);
-            }
+            leave_hold(parameters, input, contact);
             break;
         case CutState::fault:
             break;
     }
     was_in_contact_ = contact;
+}
+
+/// A tool that stands in its cut shows no contact until the axes feed again.
+template <typename Scalar>
+void CutStates<Scalar>::leave_hold(const Parameters& parameters, const ControlInput<Scalar>& input, bool contact) {
+    if (!input.cut.force_valid || input.feed_hold) {
+        return;
+    }
+    if (contact) {
+        go_to(may_stand_in_cut_ ? CutState::in_cut : CutState::entry);
+    } else if (!may_stand_in_cut_ || travel_in_state_mm_ > parameters.exit_travel_mm) {
+        go_to(CutState::exit);
+    }
 }
 
 template <typename Scalar>
@@ -119,6 +133,7 @@ void CutStates<Scalar>::go_to(CutState state) {
         return;
     }
     is_blind_ = false;
+    may_stand_in_cut_ = false;
     has_cut_ = state == CutState::in_cut || (has_cut_ && state != CutState::air);
     state_ = state;
     travel_in_state_mm_ = Scalar(0);
@@ -131,6 +146,13 @@ void CutStates<Scalar>::enter_fault(Fault fault) {
         fault_ = fault;
         state_ = CutState::fault;
     }
+}
+
+template <typename Scalar>
+void CutStates<Scalar>::resume() {
+    *this = {};
+    state_ = CutState::hold;
+    may_stand_in_cut_ = true;
 }
 
 template <typename Scalar>

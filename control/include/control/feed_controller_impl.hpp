@@ -52,6 +52,9 @@ FeedController<Scalar>::FeedController(const Parameters& parameters)
 template <typename Scalar>
 void FeedController<Scalar>::reset() {
     *this = FeedController(parameters_);  // refused parameters have been left with a range that is refused as well
+    if (states_.state() != CutState::fault) {
+        states_.resume();
+    }
 }
 
 template <typename Scalar>

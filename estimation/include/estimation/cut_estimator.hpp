@@ -75,13 +75,18 @@ class CutEstimator {
     /// noise hides it. Then the idle torque stays as it was. Returns whether it was so.
     bool find_hidden_cut() { return drives_.spindle.find_hidden_cut(); }
     void leave_air();
+    /// The signals were wrong: nothing that they taught of the drives in air holds.
+    void forget_air() {
+        leave_air();
+        drives_.forget();
+    }
     /// What was learnt in air, up to now: for the estimator of the next tool, before its first sample.
     [[nodiscard]] MachineDrives<Scalar> drives() const;
     void set_drives(const MachineDrives<Scalar>& learnt) { drives_ = learnt; }
     /// Time passes without samples.
     void let_drives_drift(Scalar passed_s) { drives_.predict(passed_s); }
     /// In the mean of the window no axis moved: nothing can be cut.
-    [[nodiscard]] bool axes_rest() const;
+    [[nodiscard]] bool axes_rest(Scalar slower_than_mm_s = literal<Scalar>(0.1L)) const;
 
     [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimate_; }
     [[nodiscard]] Scalar since_period_s() const { return since_period_s_; }

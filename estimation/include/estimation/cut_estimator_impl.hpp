@@ -400,11 +400,10 @@ void CutEstimator<Scalar>::leave_air() {
 }
 
 template <typename Scalar>
-bool CutEstimator<Scalar>::axes_rest() const {
-    constexpr Scalar rest_mm_s = literal<Scalar>(0.1L);
+bool CutEstimator<Scalar>::axes_rest(Scalar slower_than_mm_s) const {
     bool all_rest = window_.revolutions > 0;
     for (int k = DriveSignals<Scalar>::first_velocity; k < DriveSignals<Scalar>::channels; ++k) {
-        all_rest = all_rest && window_.mean[k] < rest_mm_s && -window_.mean[k] < rest_mm_s;
+        all_rest = all_rest && window_.mean[k] < slower_than_mm_s && -window_.mean[k] < slower_than_mm_s;
     }
     return all_rest;
 }

@@ -283,7 +283,7 @@ bool CanController::is_any_drive_stopped() const {
 }
 
 void CanController::reset_fault_where_asked() {
-    if (program_receiver_.take_reset() && is_at_rest()) {
+    if (program_receiver_.take_reset() && has_complete_sample() && tick_.may_reset(sample_.axis_velocity_mm_s)) {
         tick_.reset_fault();
     }
 }

@@ -41,15 +41,14 @@
 ///
 /// A narrower cut, or an edge at an angle, ends more slowly. The bound is 1.5 times that share, and six standard
 /// deviations of noise. A load that is told once in load_period_s shows at once what the cut changed by since the last
-/// one: s then includes the travel in that time, and four deviations are enough: it has fewer noises to err by. Where the feed changes in the revolution before or after, or before a
-/// late load was measured, or the tool moves along its axis, the force may follow from that, and nothing is judged; but
-/// where the feed has changed by less than three tenths from revolution to revolution, F_at cannot fall by much more
-/// than that: it is judged with the share 0.3 added.
-/// Nor is it in the 0.2 mm after a sharp turn or a fall to less than half the feed: tool and machine were bent by the
-/// cut, and cut on while they spring back.
-/// Nor in state entry: a cut may begin with a whole tooth.
-/// A jump of an axis must also exceed the inertia 0.2 m f n: an acceleration that a feed f which seems steady within a
-/// tenth may hide in a revolution.
+/// one: s then includes the travel in that time, and four deviations are enough: it has fewer noises to err by. Where
+/// the feed changes in the revolution before or after, or before a late load was measured, or the tool moves along its
+/// axis, the force may follow from that, and nothing is judged; but where the feed has changed by less than three
+/// tenths from revolution to revolution, F_at cannot fall by much more than that: it is judged with the share 0.3
+/// added. Nor is it in the 0.2 mm after a sharp turn or a fall to less than half the feed: tool and machine were bent
+/// by the cut, and cut on while they spring back. Nor in state entry: a cut may begin with a whole tooth. A jump of an
+/// axis must also exceed the inertia 0.2 m f n: an acceleration that a feed f which seems steady within a tenth may
+/// hide in a revolution.
 ///
 /// A slow change is not seen here. Where the axes' currents are known, the misfit of the cut's law keeps the feed from
 /// rising (limit law_misfit).
@@ -79,6 +78,11 @@ class SignalSupervisor {
 
     /// The first that was found since reset().
     [[nodiscard]] control::Fault fault() const { return fault_; }
+    /// The fault may come from what was taken for air and was none: a rapid bit that is stuck calls a cut air.
+    [[nodiscard]] bool doubts_idle() const {
+        return fault_ == control::Fault::negative_torque || fault_ == control::Fault::contact_in_rapid ||
+               fault_ == control::Fault::idle_torque;
+    }
 
   private:
     using Estimate = estimation::CutEstimate<Scalar>;

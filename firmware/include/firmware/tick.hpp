@@ -75,7 +75,11 @@ class ForceControlTick {
     /// No drive sample came for `silent_s`: the tick still runs and gives its heartbeat.
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);
 
+    /// Only with the axes at rest. What was learnt in air is forgotten where the fault says that it was none.
     void reset_fault();
+    /// No axis moves, in the mean of the newest revolution: each is slower than half the programmed feed at the
+    /// smallest override, or than hal::at_rest_mm_s. False where the spindle does not turn.
+    [[nodiscard]] bool axes_rest() const;
 
     /// For the tick of the next tool, before its first sample.
     [[nodiscard]] MachineKnowledge<Scalar> machine_knowledge() const { return {estimator_.drives(), was_rezeroed_}; }

@@ -137,8 +137,20 @@ hal::FeedOverride ForceControlTick<Scalar, WideBand>::step_without_sample(float 
 
 template <typename Scalar, typename WideBand>
 void ForceControlTick<Scalar, WideBand>::reset_fault() {
+    if (supervisor_.doubts_idle()) {
+        estimator_.forget_air();
+        was_rezeroed_ = false;
+    }
     supervisor_.reset();
     controller_.reset();
+}
+
+template <typename Scalar, typename WideBand>
+bool ForceControlTick<Scalar, WideBand>::axes_rest() const {
+    const Scalar slowest_mm_s = controller_.parameters().override_min * Scalar(program_.programmed_feed_mm_s);
+    const Scalar half_mm_s = estimation::halved(slowest_mm_s);
+    const auto at_rest_mm_s = Scalar(hal::at_rest_mm_s);
+    return estimator_.spindle_turns() && estimator_.axes_rest(half_mm_s > at_rest_mm_s ? half_mm_s : at_rest_mm_s);
 }
 
 /// Since the last sample; 0 for the first one and where the clock went backwards.

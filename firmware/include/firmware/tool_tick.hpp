@@ -47,6 +47,11 @@ class ToolTickOf {
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program);
     hal::FeedOverride step_without_sample(float silent_s, float dt_s, const hal::ProgramStatus& program);
     void reset_fault() { tick_.reset_fault(); }
+    /// Whether a fault may be reset: no axis moves. In a cut that is held the forces shake the axes, and the mean of a
+    /// revolution counts.
+    [[nodiscard]] bool may_reset(const std::array<float, hal::axis_count>& velocity_mm_s) const {
+        return hal::axes_rest(velocity_mm_s) || tick_.axes_rest();
+    }
     [[nodiscard]] bool estimate_due() const { return tick_.estimate_due(); }
     [[nodiscard]] bool work_due() const { return tick_.work_due(); }
     void work() { tick_.work(); }

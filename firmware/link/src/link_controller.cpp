@@ -78,7 +78,7 @@ void LinkController::bridge_gap(std::uint32_t time_us, const hal::ProgramStatus&
 void LinkController::reset_where_asked(const local_link::SampleMessage& message) {
     const bool is_asked = message.reset && !was_reset_;
     was_reset_ = message.reset;
-    if (is_asked && hal::axes_rest(message.axis_velocity_mm_s)) {
+    if (is_asked && tick_.may_reset(message.axis_velocity_mm_s)) {
         tick_.reset_fault();
     }
 }

@@ -121,9 +121,10 @@ UnitQuestions ask_about_torques(std::vector<double> torques_over_law) {
     if (middle <= most && middle * most >= 1.0) {
         return {};
     }
-    return {fmt::format("spindle_torque_Nm is {:.3g} times what the tool's law predicts (median); expected a quarter to "
-                        "four times; is it in another unit, is spindle_rad_s in 1/s, or was another material cut?",
-                        middle)};
+    return {
+        fmt::format("spindle_torque_Nm is {:.3g} times what the tool's law predicts (median); expected a quarter to "
+                    "four times; is it in another unit, is spindle_rad_s in 1/s, or was another material cut?",
+                    middle)};
 }
 
 void refuse_present_columns(const CsvReader& csv) {

@@ -66,10 +66,11 @@ constexpr void set_known(DriveSample& sample, std::size_t axis, bool has_current
     sample.present = static_cast<std::uint8_t>((sample.present & ~axis_mask(axis)) | (is_whole ? axis_mask(axis) : 0U));
 }
 
-/// Whether no axis moves, so that a fault may be reset: each is slower than any feed of a cut, and faster than that is
-/// no noise of a velocity. A velocity that is not a number does not rest.
+/// Slower than any feed of a cut; faster than that is no noise of a velocity.
+inline constexpr float at_rest_mm_s = 0.5F;
+
+/// Whether no axis moves. A velocity that is not a number does not rest.
 [[nodiscard]] constexpr bool axes_rest(const std::array<float, axis_count>& velocity_mm_s) {
-    constexpr float at_rest_mm_s = 0.5F;
     for (const float velocity : velocity_mm_s) {
         if (!(velocity < at_rest_mm_s && velocity > -at_rest_mm_s)) {
             return false;

@@ -127,6 +127,9 @@ class FeedDrive {
         : parameters_(parameters),
           friction_scale_(parameters.friction_relative_sd, parameters.friction_walk_per_sqrt_s) {}
 
+    /// What was learnt in air was none: back to the calibration.
+    void forget() { *this = FeedDrive(parameters_); }
+
     struct Average {
         Scalar current_A{0};
         Scalar velocity_mm_s{0};

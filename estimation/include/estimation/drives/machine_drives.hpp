@@ -25,6 +25,14 @@ struct MachineDrives {
         }
     }
 
+    /// What was learnt in air was none: back to the calibration.
+    void forget() {
+        spindle.forget();
+        for (FeedDrive<Scalar>& axis : axes) {
+            axis.forget();
+        }
+    }
+
     SpindleDrive<Scalar> spindle;
     std::array<FeedDrive<Scalar>, 3> axes;
 };

@@ -106,6 +106,9 @@ class SpindleDrive {
         return {seen.revolutions, force_N, variance_N2 / Scalar(seen.revolutions), speed_rad_s, seen.samples};
     }
 
+    /// What was learnt in air was none: back to the calibration.
+    void forget() { *this = SpindleDrive(parameters_); }
+
     /// The tool is in air, at an unchanged speed: what change_N found is noise.
     void learn_noise(const Measurement<Scalar>& change_N) { noise_.learn(change_N); }
 

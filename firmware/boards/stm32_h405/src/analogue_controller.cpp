@@ -147,7 +147,8 @@ hal::FeedOverride AnalogueController::step(std::uint64_t now_us) {
     const bool is_complete = sample_.present == drives_.complete() && !stm32::supply_is_low(pwr_);
     emergencies_.set(Reason::inputs_missing, sample_.present != drives_.complete(), sample_.present);
     const hal::ProgramStatus program = program_at(now_us);
-    if (program_.take_reset() && is_at_rest()) {
+    if (program_.take_reset() && sample_.present == drives_.complete() &&
+        tick_->may_reset(sample_.axis_velocity_mm_s)) {
         tick_->reset_fault();
     }
     if (is_complete || was_tool_changed_) {

@@ -176,7 +176,8 @@ TEST(Estimate, names_place_key_and_expectation_in_a_bad_tool_file) {
 
 TEST(Estimate, refuses_a_speed_or_a_feed_in_another_unit_and_names_the_line) {
     const auto error_of_cut = [](std::string_view speed, std::string_view feed) {
-        return run_estimate(header + fmt::format("\n10,2,600,2,5,20,1\n10,2,{},2,5,{},1\n", speed, feed), law_text, true)
+        return run_estimate(header + fmt::format("\n10,2,600,2,5,20,1\n10,2,{},2,5,{},1\n", speed, feed), law_text,
+                            true)
             .error;
     };
     STRCMP_EQUAL("", error_of_cut("600", "20").c_str());
