@@ -71,3 +71,31 @@ TEST(SignalFaults, are_not_seen_where_there_are_none) {
         }
     }
 }
+
+TEST(SignalFaults, that_are_put_right_let_the_part_go_on_after_the_reset) {
+    constexpr bool is_repaired = true;
+    std::uint64_t seed = 700;
+    for (const Path path : {Path::tick, Path::can, Path::link}) {
+        for (const SignalFault fault : {SignalFault::spindle_dead, SignalFault::spindle_weak, SignalFault::y_tenfold,
+                                        SignalFault::velocities_huge, SignalFault::encoder_half,
+                                        SignalFault::encoder_frozen, SignalFault::rapid_stuck}) {
+            Tally tally;
+            tally.add(mill_with(parts[1], path, fault, ++seed, is_repaired));
+            CHECK_EQUAL_TEXT(tally.repaired, tally.milled_on, name_of(fault));
+            LONGS_EQUAL_TEXT(0, tally.violations(), name_of(fault));
+        }
+    }
+}
+
+TEST(SignalFaults, such_as_a_feed_hold_leave_the_force_at_its_limit_once_it_is_released) {
+    constexpr bool is_released = true;
+    for (const Part& part : {parts[1], parts[2]}) {
+        Tally tally;
+        for (std::uint64_t seed = 800; seed < 820; ++seed) {
+            tally.add(mill_with(part, Path::tick, SignalFault::hold_stuck, seed, is_released));
+        }
+        CHECK(tally.runs > 10);
+        LONGS_EQUAL(tally.runs, tally.milled_on);
+        CHECK_COMPARE(tally.largest_peak, <, 1.15);
+    }
+}
