@@ -39,7 +39,7 @@ Seat seat_on_bus(const sim::Scenario& scenario, const Fault& fault, std::uint64_
         };
     }
     seat.on_path.repair = [bus = controller.get()] { bus->wire.set_fault({}); };
-    seat.on_path.reset = [bus = controller.get()] { bus->cnc.press_reset(true); };
+    seat.on_path.reset = [bus = controller.get()](bool pressed) { bus->cnc.press_reset(pressed); };
     seat.controller = std::move(controller);
     return seat;
 }
@@ -53,7 +53,7 @@ Seat seat_on_link(const sim::Scenario& scenario, const Fault& fault, std::uint64
     seat.on_path.repair = [link = controller.get(), parameters = scenario.parameters] {
         link->repair(link_controller(parameters));
     };
-    seat.on_path.reset = [link = controller.get()] { link->press_reset(); };
+    seat.on_path.reset = [link = controller.get()](bool pressed) { link->press_reset(pressed); };
     seat.controller = std::move(controller);
     return seat;
 }
@@ -62,7 +62,11 @@ Seat seat_at_tick(const sim::Scenario& scenario) {
     auto controller = std::make_unique<sim::MillforceController>(scenario.parameters);
     Seat seat;
     seat.on_path.repair = [] {};
-    seat.on_path.reset = [tick = controller.get()] { tick->reset_fault(); };
+    seat.on_path.reset = [tick = controller.get()](bool pressed) {
+        if (pressed) {
+            tick->reset_fault();
+        }
+    };
     seat.controller = std::move(controller);
     return seat;
 }

@@ -69,7 +69,7 @@ Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t
 struct OnPath {
     std::function<void()> begin{};   ///< where the fault begins
     std::function<void()> repair{};  ///< where it ends: FaultyMachine::Settings
-    std::function<void()> reset{};
+    std::function<void(bool pressed)> reset{};
 };
 /// On another path, e.g. a controller in another process.
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,

@@ -42,7 +42,7 @@ class ControllerOnLink : public sim::OverrideSource {
     void begin(LinkFault fault) { fault_ = fault; }
     /// The fault is over; where the guard holds, a new connection is made to `exchange`.
     void repair(Exchange exchange);
-    void press_reset() { resets_ = true; }
+    void press_reset(bool pressed) { resets_ = pressed; }
 
   private:
     [[nodiscard]] bool is_answered(const local_link::SampleMessage& message);

@@ -48,13 +48,26 @@ void FaultyMachine::repair_where_held() {
     if (settings_.repair && is_over() && !reaction_.is_repaired) {
         settings_.repair();
         reaction_.is_repaired = true;
-        reset_in_s_ = reset_after_s;
-    } else if (waits_for_reset()) {
-        reset_in_s_ -= dt_s_;
-        if (!waits_for_reset()) {
-            settings_.reset();
-            reaction_.held_s = 0.0;
-        }
+        resets_left_ = most_resets;
+    } else if (waits_for_reset() || is_pressed_) {
+        press_reset();
+    }
+}
+
+void FaultyMachine::press_reset() {
+    since_reset_s_ += dt_s_;
+    const bool is_due = is_pressed_ ? since_reset_s_ > 0.5 * reset_after_s : since_reset_s_ > reset_after_s;
+    if (!is_due) {
+        return;
+    }
+    is_pressed_ = !is_pressed_;
+    settings_.reset(is_pressed_);
+    if (is_pressed_) {
+        --resets_left_;
+        since_reset_s_ = 0.0;
+        reaction_.held_s = 0.0;
+    } else if (reaction_.fault == 0) {
+        resets_left_ = 0;
     }
 }
 

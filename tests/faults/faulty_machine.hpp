@@ -27,9 +27,11 @@ struct Reaction {
     bool is_repaired = false;       ///< held for held_for_good_s, then Settings::repair and reset
 };
 
-/// What is held for so long is over, or is repaired; then the operator resets.
+/// What is held for so long is over, or is repaired; then the operator resets, and a second and a third time where that
+/// does not help.
 inline constexpr double held_for_good_s = 1.0;
 inline constexpr double reset_after_s = 0.5;
+inline constexpr int most_resets = 3;
 
 /// An invalid signal is to be noticed by then.
 inline constexpr double detection_s = 0.5;
@@ -43,11 +45,11 @@ class FaultyMachine : public sim::OverrideSource {
     struct Settings {
         double begins_s = 0.0;  ///< after the first sample
         double override_max = 1.0;
-        std::function<void()> begin{};   ///< once, at the fault's begin; may be empty
-        Corrupt corrupt{};               ///< may be empty
-        std::function<void()> repair{};  ///< ends the fault; empty: nobody does
-        std::function<void()> reset{};   ///< of the controller, reset_after_s later
-        bool leaves_blind = false;       ///< the fault leaves nothing to go by: the override must not rise
+        std::function<void()> begin{};              ///< once, at the fault's begin; may be empty
+        Corrupt corrupt{};                          ///< may be empty
+        std::function<void()> repair{};             ///< ends the fault; empty: nobody does
+        std::function<void(bool pressed)> reset{};  ///< reset_after_s later, and half of that after it was pressed
+        bool leaves_blind = false;                  ///< the fault leaves nothing to go by: the override must not rise
     };
 
     FaultyMachine(sim::OverrideSource& controller, Settings settings)
@@ -65,7 +67,8 @@ class FaultyMachine : public sim::OverrideSource {
   private:
     [[nodiscard]] hal::FeedOverride step_with_fault(const hal::DriveSample& sample, const hal::ProgramStatus& program);
     void repair_where_held();
-    [[nodiscard]] bool waits_for_reset() const { return reset_in_s_ > 0.0; }
+    void press_reset();
+    [[nodiscard]] bool waits_for_reset() const { return resets_left_ > 0; }
     void judge(const hal::FeedOverride& output);
     void judge_rise(const hal::FeedOverride& output, double since_s);
     void judge_stop(const hal::FeedOverride& output, const hal::ProgramStatus& told);
@@ -79,7 +82,9 @@ class FaultyMachine : public sim::OverrideSource {
     hal::DriveSample before_{};  ///< the last good one
     double blind_ratio_ = -1.0;  ///< the lowest free override later than detection_s
     double stopped_s_ = 0.0;     ///< without a word
-    double reset_in_s_ = 0.0;    ///< after the repair
+    int resets_left_ = 0;
+    double since_reset_s_ = 0.0;  ///< or since the repair
+    bool is_pressed_ = false;
     Reaction reaction_{};
 };
 
