@@ -174,7 +174,7 @@ void print(const Row& row) {
                100.0 * t.largest_peak, percent(static_cast<int>(t.reactions_s.size()), t.runs),
                has_reacted ? fmt::format("{:.2f}, {:.2f}", t.median_reaction_s(), t.longest_reaction_s()) : "",
                has_reacted ? fmt::format("{:.0f}", 100.0 * t.largest_peak_until_held) : "", percent(t.crawled, t.runs),
-               t.repaired > 0 ? percent(t.milled_on, t.repaired) : "", t.violations());
+               t.repaired > 0 ? fmt::format("{}/{}", t.milled_on, t.repaired) : "", t.violations());
 }
 
 int run(const Options& options) {
@@ -190,7 +190,7 @@ int run(const Options& options) {
     mill_all(runs_of(options, rows), rows, options);
     fmt::print(
         "| fault | path | runs | tooth broken, % | peak above 110 %, % | largest peak, % | feed held, % | after, s: "
-        "median, longest | peak until held, % | crawls, % | mills on, % | "
+        "median, longest | peak until held, % | crawls, % | mill on | "
         "violations |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     int violations = 0;
     int unseen = 0;
