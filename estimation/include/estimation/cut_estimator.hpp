@@ -86,7 +86,12 @@ class CutEstimator {
     /// Time passes without samples.
     void let_drives_drift(Scalar passed_s) { drives_.predict(passed_s); }
     /// In the mean of the window no axis moved: nothing can be cut.
-    [[nodiscard]] bool axes_rest(Scalar slower_than_mm_s = literal<Scalar>(0.1L)) const;
+    [[nodiscard]] bool axes_rest() const {
+        constexpr Scalar rest_mm_s = literal<Scalar>(0.1L);
+        return axes_are_slower_than(rest_mm_s);
+    }
+    /// Each in the mean of the window.
+    [[nodiscard]] bool axes_are_slower_than(Scalar mm_s) const;
 
     [[nodiscard]] const CutEstimate<Scalar>& estimate() const { return estimate_; }
     [[nodiscard]] Scalar since_period_s() const { return since_period_s_; }

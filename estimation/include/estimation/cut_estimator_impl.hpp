@@ -400,12 +400,12 @@ void CutEstimator<Scalar>::leave_air() {
 }
 
 template <typename Scalar>
-bool CutEstimator<Scalar>::axes_rest(Scalar slower_than_mm_s) const {
-    bool all_rest = window_.revolutions > 0;
+bool CutEstimator<Scalar>::axes_are_slower_than(Scalar mm_s) const {
+    bool all_are = window_.revolutions > 0;
     for (int k = DriveSignals<Scalar>::first_velocity; k < DriveSignals<Scalar>::channels; ++k) {
-        all_rest = all_rest && window_.mean[k] < slower_than_mm_s && -window_.mean[k] < slower_than_mm_s;
+        all_are = all_are && window_.mean[k] < mm_s && -window_.mean[k] < mm_s;
     }
-    return all_rest;
+    return all_are;
 }
 
 }  // namespace millforce::estimation

@@ -150,7 +150,8 @@ bool ForceControlTick<Scalar, WideBand>::axes_rest() const {
     const Scalar slowest_mm_s = controller_.parameters().override_min * Scalar(program_.programmed_feed_mm_s);
     const Scalar half_mm_s = estimation::halved(slowest_mm_s);
     const auto at_rest_mm_s = Scalar(hal::at_rest_mm_s);
-    return estimator_.spindle_turns() && estimator_.axes_rest(half_mm_s > at_rest_mm_s ? half_mm_s : at_rest_mm_s);
+    const Scalar still_mm_s = half_mm_s > at_rest_mm_s ? half_mm_s : at_rest_mm_s;
+    return estimator_.spindle_turns() && estimator_.axes_are_slower_than(still_mm_s);
 }
 
 /// Since the last sample; 0 for the first one and where the clock went backwards.
