@@ -170,6 +170,43 @@ TEST(CutStates, behind_a_hold_in_the_cut_looks_for_contact_for_the_exit_travel) 
     CHECK(repeat(controller, in_contact(), 1).state == CutState::entry);
 }
 
+TEST(CutStates, behind_a_hold_without_an_estimate_the_feed_is_held_after_the_exit_travel) {
+    Controller controller;
+    bring_into_cut(controller);
+    Input held = in_contact();
+    held.feed_hold = true;
+    repeat(controller, held, 10);
+    const Input blind = without_force(in_contact());
+    const Output before = repeat(controller, blind, 99);
+    CHECK_FALSE(before.hold);
+    const Output after = repeat(controller, blind, 3);
+    CHECK(after.hold);
+    CHECK(after.state == CutState::hold);
+    const Output seeing = controller.step(in_air());
+    CHECK(seeing.state == CutState::exit);
+    CHECK_FALSE(seeing.hold);
+}
+
+TEST(CutStates, behind_a_hold_that_was_blind_an_estimate_frees_the_feed_of_a_tool_that_may_stand_in_its_cut) {
+    Parameters p;
+    p.exit_travel_mm = 1.0F;
+    Controller controller(p);
+    bring_into_cut(controller);
+    Input held = in_contact();
+    held.feed_hold = true;
+    repeat(controller, held, 10);
+    Input unseen = without_force(in_contact());
+    unseen.path_speed_mm_s = 0.0F;
+    unseen.motion_is_unseen = true;  // counts as moving with the programmed feed
+    CHECK(repeat(controller, unseen, 200).hold);
+    Input at_rest = in_air();
+    at_rest.path_speed_mm_s = 0.0F;
+    const Output seeing = controller.step(at_rest);
+    CHECK(seeing.state == CutState::hold);
+    CHECK_FALSE(seeing.hold);  // or nothing would ever move again
+    CHECK(controller.step(in_contact()).state == CutState::in_cut);
+}
+
 TEST(CutStates, behind_a_hold_out_of_the_cut_or_while_it_begins_the_cutter_enters) {
     Controller in_air_before;
     repeat(in_air_before, in_air(), 10);

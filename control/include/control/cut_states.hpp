@@ -12,9 +12,9 @@
 ///   lost contact:  F_at below half of it; between the two the state stays (hysteresis)
 ///
 /// Only a fresh estimate moves between air, entry, in_cut and exit. Without a valid force nothing counts as contact and
-/// nothing as lost contact: the state stays. In a cut the tool counts as held after no_estimate_hold_s; out of it after
-/// exit_travel_mm of feed, unless the spindle stands or turns backwards: then nobody mills. Where the velocity is not
-/// known either, the axes count as moving with the programmed feed.
+/// nothing as lost contact: the state stays. In a cut the tool counts as held after no_estimate_hold_s; out of it, or
+/// behind a hold, after exit_travel_mm of feed, unless the spindle stands or turns backwards: then nobody mills. Where
+/// the velocity is not known either, the axes count as moving with the programmed feed.
 ///
 /// Watches, each latched as a fault:
 ///   stale_input      no drive sample for longer than stale_s, or of unknown age (NaN), in any state

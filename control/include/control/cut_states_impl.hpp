@@ -96,6 +96,7 @@ void CutStates<Scalar>::leave_hold(const Parameters& parameters, const ControlIn
     if (!input.cut.force_valid || input.feed_hold) {
         return;
     }
+    is_blind_ = false;
     if (contact) {
         go_to(may_stand_in_cut_ ? CutState::in_cut : CutState::entry);
     } else if (!may_stand_in_cut_ || travel_in_state_mm_ > parameters.exit_travel_mm) {
@@ -112,7 +113,7 @@ bool CutStates<Scalar>::has_entered(const Parameters& parameters) const {
 template <typename Scalar>
 void CutStates<Scalar>::watch_force(const ControlInput<Scalar>& input, const StepMotion<Scalar>& motion) {
     without_force_s_ = input.cut.force_valid ? Scalar(0) : without_force_s_ + motion.dt_s;
-    const bool may_meet_the_workpiece = !input.rapid && !input.cut.spindle_does_not_mill;
+    const bool may_meet_the_workpiece = !input.rapid && !input.feed_hold && !input.cut.spindle_does_not_mill;
     if (input.cut.force_valid || !may_meet_the_workpiece) {
         fed_without_force_mm_ = Scalar(0);
         return;
@@ -123,8 +124,9 @@ void CutStates<Scalar>::watch_force(const ControlInput<Scalar>& input, const Ste
 
 template <typename Scalar>
 bool CutStates<Scalar>::lacks_estimate(const Parameters& parameters) const {
+    const bool may_be_in_air = is_out_of_cut(state_) || state_ == CutState::hold;
     return (is_cutting(state_) && without_force_s_ > parameters.no_estimate_hold_s) ||
-           (is_out_of_cut(state_) && fed_without_force_mm_ > parameters.exit_travel_mm);
+           (may_be_in_air && fed_without_force_mm_ > parameters.exit_travel_mm);
 }
 
 template <typename Scalar>
