@@ -57,9 +57,7 @@ TEST(SignalSupervisorForces, finds_a_force_that_vanishes_at_a_feed_that_varies_w
         fall.tooth_tangential_N = known_N(250.0F - fall_N);
         fall.tooth_change.tangential_N = known_N(-fall_N);
         Supervisor supervisor(machine_and_tool());
-        judged(supervisor, varies, 8, CutState::in_cut);
-        judged(supervisor, fall, 1, CutState::in_cut);
-        return judged(supervisor, varies, 6, CutState::in_cut);
+        return of_change_among(supervisor, varies, fall);
     };
     CHECK(of_fall(245.0F, true) == Fault::force_vanished);
     CHECK(of_fall(245.0F, false) == Fault::none);
@@ -78,9 +76,7 @@ TEST(SignalSupervisorForces, needs_four_deviations_of_a_load_that_is_held) {
         Estimate fall = slow;
         fall.tooth_tangential_N = known_N(0.0F);
         fall.tooth_change.tangential_N = {.valid = true, .value = -250.0F, .variance = sd_N * sd_N};
-        judged(supervisor, slow, 8, CutState::in_cut);
-        judged(supervisor, fall, 1, CutState::in_cut);
-        return judged(supervisor, slow, 6, CutState::in_cut);
+        return of_change_among(supervisor, slow, fall);
     };
     CHECK(of_fall(0.1F, 25.0F) == Fault::force_vanished);
     CHECK(of_fall(0.1F, 60.0F) == Fault::none);
@@ -207,9 +203,7 @@ TEST(SignalSupervisorForces, does_not_judge_a_jump_where_a_tooth_goes_far_enough
 
 TEST(SignalSupervisorForces, doubts_what_air_taught_where_the_fault_may_come_from_it) {
     Supervisor vanished(machine_and_tool());
-    judged(vanished, one_tooth(), 8, CutState::in_cut);
-    judged(vanished, fallen_force(), 1, CutState::in_cut);
-    CHECK(judged(vanished, one_tooth(), 6, CutState::in_cut) == Fault::force_vanished);
+    CHECK(of_change_among(vanished, one_tooth(), fallen_force()) == Fault::force_vanished);
     CHECK_FALSE(vanished.doubts_idle());
     Supervisor idle(machine_and_tool());
     CHECK_FALSE(idle.doubts_idle());

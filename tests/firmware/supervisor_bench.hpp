@@ -56,12 +56,17 @@ inline Fault judged(Supervisor& supervisor, const Estimate& e, int times, CutSta
     return supervisor.fault();
 }
 
-/// Of one tooth's change after `steady_teeth` without one, and a revolution later.
+/// Of one tooth's change after `steady_teeth` that are `usual`, and a revolution later.
+inline Fault of_change_among(Supervisor& supervisor, const Estimate& usual, const Estimate& change,
+                             int steady_teeth = 8, CutState state = CutState::in_cut) {
+    judged(supervisor, usual, steady_teeth, state);
+    judged(supervisor, change, 1, state);
+    return judged(supervisor, usual, 6, state);
+}
+
 inline Fault of_change(const Estimate& change, int steady_teeth = 8, CutState state = CutState::in_cut) {
     Supervisor supervisor(machine_and_tool());
-    judged(supervisor, one_tooth(), steady_teeth, state);
-    judged(supervisor, change, 1, state);
-    return judged(supervisor, one_tooth(), 6, state);
+    return of_change_among(supervisor, one_tooth(), change, steady_teeth, state);
 }
 
 /// Index pulses from `number` on, `step` numbers and `counts` counts apart, each in one sample.
