@@ -231,10 +231,8 @@ Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, 
     const double into_part_s = is_sound ? 0.0 : std::uniform_real_distribution(0.0, part.duration_s)(random);
     FaultyMachine machine(controller, {.begins_s = spindle_start_s + into_part_s,
                                        .override_max = static_cast<double>(part.stated.machine.cnc.override_max),
-                                       .begin = on_path.begin,
+                                       .on_path = on_path,
                                        .corrupt = corruption(part, fault, seed),
-                                       .repair = on_path.repair,
-                                       .reset = on_path.reset,
                                        .leaves_blind = leaves_blind(fault, part)});
     sim::SimulationSettings stopped_early;
     const double of_repair_s = on_path.repair ? part.duration_s : 0.0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -65,12 +64,6 @@ struct Outcome {
 };
 /// `is_repaired`: what holds the feed for held_for_good_s is put right then, the operator resets, and the part goes on.
 Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t seed, bool is_repaired = false);
-/// What a path adds: each may be empty.
-struct OnPath {
-    std::function<void()> begin{};   ///< where the fault begins
-    std::function<void()> repair{};  ///< where it ends: FaultyMachine::Settings
-    std::function<void(bool pressed)> reset{};
-};
 /// On another path, e.g. a controller in another process.
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
                              const OnPath& on_path = {});

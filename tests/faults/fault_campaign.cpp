@@ -111,8 +111,8 @@ void say(const Row& row, const Run& run, const Outcome& outcome) {
     Tally one;
     one.add(outcome);
     const bool is_false_alarm = row.is_sound() && outcome.reaction.has_reacted;
-    const bool is_held_again = one.repaired > one.milled_on;
-    if (one.violations() > 0 || is_false_alarm || is_held_again) {
+    const bool is_unfinished = one.repaired > one.milled_on;
+    if (one.violations() > 0 || is_false_alarm || is_unfinished) {
         fmt::print(stderr, "{}: {}, {}, {}, seed {}, peak {:.0f} %, teeth broken {}, fault {}\n",
                    is_false_alarm         ? "false alarm"
                    : one.violations() > 0 ? "violation"

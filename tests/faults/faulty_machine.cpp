@@ -20,8 +20,8 @@ hal::FeedOverride FaultyMachine::step(const hal::DriveSample& sample, const hal:
 }
 
 hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample, const hal::ProgramStatus& program) {
-    if (!reaction_.has_begun && settings_.begin) {
-        settings_.begin();
+    if (!reaction_.has_begun && settings_.on_path.begin) {
+        settings_.on_path.begin();
     }
     reaction_.has_begun = true;
     const double since_s = time_s_ - settings_.begins_s;
@@ -45,8 +45,8 @@ hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample,
 }
 
 void FaultyMachine::repair_where_held() {
-    if (settings_.repair && is_over() && !reaction_.is_repaired) {
-        settings_.repair();
+    if (settings_.on_path.repair && is_over() && !reaction_.is_repaired) {
+        settings_.on_path.repair();
         reaction_.is_repaired = true;
         resets_left_ = most_resets;
     } else if (waits_for_reset() || is_pressed_) {
@@ -61,7 +61,7 @@ void FaultyMachine::press_reset() {
         return;
     }
     is_pressed_ = !is_pressed_;
-    settings_.reset(is_pressed_);
+    settings_.on_path.reset(is_pressed_);
     if (is_pressed_) {
         --resets_left_;
         since_reset_s_ = 0.0;

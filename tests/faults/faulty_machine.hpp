@@ -24,7 +24,7 @@ struct Reaction {
     bool rose_blind = false;        ///< the free override of a feed rose later than detection_s after the begin
     bool stopped_silently = false;  ///< the axes stood for a second in a feed without a hold, a fault or the operator
     double held_s = 0.0;            ///< how long the feed is held at the end
-    bool is_repaired = false;       ///< held for held_for_good_s, then Settings::repair and reset
+    bool is_repaired = false;       ///< held for held_for_good_s, then OnPath::repair and reset
 };
 
 /// What is held for so long is over, or is repaired; then the operator resets, and a second and a third time where that
@@ -36,6 +36,13 @@ inline constexpr int most_resets = 3;
 /// An invalid signal is to be noticed by then.
 inline constexpr double detection_s = 0.5;
 
+/// What the path between machine and controller adds: each may be empty.
+struct OnPath {
+    std::function<void()> begin{};              ///< once, at the fault's begin
+    std::function<void()> repair{};             ///< ends the fault; empty: nobody does
+    std::function<void(bool pressed)> reset{};  ///< reset_after_s later, and half of that after it was pressed
+};
+
 /// Stands between the plant and a controller. Time is the samples' own.
 class FaultyMachine : public sim::OverrideSource {
   public:
@@ -45,11 +52,9 @@ class FaultyMachine : public sim::OverrideSource {
     struct Settings {
         double begins_s = 0.0;  ///< after the first sample
         double override_max = 1.0;
-        std::function<void()> begin{};              ///< once, at the fault's begin; may be empty
-        Corrupt corrupt{};                          ///< may be empty
-        std::function<void()> repair{};             ///< ends the fault; empty: nobody does
-        std::function<void(bool pressed)> reset{};  ///< reset_after_s later, and half of that after it was pressed
-        bool leaves_blind = false;                  ///< the fault leaves nothing to go by: the override must not rise
+        OnPath on_path{};
+        Corrupt corrupt{};          ///< may be empty
+        bool leaves_blind = false;  ///< the fault leaves nothing to go by: the override must not rise
     };
 
     FaultyMachine(sim::OverrideSource& controller, Settings settings)
