@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <random>
@@ -29,6 +30,7 @@ struct Options {
     std::size_t runs = 1000;
     std::uint64_t seed = 1;
     unsigned threads = 2;
+    std::optional<MapError> error;  // of all runs
 };
 
 /// What a seed stands for: a map's error, a part, a machine and a plant.
@@ -81,7 +83,8 @@ class Campaign {
     void mill(std::size_t k) {
         const std::uint64_t seed = options_.seed + k;
         std::mt19937_64 random(seed);
-        const Drawn it = drawn(seed, parts_.size(), random);
+        Drawn it = drawn(seed, parts_.size(), random);
+        it.error = options_.error.value_or(it.error);
         const sim::PreparedPart& part = parts_[it.part];
         const sim::Scenario plant = sim::disturbed(part.on_machine[static_cast<std::size_t>(it.machine)],
                                                    sim::drawn_disturbance(seed), part.part.depth_mm, seed);
@@ -166,6 +169,13 @@ int main(int argc, char** argv) {
                    "A seed is a map's error, a part, a machine (all currents, spindle alone, a converter's load) and "
                    "a plant")
         ->capture_default_str();
+    std::map<std::string, MapError> errors;
+    for (const MapError error : all_map_errors) {
+        errors.emplace(name_of(error), error);
+    }
+    app.add_option("--map", options.error, "Error of all maps, as the table names it; default: by the seed")
+        ->transform(CLI::Transformer(errors))
+        ->option_text("NAME");
     app.add_option("--threads", options.threads, "Runs at the same time")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

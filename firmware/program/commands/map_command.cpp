@@ -85,6 +85,12 @@ int join(const JoinOptions& options) {
     require_same_origin(options.run, run.origin, geometry.origin);
     const auto tool = tool_of(options.tool, options.geometry, geometry.origin);
     const JoinedMap result = joined(geometry.map, run.map, tool);
+    if (result.hardness < least_hardness || result.hardness > largest_hardness) {
+        throw InputError(fmt::format(
+            "{}: its forces are {:.3g} times those of {} by the law of {}; expected {} to {}. Is "
+            "it of the same part and tool?",
+            options.run, result.hardness, options.geometry, options.tool, least_hardness, largest_hardness));
+    }
     write_part_map(options.output, {geometry.origin, result.map});
     print_joined(options, result);
     return 0;

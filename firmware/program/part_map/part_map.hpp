@@ -19,6 +19,10 @@ struct EngagedArc {
     bool operator==(const EngagedArc&) const = default;
 };
 
+/// Of K_s relative to the tool's file, in any map.
+inline constexpr double least_hardness = 0.1;
+inline constexpr double largest_hardness = 10.0;
+
 /// How well the cut at a place is known.
 enum class Known : std::uint8_t {
     nothing,  ///< not at all: the controller takes it as if there were no map

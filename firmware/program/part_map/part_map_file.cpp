@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -95,6 +96,26 @@ double rounded(double value) {
     return std::round(value * 1000.0) / 1000.0;
 }
 
+/// In the digits of the file.
+struct ArcCells {
+    double entry_deg;
+    double exit_deg;
+    double axial_depth_mm;
+};
+
+/// Without those that are nothing in these digits: no reader takes them.
+std::vector<ArcCells> cells_of(const std::vector<EngagedArc>& cut) {
+    std::vector<ArcCells> cells;
+    for (const EngagedArc& arc : cut) {
+        const ArcCells next{rounded(arc.entry_rad / rad_per_deg), rounded(arc.exit_rad / rad_per_deg),
+                            rounded(arc.axial_depth_mm)};
+        if (next.exit_deg > next.entry_deg && next.axial_depth_mm > 0.0) {
+            cells.push_back(next);
+        }
+    }
+    return cells;
+}
+
 void write_place(CsvWriter& csv, const MapPlace& place, std::size_t columns) {
     std::array<double, column_names.size()> row{rounded(place.path_mm),
                                                 rounded(place.block_end_mm),
@@ -114,13 +135,14 @@ void write_place(CsvWriter& csv, const MapPlace& place, std::size_t columns) {
                                                 place.is_contested ? 1.0 : 0.0,
                                                 place.known == Known::at_most ? rounded(place.least_share) : 1.0};
     const std::span<const double> written = std::span<const double>(row).first(columns);
-    if (place.cut.empty()) {
+    const std::vector<ArcCells> arcs = cells_of(place.cut);
+    if (arcs.empty()) {
         csv.row(written);
     }
-    for (const EngagedArc& arc : place.cut) {
-        row[6] = rounded(arc.entry_rad / rad_per_deg);
-        row[7] = rounded(arc.exit_rad / rad_per_deg);
-        row[8] = rounded(arc.axial_depth_mm);
+    for (const ArcCells& arc : arcs) {
+        row[6] = arc.entry_deg;
+        row[7] = arc.exit_deg;
+        row[8] = arc.axial_depth_mm;
         csv.row(written);
     }
 }
@@ -195,7 +217,7 @@ class MapReader {
         place.known = static_cast<Known>(known);
         place.arc_sd_rad = number(10, 0.0, 180.0) * rad_per_deg;
         place.axial_depth_sd_mm = number(11, 0.0, 500.0);
-        place.hardness = number(12, 0.1, 10.0);
+        place.hardness = number(12, least_hardness, largest_hardness);
         place.hardness_sd = number(13, 0.0, 10.0);
         place.position_sd_mm = number(14, 0.0, 1000.0);
         place.is_contested = csv_.required_number(columns_[15], 0.0, 1.0) != 0.0;
@@ -258,10 +280,13 @@ void write_part_map(const std::filesystem::path& file, const PartMapFile& map) {
                                    origin.tool, origin.tool_crc32);
     CsvWriter csv(target.stream(), std::span(column_names).first(columns));
     const MapPlace* last = nullptr;
-    for (const MapPlace& place : map.map) {
-        if (last == nullptr || !is_same(*last, place) || &place == &map.map.back()) {
-            write_place(csv, place, columns);
-            last = &place;
+    for (auto place = map.map.begin(); place != map.map.end(); ++place) {
+        const auto next = std::next(place);
+        const bool is_end = next == map.map.end();
+        const bool has_length = is_end || rounded(next->path_mm) > rounded(place->path_mm);
+        if (is_end || (has_length && (last == nullptr || !is_same(*last, *place)))) {
+            write_place(csv, *place, columns);
+            last = &*place;
         }
     }
     target.commit();

@@ -66,7 +66,8 @@ struct PartMapFile {
 [[nodiscard]] MapOrigin origin_of(const std::filesystem::path& program_file, const std::string& tool_name,
                                   const firmware::ToolParameters<float>& tool);
 
-/// Writes only places that differ from the one before. Throws InputError.
+/// Writes only places that differ from the one before, and no place or arc that is shorter than the file's digits
+/// (1 µm, 0.001°): a run may leave such a place where a block ends as soon as it has begun. Throws InputError.
 void write_part_map(const std::filesystem::path& file, const PartMapFile& map);
 
 /// Throws InputError "FILE:LINE: …": another version, a checksum that cannot be read, a path that goes back, an arc

@@ -98,6 +98,23 @@ TEST(PartMapFile, what_was_written_is_read) {
     }
 }
 
+TEST(PartMapFile, a_place_or_an_arc_shorter_than_its_digits_is_left_out) {
+    const TemporaryFolder folder;
+    PartMapFile written = example();
+    MapPlace& behind_begin = written.map[1];
+    behind_begin.path_mm = 0.0003;
+    written.map[2].cut.front().exit_rad = 0.0004 * rad_per_deg;
+    written.map[2].cut.back().axial_depth_mm = 0.0004;
+    written.map[3].path_mm = 40.2504;
+    write_part_map(folder.path("t.map"), written);
+    const PartMap read = read_part_map(folder.path("t.map")).map;
+    LONGS_EQUAL(2, read.size());
+    DOUBLES_EQUAL(0.0, read[0].path_mm, 1e-9);
+    LONGS_EQUAL(behind_begin.line, read[0].line);
+    DOUBLES_EQUAL(40.25, read[1].path_mm, 1e-9);
+    CHECK(read[1].cut.empty());
+}
+
 TEST(PartMapFile, is_written_as_its_header_says) {
     const TemporaryFolder folder;
     write_part_map(folder.path("t.map"), example());
