@@ -13,7 +13,9 @@
 #include "bench_control/text_file.hpp"
 #include "loop/simulation.hpp"
 #include "preview/clairvoyant.hpp"
+#include "preview/memory.hpp"
 #include "preview/preview.hpp"
+#include "report/summary.hpp"
 #include "report/trace_csv.hpp"
 
 namespace millforce::sim {
@@ -21,15 +23,21 @@ namespace millforce::sim {
 namespace {
 
 using enum Contender::Kind;
+using enum Contender::Map;
+using enum BenchMachine;
 
 constexpr std::array all_contenders{
     Contender{"ours", "millforce, without a map", ours},
-    Contender{"ours_told", "millforce, told a safe feed", ours, BenchMachine::currents, false, true},
-    Contender{"ours_map", "millforce, map from geometry", ours, BenchMachine::currents, true},
-    Contender{"ours_map_told", "millforce, map, told a safe feed", ours, BenchMachine::currents, true, true},
-    Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, BenchMachine::spindle_alone, true},
-    Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, BenchMachine::converter, true},
-    Contender{"constant", "Constant feed, safe everywhere", rival},
+    Contender{"ours_told", "millforce, told a safe feed", ours, currents, none, true},
+    Contender{"ours_spindle", "millforce, spindle current alone", ours, spindle_alone},
+    Contender{"ours_vfd", "millforce, a converter's load alone", ours, converter},
+    Contender{"ours_map", "millforce, map from geometry", ours, currents, geometry},
+    Contender{"ours_map_told", "millforce, map, told a safe feed", ours, currents, geometry, true},
+    Contender{"ours_map_spindle", "millforce, map, spindle current alone", ours, spindle_alone, geometry},
+    Contender{"ours_map_vfd", "millforce, map, a converter's load alone", ours, converter, geometry},
+    Contender{"ours_memory", "millforce, second part, by memory", ours, currents, memory},
+    Contender{"constant_safe", "Constant feed, safe everywhere", safe_constant},
+    Contender{"constant", "Constant feed, as searched", rival},
     Contender{"afc", "AFC (HEIDENHAIN)", rival},
     Contender{"haas", "Autofeed (Haas)", rival},
     Contender{"toolscope", "TS-AFC (ToolScope)", rival},
@@ -45,8 +53,27 @@ const Scenario& drawn(const PreparedPart& part, BenchMachine machine) {
     return part.on_machine[static_cast<std::size_t>(machine)];
 }
 
+Scenario plant_of(const Contender& contender, const PreparedPart& part, const Disturbance& disturbance,
+                  std::uint64_t seed) {
+    return disturbed(drawn(part, contender.machine), disturbance, part.part.depth_mm, seed);
+}
+
+/// Of the same batch: machine, tool and steel are the same, but its blank lies as another one does.
+host::PartMap memory_of_part_before(const Contender& contender, const PreparedPart& part, std::uint64_t seed) {
+    constexpr std::uint64_t far_off = 1'000'000'000;
+    const Disturbance other = drawn_disturbance(seed + far_off);
+    Disturbance before = drawn_disturbance(seed);
+    before.offset_x_mm = other.offset_x_mm;
+    before.offset_y_mm = other.offset_y_mm;
+    before.oversize = other.oversize;
+    return memory_of(plant_of(contender, part, before, seed + far_off), largest_stock_offset_mm);
+}
+
 std::unique_ptr<OverrideSource> controller_of(const Contender& contender, const PreparedPart& part,
-                                              const Scenario& plant, const RuleSettings& settings) {
+                                              const Scenario& plant, std::uint64_t seed, const RuleSettings& settings) {
+    if (contender.kind == safe_constant) {
+        return controller_named(constant_feed, plant.parameters, part.safe_ratio);
+    }
     if (contender.kind == rival) {
         const TaughtFeed& taught = part.taught.find(contender.name)->second;
         return std::make_unique<LoadControl>(
@@ -59,8 +86,13 @@ std::unique_ptr<OverrideSource> controller_of(const Contender& contender, const 
         parameters.tool.control.safe_override = static_cast<float>(told[0] * part.safe_ratio);
         parameters.tool.control.depth_step_share = static_cast<float>(told[1]);
     }
-    if (contender.has_map) {
-        return std::make_unique<MappedController>(parameters, part.map);
+    switch (contender.map) {
+        case none:
+            break;
+        case geometry:
+            return std::make_unique<MappedController>(parameters, part.map);
+        case memory:
+            return std::make_unique<MappedController>(parameters, memory_of_part_before(contender, part, seed));
     }
     return std::make_unique<MillforceController>(parameters);
 }
@@ -72,7 +104,7 @@ double thickest_chip_mm(double feed_per_tooth_mm, double radial_immersion) {
 }
 
 double rubbing_s(const RunResult& result, const PreparedPart& part) {
-    const auto& tool = drawn(part, BenchMachine::currents).parameters.tool;
+    const auto& tool = drawn(part, currents).parameters.tool;
     const double least_mm = static_cast<double>(tool.law.minimum_chip_thickness_mm);
     const double teeth_per_s = part.part.spindle_rpm / 60.0 * part.part.teeth;
     double sum_s = 0.0;
@@ -104,10 +136,10 @@ BenchRun figures_of(const Contender& contender, const PreparedPart& part, std::u
 }
 
 RunResult controlled_run(const Contender& contender, const PreparedPart& part, const Scenario& plant,
-                         const RuleSettings& settings) {
+                         std::uint64_t seed, const RuleSettings& settings) {
     SimulationSettings simulation;
     simulation.longest_run_s = part.longest_run_s;
-    const auto controller = controller_of(contender, part, plant, settings);
+    const auto controller = controller_of(contender, part, plant, seed, settings);
     return simulate(plant, *controller, std::string(contender.name), simulation).result;
 }
 
@@ -134,10 +166,10 @@ PreparedPart prepare(const std::filesystem::path& folder, const BenchPart& part)
     constexpr double patience = 4.0;
     PreparedPart prepared;
     prepared.part = part;
-    for (const auto machine : {BenchMachine::currents, BenchMachine::spindle_alone, BenchMachine::converter}) {
+    for (const BenchMachine machine : {currents, spindle_alone, converter}) {
         prepared.on_machine[static_cast<std::size_t>(machine)] = read_bench_part(folder, part, machine);
     }
-    const Scenario& scenario = drawn(prepared, BenchMachine::currents);
+    const Scenario& scenario = drawn(prepared, currents);
     prepared.map = preview_within(scenario, largest_stock_offset_mm);
     prepared.safe_ratio = safe_constant_override(scenario);
     prepared.longest_run_s = patience * taught_cut(scenario, prepared.safe_ratio).time_s;
@@ -153,7 +185,7 @@ void teach(PreparedPart& prepared, const RuleSettings& settings) {
         }
         const double feed_ratio = found->second.front() * prepared.safe_ratio;
         if (!load_at.contains(feed_ratio)) {
-            load_at[feed_ratio] = taught_cut(drawn(prepared, BenchMachine::currents), feed_ratio).load;
+            load_at[feed_ratio] = taught_cut(drawn(prepared, currents), feed_ratio).load;
         }
         prepared.taught[std::string(rule.name)] = {feed_ratio, load_at[feed_ratio]};
     }
@@ -161,9 +193,9 @@ void teach(PreparedPart& prepared, const RuleSettings& settings) {
 
 BenchRun run_contender(const Contender& contender, const PreparedPart& part, std::uint64_t seed,
                        const RuleSettings& settings, const std::filesystem::path& traces) {
-    const Scenario plant = disturbed(drawn(part, contender.machine), drawn_disturbance(seed), part.part.depth_mm, seed);
+    const Scenario plant = plant_of(contender, part, drawn_disturbance(seed), seed);
     const RunResult result =
-        contender.kind == bound ? clairvoyant_run(plant) : controlled_run(contender, part, plant, settings);
+        contender.kind == bound ? clairvoyant_run(plant) : controlled_run(contender, part, plant, seed, settings);
     if (!traces.empty()) {
         write_text_file(traces / fmt::format("{}_{}_{}.csv", part.part.name, contender.name, seed), trace_csv(result));
     }

@@ -19,17 +19,23 @@ namespace millforce::sim {
 
 /// A controller on its machine. A controller with a load rule runs on the machine with all currents.
 struct Contender {
-    enum class Kind : std::uint8_t { ours, rival, bound };
+    enum class Kind : std::uint8_t { ours, rival, safe_constant, bound };
+    enum class Map : std::uint8_t {
+        none,
+        geometry,  ///< of program, drawn blank and tool
+        memory,    ///< what the part before left behind, milled without a map
+    };
 
     std::string_view name;
     std::string_view title;
     Kind kind;
     BenchMachine machine = BenchMachine::currents;
-    bool has_map = false;  ///< from geometry: program, drawn blank, tool
+    Map map = Map::none;
     bool is_told = false;  ///< ours that is told a feed, and how far beyond it
 };
 
-/// Ours, the rules of load_rules.hpp by their names, and "plan", the clairvoyant bound.
+/// Ours, the rules of load_rules.hpp by their names, "constant_safe", the constant feed that is safe for a K_s 30 %
+/// higher, and "plan", the clairvoyant bound.
 [[nodiscard]] std::span<const Contender> contenders();
 /// nullptr where there is none of that name.
 [[nodiscard]] const Contender* contender_named(std::string_view name);

@@ -44,6 +44,7 @@ struct SimulateOptions {
     bool preview = false;
     std::string map;
     std::string learn;
+    double stock_tolerance_mm = host::MapLearner::default_stock_tolerance_mm;
     std::optional<double> cutting_force_scale;
     std::optional<double> friction_scale;
     std::optional<double> current_noise_share;
@@ -114,6 +115,7 @@ RunResult run_with_map(const SimulateOptions& options, const Scenario& scenario,
     std::optional<host::MapLearner> learner;
     if (!options.learn.empty()) {
         learner.emplace(scenario.parameters);
+        learner->set_stock_tolerance(options.stock_tolerance_mm);
     }
     MappedController controller(scenario.parameters, map_of(options, scenario), learner ? &*learner : nullptr);
     RunResult result = run(scenario, "millforce", controller, recording);
@@ -267,11 +269,16 @@ void add_simulate(host::Command& program) {
         .excludes(controller)
         .excludes(record)
         .excludes(preview);
+    host::Option learn = command.option(
+        "--learn", options->learn, "Write the part map that this run leaves behind: what was estimated along its path");
+    learn.value_name("PART.map").excludes(controller);
     command
-        .option("--learn", options->learn,
-                "Write the part map that this run leaves behind: what was estimated along its path")
-        .value_name("PART.map")
-        .excludes(controller);
+        .option("--stock-tolerance", options->stock_tolerance_mm,
+                "Of the map to write: by how much a blank may lie off in x and in y, in mm")
+        .value_name("MM")
+        .within(0.0, 10.0)
+        .needs(learn)
+        .shows_default();
     command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s relative to the scenario's")
         .within(0.1, 10.0);
     command.option("--friction-scale", options->friction_scale, "True friction relative to the machine file's")

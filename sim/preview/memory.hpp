@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "loop/scenario.hpp"
+#include "part_map/map_learner.hpp"
 #include "part_map/part_map.hpp"
 #include "report/run_result.hpp"
 
@@ -16,12 +17,15 @@ struct LearntPart {
     bool is_refuted = false;  ///< the map that was looked ahead with
 };
 
-/// Mills the scenario's part, with a map to look ahead with or without one.
-[[nodiscard]] LearntPart mill_and_learn(const Scenario& scenario, const std::optional<host::PartMap>& map = {});
+/// Mills the scenario's part, with a map to look ahead with or without one. The map that is learnt allows for blanks
+/// that lie off by `stock_tolerance_mm`.
+[[nodiscard]] LearntPart mill_and_learn(const Scenario& scenario, const std::optional<host::PartMap>& map = {},
+                                        double stock_tolerance_mm = host::MapLearner::default_stock_tolerance_mm);
 
 /// What a first part without a map leaves behind for the second.
-[[nodiscard]] inline host::PartMap memory_of(const Scenario& scenario) {
-    return mill_and_learn(scenario).map;
+[[nodiscard]] inline host::PartMap memory_of(const Scenario& scenario,
+                                             double stock_tolerance_mm = host::MapLearner::default_stock_tolerance_mm) {
+    return mill_and_learn(scenario, {}, stock_tolerance_mm).map;
 }
 
 }  // namespace millforce::sim

@@ -3,6 +3,11 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+
 using namespace millforce::test;
 
 namespace {
@@ -25,6 +30,25 @@ const std::string rows_of_run =
     "16,30,1,0,1200,4000,,,,0,0,0,1.25,0.04,0,0,1\n"
     "20,30,1,0,1200,4000,,,,2,0,0,1.25,0.04,0,0,1\n"
     "30,30,1,0,1200,4000,,,,2,0,0,1.25,0.04,0,0,1\n";
+
+/// NaN where no row has that cell in column `known`.
+double first_path_mm_of_known(const std::string& known, const std::string& map) {
+    constexpr std::size_t column = 9;
+    std::istringstream lines(map);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream cells(line);
+        std::string path_mm;
+        std::string cell;
+        std::getline(cells, path_mm, ',');
+        for (std::size_t k = 1; k <= column; ++k) {
+            std::getline(cells, cell, ',');
+        }
+        if (cell == known) {
+            return std::stod(path_mm);
+        }
+    }
+    return std::nan("");
+}
 
 }  // namespace
 
@@ -103,6 +127,21 @@ TEST(MapCommand, show_refuses_another_tool_and_to_write_over_what_it_reads) {
     inputs.write("tool.toml", with(tool_text, "teeth = 4", "teeth = 3"));
     STRCMP_EQUAL("", not_refused(show(), {"a.map", "made for another tool"}).c_str());
     CHECK(has_not_written("page.html"));
+}
+
+TEST(MapCommand, of_a_run_doubts_the_air_beside_a_cut_as_far_as_a_blank_may_lie_off) {
+    const auto doubted_from_mm = [&](const char* tolerance_mm) {
+        const Ended ended =
+            run_millforce({"simulate", inputs.name("scenario.toml"), "--hardest", "1", "--learn",
+                           inputs.name("run.map"), "--stock-tolerance", tolerance_mm, "--out", inputs.name("out")});
+        LONGS_EQUAL(0, ended.exit_code);
+        return first_path_mm_of_known("1", inputs.read("run.map"));
+    };
+    const double at_contact_mm = doubted_from_mm("0");
+    DOUBLES_EQUAL(at_contact_mm - 3.0, doubted_from_mm("1.5"), 0.6);
+    STRCMP_EQUAL("", not_refused(run_millforce({"simulate", inputs.name("scenario.toml"), "--stock-tolerance", "1"}),
+                                 {"--stock-tolerance", "--learn"})
+                         .c_str());
 }
 
 TEST(MapCommand, join_says_what_it_compared_and_writes_the_map_of_both) {

@@ -37,11 +37,17 @@ void add_map(Command& command, MapOptions& options) {
         .value_name("PART.map")
         .one_each_time()
         .needs(program);
+    Option learn =
+        command.option("--learn", options.learn,
+                       "Write the part map of what this run estimated along its path; with --tools a folder of them");
+    learn.value_name("PART.map").needs(program);
     command
-        .option("--learn", options.learn,
-                "Write the part map of what this run estimated along its path; with --tools a folder of them")
-        .value_name("PART.map")
-        .needs(program);
+        .option("--stock-tolerance", options.stock_tolerance_mm,
+                "Of the map to write: by how much a blank may lie off in x and in y, in mm")
+        .value_name("MM")
+        .within(0.0, 10.0)
+        .needs(learn)
+        .shows_default();
 }
 
 LiveMaps::LiveMaps(const MapOptions& options, const ToolChoice& choice, const ToolSet& tools)
@@ -86,6 +92,7 @@ std::string LiveMaps::read(const std::string& file, const ToolChoice& choice) {
 
 void LiveMaps::prepare_to_learn(const ToolChoice& choice) {
     learner_ = std::make_unique<MapLearner>(machine_, tools_);
+    learner_->set_stock_tolerance(options_.stock_tolerance_mm);
     if (has_numbers_) {
         results_folder(options_.learn, file_to_learn(tools_.front().number).filename().string());
     } else {

@@ -19,13 +19,14 @@ namespace millforce::host {
 /// What a live controller does with part maps.
 struct MapOptions {
     std::string program;
-    std::vector<std::string> maps;  ///< one, or with tools by number one for each
-    std::string learn;              ///< a file; with tools by number a folder
+    std::vector<std::string> maps;                                       ///< one, or with tools by number one for each
+    std::string learn;                                                   ///< a file; with tools by number a folder
+    double stock_tolerance_mm = MapLearner::default_stock_tolerance_mm;  ///< of what is learnt
 
     [[nodiscard]] bool is_any() const { return !maps.empty() || !learn.empty(); }
 };
 
-/// --program, --map and --learn.
+/// --program, --map, --learn and --stock-tolerance.
 void add_map(Command& command, MapOptions& options);
 
 /// The part maps of a live controller: those that are looked ahead in, and those that are learnt, of the one tool or of

@@ -34,6 +34,20 @@ bool is_seen_cut(const MapPlace& place) {
     return place.known == Known::cut && !place.cut.empty();
 }
 
+bool is_air(const MapPlace& place) {
+    return place.known == Known::cut && place.cut.empty();
+}
+
+double depth_mm(const MapPlace& place) {
+    return place.cut.front().axial_depth_mm;
+}
+
+MapPlace at_most(MapPlace place) {
+    place.known = place.known == Known::cut ? Known::at_most : place.known;
+    place.least_share = 0.0;
+    return place;
+}
+
 /// The cuts on both sides of a row of pieces without an engagement.
 struct Neighbours {
     const MapPlace* cut = nullptr;  // of the larger section
@@ -42,20 +56,31 @@ struct Neighbours {
 
 Neighbours neighbours_of(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
     Neighbours found;
-    const auto section = [](const MapPlace& place) { return immersion_of(place) * place.cut.front().axial_depth_mm; };
+    const auto section = [](const MapPlace& place) { return immersion_of(place) * depth_mm(place); };
     const auto look = [&](std::size_t at) {
-        const bool is_air = places[at].known == Known::cut && places[at].cut.empty();
-        found.is_same_block = found.is_same_block && (is_air || places[at].line == places[k].line);
+        found.is_same_block = found.is_same_block && (is_air(places[at]) || places[at].line == places[k].line);
         if (is_seen_cut(places[at]) && (found.cut == nullptr || section(*found.cut) < section(places[at]))) {
             found.cut = &places[at];
         }
-        return is_air || is_seen_cut(places[at]);
+        return is_air(places[at]) || is_seen_cut(places[at]);
     };
     for (std::size_t at = k; at < std::min(places.size(), k + reach) && !look(at); ++at) {
     }
     for (std::size_t at = k; at + reach > k && !look(at) && at > 0; --at) {
     }
     return found;
+}
+
+/// The deepest cut of the same block that was seen within `reach` pieces; nullptr where there is none.
+const MapPlace* deepest_around(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
+    const MapPlace* deepest = nullptr;
+    const std::size_t end = std::min(places.size(), k + reach + 1);
+    for (std::size_t at = k > reach ? k - reach : 0; at < end; ++at) {
+        const bool is_deeper = is_seen_cut(places[at]) && places[at].line == places[k].line &&
+                               (deepest == nullptr || depth_mm(places[at]) > depth_mm(*deepest));
+        deepest = is_deeper ? &places[at] : deepest;
+    }
+    return deepest;
 }
 
 /// Estimates differ from one piece of the path to the next by their noise; a cut that stays the same is one place.
@@ -83,9 +108,8 @@ class Smoother {
             return true;
         }
         const bool is_same_side = (a.cut.front().entry_rad > 0.0) == (b.cut.front().entry_rad > 0.0);
-        const double depth_mm = a.cut.front().axial_depth_mm;
         return is_same_side && std::abs(immersion_of(a) - immersion_of(b)) <= alike_immersion &&
-               std::abs(depth_mm - b.cut.front().axial_depth_mm) <= alike_depth * depth_mm;
+               std::abs(depth_mm(a) - depth_mm(b)) <= alike_depth * depth_mm(a);
     }
 
     void join(MapPlace& a, const MapPlace& b) {
@@ -255,8 +279,8 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
 /// What a run has seen, by the law of one of its tools.
 class MapLearner::SeenRun {
   public:
-    SeenRun(const Run& run, std::size_t tool, const firmware::Parameters<float>& parameters)
-        : run_(run), tool_(tool), parameters_(parameters) {}
+    SeenRun(const Run& run, std::size_t tool, const firmware::Parameters<float>& parameters, double stock_tolerance_mm)
+        : run_(run), tool_(tool), parameters_(parameters), next_blank_off_(bin_at(2.0 * stock_tolerance_mm)) {}
 
     [[nodiscard]] PartMap map() const;
 
@@ -264,12 +288,17 @@ class MapLearner::SeenRun {
     [[nodiscard]] std::vector<MapPlace> seen() const;
     [[nodiscard]] MapPlace seen_in(const Bin& bin) const;
     [[nodiscard]] bool carries(const std::vector<EngagedArc>& cut, const Bin& bin) const;
-    void bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin, MapPlace& place) const;
+    [[nodiscard]] std::size_t reach() const { return bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm)); }
+    void bound_by(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const;
+    void doubt_depth(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const;
+    [[nodiscard]] std::vector<MapPlace> doubted_beside_cuts(const std::vector<MapPlace>& places) const;
+    void set_at_most(const MapPlace& cut, bool arc_is_known, const Bin& bin, MapPlace& place) const;
     [[nodiscard]] double end_of(std::size_t block) const;
 
     const Run& run_;
     std::size_t tool_;
     const firmware::Parameters<float>& parameters_;
+    std::size_t next_blank_off_;  // pieces by which another blank may lie elsewhere
 };
 
 PartMap MapLearner::map(std::uint32_t number) const {
@@ -278,7 +307,7 @@ PartMap MapLearner::map(std::uint32_t number) const {
         return {};
     }
     const firmware::Parameters<float> parameters{machine_, tools_[tool].parameters};
-    return SeenRun(run_.path_mm >= longest_.path_mm ? run_ : longest_, tool, parameters).map();
+    return SeenRun(run_.path_mm >= longest_.path_mm ? run_ : longest_, tool, parameters, stock_tolerance_mm_).map();
 }
 
 MapPlace MapLearner::SeenRun::seen_in(const Bin& bin) const {
@@ -316,12 +345,13 @@ std::vector<MapPlace> MapLearner::SeenRun::seen() const {
     }
     std::vector<MapPlace> completed = seen;
     for (std::size_t k = 0; k < seen.size(); ++k) {
-        if (seen[k].known != Known::at_most) {
-            continue;
+        if (seen[k].known == Known::at_most) {
+            bound_by(seen, k, completed[k]);
+        } else if (is_seen_cut(seen[k])) {
+            doubt_depth(seen, k, completed[k]);
         }
-        bound_by(seen, k, run_.bins[k], completed[k]);
     }
-    return completed;
+    return doubted_beside_cuts(completed);
 }
 
 /// F_at of the cut is not below that which was measured there, but for the noise.
@@ -342,18 +372,42 @@ bool MapLearner::SeenRun::carries(const std::vector<EngagedArc>& cut, const Bin&
 
 /// Where the tool goes straight on, the arc of an entry or exit is a part of its neighbour's; elsewhere only the depth
 /// is known.
-void MapLearner::SeenRun::bound_by(const std::vector<MapPlace>& seen, std::size_t k, const Bin& bin,
-                                   MapPlace& place) const {
-    const std::size_t reach = bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
-    const Neighbours neighbours = neighbours_of(seen, k, reach);
+void MapLearner::SeenRun::bound_by(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const {
+    const Neighbours neighbours = neighbours_of(seen, k, reach());
     place.known = Known::nothing;
-    if (neighbours.cut == nullptr) {
-        return;
+    if (neighbours.cut != nullptr) {
+        set_at_most(*neighbours.cut, neighbours.is_same_block, run_.bins[k], place);
     }
-    place = *neighbours.cut;
+}
+
+/// Over a hole, or along a slot, a tooth cuts deep on both sides of a gap: its means are those of a wide and shallow
+/// cut.
+void MapLearner::SeenRun::doubt_depth(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const {
+    constexpr double much_shallower = 0.6;
+    const MapPlace& deepest = *deepest_around(seen, k, reach());
+    if (depth_mm(seen[k]) < much_shallower * depth_mm(deepest)) {
+        set_at_most(deepest, true, run_.bins[k], place);
+    }
+}
+
+/// Where this blank had air, the next one may have stock.
+std::vector<MapPlace> MapLearner::SeenRun::doubted_beside_cuts(const std::vector<MapPlace>& places) const {
+    std::vector<MapPlace> doubted = places;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const std::size_t begin = k > next_blank_off_ ? k - next_blank_off_ : 0;
+        const std::size_t end = std::min(places.size(), k + next_blank_off_ + 1);
+        for (std::size_t at = begin; at < end && is_air(doubted[k]); ++at) {
+            doubted[k] = is_air(places[at]) ? doubted[k] : at_most(places[at]);
+        }
+    }
+    return doubted;
+}
+
+void MapLearner::SeenRun::set_at_most(const MapPlace& cut, bool arc_is_known, const Bin& bin, MapPlace& place) const {
+    place = cut;
     place.known = Known::at_most;
-    if (!neighbours.is_same_block || !carries(place.cut, bin)) {
-        place.cut = {{0.0, std::numbers::pi, place.cut.front().axial_depth_mm}};
+    if (!arc_is_known || !carries(place.cut, bin)) {
+        place.cut = {{0.0, std::numbers::pi, depth_mm(cut)}};
         place.known = carries(place.cut, bin) ? Known::at_most : Known::nothing;
     }
 }

@@ -21,7 +21,9 @@ namespace millforce::host {
 /// A place where the force was that of air is air. Where immersion and depth were estimated they are the cut, with
 /// their deviations. Where there was a force without them, as while the tool enters or leaves, the cut is at most that
 /// of its neighbour, or a slot as deep where the force was higher than that; otherwise it is not known. Nor are places
-/// that the run did not reach.
+/// that the run did not reach. A cut that seems less than 0.6 as deep as another one of its block within two diameters
+/// is at most that one: the forces over a hole are those of a wide and shallow cut. So is air within twice the stock's
+/// tolerance of a cut: where this blank had air, the next one may have stock.
 ///
 /// Depth and K_s enter the forces as a product: the depth is the one that gives the measured force by the tool's law.
 ///
@@ -36,11 +38,14 @@ class MapLearner {
     static constexpr double bin_mm = 0.5;
     static constexpr double longest_mm = 131072.0;
     static constexpr std::size_t most_blocks = 100'000;
+    static constexpr double default_stock_tolerance_mm = 0.5;
 
     explicit MapLearner(const firmware::Parameters<float>& parameters);
     /// By number. Until set_tool() nothing is learnt.
     MapLearner(const firmware::MachineParameters<float>& machine, const std::vector<firmware::NumberedTool>& tools);
 
+    /// By how much a blank may lie off in x and in y.
+    void set_stock_tolerance(double mm) { stock_tolerance_mm_ = mm; }
     /// Another tool is in the spindle, at rest; 0, or one that is not among them: nothing is learnt.
     void set_tool(std::uint32_t number);
 
@@ -95,6 +100,7 @@ class MapLearner {
     std::size_t tool_ = 0;                       // in the spindle; tools_.size(): none of them
     Run run_;
     Run longest_;  // of the runs before
+    double stock_tolerance_mm_ = default_stock_tolerance_mm;
     double to_go_mm_ = 0.0;
     std::optional<double> last_middle_mm_;
 };

@@ -103,6 +103,23 @@ class CutAt {
     std::vector<Arc> arcs_;
 };
 
+/// The cut with an arc that is wider by `wider_rad`, of the depth that gives the same F_at.
+CutAt with_other_arc(const MapPlace& place, double wider_rad, const firmware::ToolParameters<float>& tool,
+                     float feed_per_tooth_mm) {
+    constexpr double least_rad = 0.05;
+    EngagedArc arc = place.cut.front();
+    const double width_rad = std::clamp(arc.exit_rad - arc.entry_rad + wider_rad, least_rad, std::numbers::pi);
+    const bool ends_behind = arc.entry_rad > 0.0;  // down milling
+    arc.entry_rad = ends_behind ? std::max(arc.exit_rad - width_rad, 0.0) : arc.entry_rad;
+    arc.exit_rad = std::min(arc.entry_rad + width_rad, std::numbers::pi);
+    const auto mean_N = [&](const EngagedArc& of) { return CutAt(tool, {of}).mean(feed_per_tooth_mm).tangential_N; };
+    arc.axial_depth_mm *= static_cast<double>(mean_N(place.cut.front()) / mean_N(arc));
+    if (tool.flute_length_mm > 0.0F) {
+        arc.axial_depth_mm = std::min(arc.axial_depth_mm, static_cast<double>(tool.flute_length_mm));
+    }
+    return {tool, {arc}};
+}
+
 bool is_same_arc(const EngagedArc& a, const EngagedArc& b) {
     constexpr double alike_rad = 0.005;
     constexpr double alike_mm = 0.01;
@@ -132,7 +149,18 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
     const float target_N = tool.control.setpoint_share * tool.tooth_force_limit_N / hardness;
     // A hardness below 1 allows more than the feed of this stretch, up to the override's end: it is not cut off here.
     const float highest_mm = 2.0F * stretch.feed_mm_s / teeth_per_s;
-    const float feed_per_tooth_mm = cut.feed_per_tooth_at(target_N, highest_mm);
+    float feed_per_tooth_mm = cut.feed_per_tooth_at(target_N, highest_mm);
+    float tooth_N = cut.mean_tooth_N(feed_per_tooth_mm);
+    if (place.arc_sd_rad > 0.0 && place.cut.size() == 1) {
+        // The mean forces may be those of a wider or a narrower cut, whose teeth carry more.
+        const double doubt_rad = static_cast<double>(tool.control.caution_sd) * place.arc_sd_rad;
+        const CutAt wider = with_other_arc(place, doubt_rad, tool, feed_per_tooth_mm);
+        const CutAt narrower = with_other_arc(place, -doubt_rad, tool, feed_per_tooth_mm);
+        feed_per_tooth_mm = std::min({feed_per_tooth_mm, wider.feed_per_tooth_at(target_N, highest_mm),
+                                      narrower.feed_per_tooth_at(target_N, highest_mm)});
+        tooth_N = std::max({cut.mean_tooth_N(feed_per_tooth_mm), wider.mean_tooth_N(feed_per_tooth_mm),
+                            narrower.mean_tooth_N(feed_per_tooth_mm)});
+    }
     // Secants where the feed and the hardness are mostly found: half the feed, and a batch that is 30 % harder.
     constexpr float harder = 1.3F;
     const float harder_feed_mm =
@@ -140,7 +168,7 @@ control::Stretch<float> stretch_at(const MapPlace& place, const firmware::Parame
     stretch.feed_mm_s = feed_per_tooth_mm * teeth_per_s;
     const auto mean = cut.mean(feed_per_tooth_mm);
     stretch.tangential_N = hardness * mean.tangential_N;
-    stretch.tooth_per_tangential = cut.mean_tooth_N(feed_per_tooth_mm) / mean.tangential_N;
+    stretch.tooth_per_tangential = tooth_N / mean.tangential_N;
     stretch.feed_per_tangential = mean.feed_N / mean.tangential_N;
     stretch.falling_share = 2.0F * (1.0F - cut.mean(0.5F * feed_per_tooth_mm).tangential_N / mean.tangential_N);
     stretch.feed_per_softness = (1.0F - harder_feed_mm / feed_per_tooth_mm) / (1.0F - 1.0F / harder);

@@ -46,7 +46,8 @@ estimation::FeedDriveParameters<float> calibrated(const std::vector<AxisSample>&
     text.precision(10);
     text << "time_s,position_m,motor_force_N\n";
     for (std::size_t k = 0; k < samples.size(); ++k) {
-        text << step_s * static_cast<double>(k) << ',' << samples[k].position_m << ',' << samples[k].motor_force_N << '\n';
+        text << step_s * static_cast<double>(k) << ',' << samples[k].position_m << ',' << samples[k].motor_force_N
+             << '\n';
     }
     FrictionCalibrationOptions options;
     options.data = {folder.write("half.csv", text.str())};
@@ -75,8 +76,8 @@ struct Phantom {
 };
 
 /// In a feed move in air at that speed of an idle spindle.
-Phantom phantom_force(const estimation::FeedDriveParameters<float>& axis, const std::vector<AxisSample>& samples, std::size_t from,
-                      double spindle_rpm) {
+Phantom phantom_force(const estimation::FeedDriveParameters<float>& axis, const std::vector<AxisSample>& samples,
+                      std::size_t from, double spindle_rpm) {
     Parameters machine = machine_and_tool();
     machine.machine.axes[0] = axis;
     firmware::ForceControlTick<float> tick(machine);
@@ -88,7 +89,8 @@ Phantom phantom_force(const estimation::FeedDriveParameters<float>& axis, const 
     for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
         hal::DriveSample sample;
         sample.time_us = static_cast<std::uint32_t>(std::lround(1e6 * step_s * static_cast<double>(k)));
-        sample.spindle_count = static_cast<std::uint32_t>(spindle_rpm / 60.0 * step_s * static_cast<double>(k) * 4096.0);
+        sample.spindle_count =
+            static_cast<std::uint32_t>(spindle_rpm / 60.0 * step_s * static_cast<double>(k) * 4096.0);
         sample.present = hal::all_present;
         sample.spindle_current_A = -machine.machine.spindle.K_t2_Nm / machine.machine.spindle.K_t1_Nm_per_A;
         sample.axis_current_A[0] = static_cast<float>(samples[k].motor_force_N / force_constant_N_per_A);
@@ -118,7 +120,8 @@ Phantom phantom_force(const estimation::FeedDriveParameters<float>& axis, const 
 TEST_GROUP(MeasuredAxisInTick) {
     const std::vector<AxisSample> samples = measured_axis();
     const std::size_t half = samples.size() / 2;
-    const estimation::FeedDriveParameters<float> axis{calibrated({samples.begin(), samples.begin() + static_cast<long>(half)})};
+    const estimation::FeedDriveParameters<float> axis{
+        calibrated({samples.begin(), samples.begin() + static_cast<long>(half)})};
 };
 
 TEST(MeasuredAxisInTick, calibrated_on_the_first_half_feels_no_cut_in_the_second) {

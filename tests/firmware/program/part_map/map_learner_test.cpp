@@ -15,6 +15,17 @@ namespace {
 
 constexpr float step_s = 0.001F;
 
+/// With that share of the sample's cutting forces.
+hal::DriveSample with_load(hal::DriveSample sample, float share) {
+    const Parameters p = machine_and_tool();
+    const float idle_A = -p.machine.spindle.K_t2_Nm / p.machine.spindle.K_t1_Nm_per_A;
+    const auto& x = p.machine.axes[0];
+    const float friction_A = x.positive.at(feed_mm_s * 0.06F) + x.K_x3_A;
+    sample.spindle_current_A = idle_A + share * (sample.spindle_current_A - idle_A);
+    sample.axis_current_A[0] = friction_A + share * (sample.axis_current_A[0] - friction_A);
+    return sample;
+}
+
 /// A machine that goes along its program's blocks at 20 mm/s: 4 mm of air, and then in the cut of sample_of().
 class Machine {
   public:
@@ -26,11 +37,13 @@ class Machine {
             report(line, length_mm - feed_mm_s * step_s * static_cast<float>(k));
         }
     }
+    /// The cut's forces, as a share of those of sample_of().
+    void set_load(float share) { load_ = share; }
     void report(std::uint32_t line, float to_go_mm) {
         hal::ProgramStatus status = program();
         status.line = line;
         status.distance_to_go_mm = to_go_mm;
-        tick_.take(sample_of(samples_++));
+        tick_.take(with_load(sample_of(samples_++), load_));
         firmware::finish_estimate(tick_);
         learner_.take(tick_, status);
         tick_.answer(status);
@@ -40,6 +53,7 @@ class Machine {
     MapLearner& learner_;
     firmware::ForceControlTick<float> tick_ = fresh_tick();
     int samples_ = 0;
+    float load_ = 1.0F;
 };
 
 double length_mm(const PartMap& map) {
@@ -66,6 +80,35 @@ TEST(MapLearner, learns_air_and_the_cut_behind_it_along_a_block) {
     DOUBLES_EQUAL(20.0, map.front().programmed_feed_mm_s, 1e-6);
     CHECK(map.back().cut.empty());
     CHECK(map.back().known == Known::cut);
+}
+
+/// The tool's contact is at 4 mm.
+TEST(MapLearner, of_air_beside_a_cut_says_that_another_blank_may_have_stock_there) {
+    machine.block(3, 60.0F);
+    CHECK(place_holding_at(learner.map(), 2.5).known == Known::cut);
+    CHECK(place_holding_at(learner.map(), 3.5).known == Known::at_most);
+    DOUBLES_EQUAL(0.0, place_holding_at(learner.map(), 3.5).least_share, 0.0);
+    learner.set_stock_tolerance(1.0);
+    CHECK(place_holding_at(learner.map(), 1.5).known == Known::cut);
+    CHECK(place_holding_at(learner.map(), 2.5).known == Known::at_most);
+    learner.set_stock_tolerance(0.0);
+    CHECK(place_holding_at(learner.map(), 3.5).known == Known::cut);
+    CHECK(place_holding_at(learner.map(), 3.5).cut.empty());
+}
+
+/// As over a hole, whose forces are those of a shallow cut.
+TEST(MapLearner, takes_a_cut_that_seems_much_shallower_beside_a_deep_one_for_at_most_that_one) {
+    machine.block(3, 60.0F);
+    machine.set_load(2.0F);
+    machine.block(3, 60.0F);
+    const PartMap map = learner.map();
+    const MapPlace& shallow = place_holding_at(map, 30.0);
+    const MapPlace& beside = place_holding_at(map, 50.0);
+    const double deep_mm = place_holding_at(map, 100.0).cut.front().axial_depth_mm;
+    CHECK(shallow.known == Known::cut);
+    CHECK(shallow.cut.front().axial_depth_mm < 0.6 * deep_mm);
+    CHECK(beside.known == Known::at_most);
+    DOUBLES_EQUAL(deep_mm, beside.cut.front().axial_depth_mm, 0.1 * deep_mm);
 }
 
 TEST(MapLearner, learns_nothing_without_a_line_or_a_way_to_go) {

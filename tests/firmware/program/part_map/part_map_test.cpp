@@ -132,3 +132,29 @@ TEST(PartMap, goes_slower_through_a_harder_batch_with_the_same_force_on_a_tooth)
     harder.hardness = 1.3;
     CHECK(stretches_of({harder}, parameters)[0].feed_mm_s < 0.9F * soft_mm_s);
 }
+
+/// The mean forces may be those of a wider or a narrower cut, whose teeth carry more.
+TEST(PartMap, goes_slower_where_the_arc_is_less_sure) {
+    for (const auto& [entry_rad, exit_rad] : {std::pair(0.0, 1.0), std::pair(2.1, 3.14)}) {
+        MapPlace place = cut_at(0.0, 2.0);
+        place.cut = {{entry_rad, exit_rad, 2.0}};
+        parameters.tool.tooth_force_limit_N = 250.0F;
+        const auto sure = stretches_of({place}, parameters)[0];
+        place.arc_sd_rad = 0.3;
+        const auto vague = stretches_of({place}, parameters)[0];
+        CHECK(vague.feed_mm_s < 0.95F * sure.feed_mm_s);
+        CHECK(vague.feed_mm_s > 0.5F * sure.feed_mm_s);
+        CHECK(vague.tooth_per_tangential > 1.02F * sure.tooth_per_tangential);
+        const float at_sure_feed_N =
+            vague.tangential_N * (1.0F - vague.falling_share * (1.0F - sure.feed_mm_s / vague.feed_mm_s));
+        DOUBLES_EQUAL(static_cast<double>(sure.tangential_N), static_cast<double>(at_sure_feed_N),
+                      0.02 * static_cast<double>(sure.tangential_N));
+    }
+}
+
+TEST(PartMap, of_an_arc_that_is_not_known_at_all_gives_a_feed) {
+    MapPlace place = cut_at(0.0, 6.0);
+    place.arc_sd_rad = 3.0;
+    parameters.tool.flute_length_mm = 12.0F;
+    CHECK(stretches_of({place}, parameters)[0].feed_mm_s > 1.0F);
+}
