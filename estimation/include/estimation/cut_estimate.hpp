@@ -83,7 +83,7 @@ struct CutEstimate {
 
     Measurement<Scalar> tooth_force_N{};  ///< peak in-plane force of one tooth; without an immersion its upper bound
     bool tooth_force_is_bound = false;    ///< tooth_force_N is the most that it can be, and may be far above it
-    Scalar certain_tooth_force_N{0};      ///< tooth_force_N at the wide end of the immersion's 95 % interval
+    Scalar certain_tooth_force_N{0};      ///< at that end of the immersion's 95 % interval where it is smaller
     Scalar least_tooth_force_N{0};        ///< smallest peak force of one tooth: F_at shared by the widest cut
     Scalar runout_mm{0};                  ///< by how much its chip is thicker, at most: runout_meter.hpp
     Scalar runout_factor{1};              ///< force of the tooth with the largest radius over that of a mean one

@@ -75,6 +75,18 @@ TEST(ToothForce, without_an_immersion_is_no_smaller_than_at_the_last_one) {
                   static_cast<double>(e.tooth_force_N.value), 1e-3);
 }
 
+/// The long edge of a narrow and deep cut comes in bit by bit.
+TEST(ToothForce, is_certain_as_far_as_the_narrowest_cut_of_the_interval_makes_it_where_that_is_deep) {
+    e.engagement = narrow_and_shallow();
+    e.engagement.depth_at_low_mm = flutes_mm;
+    e.engagement.radial_immersion_high = 1.0F;
+    e.engagement.engagement_high_rad = 0.5F * pi<float>;
+    set_tangential_N(100.0F);
+    CHECK(peaks.factors().at_low < 0.7F * peaks.factors().at_high);
+    DOUBLES_EQUAL(static_cast<double>(e.newest_tangential_N * peaks.factors().at_low),
+                  static_cast<double>(e.certain_tooth_force_N), 1e-3);
+}
+
 TEST(ToothForce, is_certain_as_far_as_the_widest_cut_of_the_interval_makes_it) {
     e.engagement = narrow_and_shallow();
     e.engagement.engagement_low_rad = 0.5F * e.engagement.engagement_rad;

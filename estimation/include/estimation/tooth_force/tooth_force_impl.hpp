@@ -88,7 +88,8 @@ void ToothForce<Scalar>::estimate_tooth_force(CutEstimate<Scalar>& e, const Fact
     const Scalar force_variance = e.steady_tangential_N.variance + square(e.tangential_gain_doubt * newest_N);
     const Scalar runout = e.runout_factor;
     e.worst_tooth_force_N = newest_N * factors.now * runout;
-    e.certain_tooth_force_N = newest_N * factors.at_high * runout;
+    // Of the widest cut, whose teeth share the load, or of the narrowest, whose long edge comes in bit by bit.
+    e.certain_tooth_force_N = newest_N * (factors.at_low < factors.at_high ? factors.at_low : factors.at_high) * runout;
     e.least_tooth_force_N = newest_N * factors.slot;
     const auto bound_by = [&](Scalar bound) {
         const Scalar ratio = runout * (bound > factors.now ? bound : factors.now);
