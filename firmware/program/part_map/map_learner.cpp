@@ -255,14 +255,17 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
     if (bin.air + bin.contact >= enough) {
         return;
     }
-    bin.air = static_cast<std::uint16_t>(bin.air + (is_contact ? 0 : 1));
-    bin.contact = static_cast<std::uint16_t>(bin.contact + (is_contact ? 1 : 0));
-    if (is_contact && e.tangential_N.value > bin.highest_N) {
+    if (!is_contact) {
+        add_air(bin, 0.5F * contact_N, e.feed_mm_s);
+        return;
+    }
+    ++bin.contact;
+    if (e.tangential_N.value > bin.highest_N) {
         bin.highest_N = e.tangential_N.value;
         bin.feed_per_tooth_mm = e.feed_per_tooth_mm;
     }
     const estimation::EngagementEstimate<float> cut = tick.engagement();
-    if (!is_contact || !cut.immersion_valid || !cut.depth_valid || !(cut.axial_depth_mm > 0.0F)) {
+    if (!cut.immersion_valid || !cut.depth_valid || !(cut.axial_depth_mm > 0.0F)) {
         return;
     }
     ++bin.cut;
@@ -271,6 +274,14 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
     bin.immersion_variance += cut.radial_immersion_sd * cut.radial_immersion_sd;
     bin.depth_mm += cut.axial_depth_mm;
     bin.depth_variance_mm2 += cut.axial_depth_force_sd_mm * cut.axial_depth_force_sd_mm;
+}
+
+void MapLearner::add_air(Bin& bin, float hidden_N, float feed_mm_s) {
+    constexpr float slowest_mm_s = 0.01F;
+    const float hidden_N_s_per_mm = hidden_N / std::max(feed_mm_s, slowest_mm_s);
+    const bool is_first = bin.air == 0;
+    bin.hidden_N_s_per_mm = is_first ? hidden_N_s_per_mm : std::min(bin.hidden_N_s_per_mm, hidden_N_s_per_mm);
+    ++bin.air;
 }
 
 // ---- What was seen
@@ -287,6 +298,7 @@ class MapLearner::SeenRun {
   private:
     [[nodiscard]] std::vector<MapPlace> seen() const;
     [[nodiscard]] MapPlace seen_in(const Bin& bin) const;
+    [[nodiscard]] bool is_surely_air(const Bin& bin, const Block& block) const;
     [[nodiscard]] bool carries(const std::vector<EngagedArc>& cut, const Bin& bin) const;
     [[nodiscard]] std::size_t reach() const { return bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm)); }
     void bound_by(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const;
@@ -311,8 +323,9 @@ PartMap MapLearner::map(std::uint32_t number) const {
 }
 
 MapPlace MapLearner::SeenRun::seen_in(const Bin& bin) const {
+    constexpr int by_noise = 4;  // of so many estimates in air one may seem to be in contact
     MapPlace seen;
-    if (bin.air > bin.contact) {
+    if (bin.air > by_noise * bin.contact) {
         return seen;
     }
     if (bin.cut == 0 || 2 * bin.cut < bin.contact) {
@@ -341,6 +354,9 @@ std::vector<MapPlace> MapLearner::SeenRun::seen() const {
     for (const Block& block : run_.blocks) {
         for (std::size_t k = bin_at(block.begin_mm); k < std::min(bin_at(block.end_mm) + 1, seen.size()); ++k) {
             seen[k].line = block.line;
+            if (is_air(seen[k]) && !is_surely_air(run_.bins[k], block)) {
+                seen[k].known = Known::nothing;
+            }
         }
     }
     std::vector<MapPlace> completed = seen;
@@ -352,6 +368,14 @@ std::vector<MapPlace> MapLearner::SeenRun::seen() const {
         }
     }
     return doubted_beside_cuts(completed);
+}
+
+/// What was hidden is a force at the feed of that time, and grows with it.
+bool MapLearner::SeenRun::is_surely_air(const Bin& bin, const Block& block) const {
+    constexpr float tooth_per_tangential = 4.0F;  // of a narrow cut, its runout included
+    const float air_mm_s = block.feed_mm_s * parameters_.machine.cnc.override_max;
+    return block.rapid || bin.air == 0 ||
+           tooth_per_tangential * bin.hidden_N_s_per_mm * air_mm_s < parameters_.tool.tooth_force_limit_N;
 }
 
 /// F_at of the cut is not below that which was measured there, but for the noise.

@@ -18,12 +18,13 @@ namespace millforce::host {
 /// The part map that a run leaves behind: what the estimator saw along the program's path, every half millimetre. The
 /// path is put together from what the CNC reports, line and distance to go; neither program nor stock is needed.
 ///
-/// A place where the force was that of air is air. Where immersion and depth were estimated they are the cut, with
-/// their deviations. Where there was a force without them, as while the tool enters or leaves, the cut is at most that
-/// of its neighbour, or a slot as deep where the force was higher than that; otherwise it is not known. Nor are places
-/// that the run did not reach. A cut that seems less than 0.6 as deep as another one of its block within two diameters
-/// is at most that one: the forces over a hole are those of a wide and shallow cut. So is air within twice the stock's
-/// tolerance of a cut: where this blank had air, the next one may have stock.
+/// A place where the force was that of air is air, as long as a cut that the noise may have hidden there would not load
+/// a tooth up to its limit at the feed of air; else it is not known. Where immersion and depth were estimated they are
+/// the cut, with their deviations. Where there was a force without them, as while the tool enters or leaves, the cut is
+/// at most that of its neighbour, or a slot as deep where the force was higher than that; otherwise it is not known.
+/// Nor are places that the run did not reach. A cut that seems less than 0.6 as deep as another one of its block within
+/// two diameters is at most that one: the forces over a hole are those of a wide and shallow cut. So is air within
+/// twice the stock's tolerance of a cut: where this blank had air, the next one may have stock.
 ///
 /// Depth and K_s enter the forces as a product: the depth is the one that gives the measured force by the tool's law.
 ///
@@ -71,7 +72,8 @@ class MapLearner {
     /// Sums over the estimates that belong to a piece of the path.
     struct Bin {
         std::uint16_t air = 0;
-        std::uint16_t contact = 0;  ///< of them with an engagement: cut
+        float hidden_N_s_per_mm = 0.0F;  ///< of the air: the force that it may have hidden, over the feed there
+        std::uint16_t contact = 0;       ///< of them with an engagement: cut
         std::uint16_t cut = 0;
         std::uint16_t up = 0;  ///< of the cuts in up milling
         float immersion = 0.0F;
@@ -94,6 +96,7 @@ class MapLearner {
     [[nodiscard]] bool begins_again(const hal::ProgramStatus& program) const;
     void begin_run();
     void add(Bin& bin, const firmware::ForceControlTick<float>& tick) const;
+    static void add_air(Bin& bin, float hidden_N, float feed_mm_s);
 
     firmware::MachineParameters<float> machine_;
     std::vector<firmware::NumberedTool> tools_;  // without numbers the one tool as 0

@@ -96,6 +96,17 @@ TEST(MapLearner, of_air_beside_a_cut_says_that_another_blank_may_have_stock_ther
     CHECK(place_holding_at(learner.map(), 3.5).cut.empty());
 }
 
+/// What the noise may hide at this feed, a tooth of a weak tool could not bear at that of air.
+TEST(MapLearner, does_not_know_air_in_which_a_cut_may_be_hidden) {
+    Parameters weak = machine_and_tool();
+    weak.tool.tooth_force_limit_N = 30.0F;
+    MapLearner of_weak_tool(weak);
+    Machine with_weak_tool(of_weak_tool);
+    with_weak_tool.block(3, 60.0F);
+    CHECK(place_holding_at(of_weak_tool.map(), 2.0).known == Known::nothing);
+    CHECK(place_holding_at(of_weak_tool.map(), 40.0).known == Known::cut);
+}
+
 /// As over a hole, whose forces are those of a shallow cut.
 TEST(MapLearner, takes_a_cut_that_seems_much_shallower_beside_a_deep_one_for_at_most_that_one) {
     machine.block(3, 60.0F);
