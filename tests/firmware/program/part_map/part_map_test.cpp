@@ -4,6 +4,9 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <cmath>
+#include <utility>
+
 using namespace millforce::host;
 using namespace millforce::test;
 
@@ -149,6 +152,22 @@ TEST(PartMap, goes_slower_where_the_arc_is_less_sure) {
             vague.tangential_N * (1.0F - vague.falling_share * (1.0F - sure.feed_mm_s / vague.feed_mm_s));
         DOUBLES_EQUAL(static_cast<double>(sure.tangential_N), static_cast<double>(at_sure_feed_N),
                       0.02 * static_cast<double>(sure.tangential_N));
+    }
+}
+
+TEST(PartMap, of_any_arc_and_doubt_that_a_file_may_hold_gives_finite_numbers) {
+    for (const double width_rad : {1e-5, 0.03, 1.0, 3.1}) {
+        for (const double depth_mm : {0.001, 500.0}) {
+            for (const double feed_mm_s : {1e-5, 20.0, 1e4}) {
+                MapPlace place = cut_at(0.0, depth_mm);
+                place.cut = {{0.02, 0.02 + width_rad, depth_mm}};
+                place.programmed_feed_mm_s = feed_mm_s;
+                place.arc_sd_rad = 3.14;
+                const auto stretch = stretches_of({place}, parameters)[0];
+                CHECK(std::isfinite(stretch.feed_mm_s) && std::isfinite(stretch.tooth_per_tangential));
+                CHECK(std::isfinite(stretch.tangential_N) && std::isfinite(stretch.falling_share));
+            }
+        }
     }
 }
 
