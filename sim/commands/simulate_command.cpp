@@ -10,6 +10,7 @@
 #include "bus/plant_on_can.hpp"
 #include "bus/plant_wiring.hpp"
 #include "commands/command_line.hpp"
+#include "commands/map_options.hpp"
 #include "commands/plant_commands.hpp"
 #include "commands/scenario_info.hpp"
 #include "daemon/service.hpp"
@@ -272,13 +273,7 @@ void add_simulate(host::Command& program) {
     host::Option learn = command.option(
         "--learn", options->learn, "Write the part map that this run leaves behind: what was estimated along its path");
     learn.value_name("PART.map").excludes(controller);
-    command
-        .option("--stock-tolerance", options->stock_tolerance_mm,
-                "Of the map to write: by how much a blank may lie off in x and in y, in mm")
-        .value_name("MM")
-        .within(0.0, 10.0)
-        .needs(learn)
-        .shows_default();
+    host::add_stock_tolerance(command, learn, options->stock_tolerance_mm);
     command.option("--cutting-force-scale", options->cutting_force_scale, "True K_s relative to the scenario's")
         .within(0.1, 10.0);
     command.option("--friction-scale", options->friction_scale, "True friction relative to the machine file's")

@@ -28,6 +28,16 @@ std::string name_of(std::uint32_t number, const ToolChoice& choice) {
 
 }  // namespace
 
+void add_stock_tolerance(Command& command, const Option& learn, double& tolerance_mm) {
+    command
+        .option("--stock-tolerance", tolerance_mm,
+                "Of the map to write: by how much a blank may lie off in x and in y, in mm")
+        .value_name("MM")
+        .within(0.0, 10.0)
+        .needs(learn)
+        .shows_default();
+}
+
 void add_map(Command& command, MapOptions& options) {
     Option program = command.option("--program", options.program, "Part program that the maps belong to");
     program.value_name("PART.ngc");
@@ -41,13 +51,7 @@ void add_map(Command& command, MapOptions& options) {
         command.option("--learn", options.learn,
                        "Write the part map of what this run estimated along its path; with --tools a folder of them");
     learn.value_name("PART.map").needs(program);
-    command
-        .option("--stock-tolerance", options.stock_tolerance_mm,
-                "Of the map to write: by how much a blank may lie off in x and in y, in mm")
-        .value_name("MM")
-        .within(0.0, 10.0)
-        .needs(learn)
-        .shows_default();
+    add_stock_tolerance(command, learn, options.stock_tolerance_mm);
 }
 
 LiveMaps::LiveMaps(const MapOptions& options, const ToolChoice& choice, const ToolSet& tools)

@@ -26,6 +26,9 @@ struct MapOptions {
     [[nodiscard]] bool is_any() const { return !maps.empty() || !learn.empty(); }
 };
 
+/// --stock-tolerance, beside the command's --learn.
+void add_stock_tolerance(Command& command, const Option& learn, double& tolerance_mm);
+
 /// --program, --map, --learn and --stock-tolerance.
 void add_map(Command& command, MapOptions& options);
 

@@ -173,7 +173,7 @@ void measure_hardness(const std::vector<Pair>& pairs, JoinedMap& result) {
 std::vector<double> contacts_of(const PartMap& map) {
     std::vector<double> contacts;
     for (std::size_t k = 1; k < map.size(); ++k) {
-        if (map[k - 1].known == Known::cut && map[k - 1].cut.empty() && !map[k].cut.empty()) {
+        if (is_air(map[k - 1]) && !map[k].cut.empty()) {
             contacts.push_back(map[k].path_mm);
         }
     }

@@ -34,10 +34,6 @@ bool is_seen_cut(const MapPlace& place) {
     return place.known == Known::cut && !place.cut.empty();
 }
 
-bool is_air(const MapPlace& place) {
-    return place.known == Known::cut && place.cut.empty();
-}
-
 double depth_mm(const MapPlace& place) {
     return place.cut.front().axial_depth_mm;
 }
@@ -71,16 +67,16 @@ Neighbours neighbours_of(const std::vector<MapPlace>& places, std::size_t k, std
     return found;
 }
 
-/// The deepest cut of the same block that was seen within `reach` pieces; nullptr where there is none.
-const MapPlace* deepest_around(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
-    const MapPlace* deepest = nullptr;
+/// The deepest cut of the same block that was seen within `reach` pieces of the cut in piece k.
+const MapPlace& deepest_around(const std::vector<MapPlace>& places, std::size_t k, std::size_t reach) {
+    const MapPlace* deepest = &places[k];
     const std::size_t end = std::min(places.size(), k + reach + 1);
     for (std::size_t at = k > reach ? k - reach : 0; at < end; ++at) {
-        const bool is_deeper = is_seen_cut(places[at]) && places[at].line == places[k].line &&
-                               (deepest == nullptr || depth_mm(places[at]) > depth_mm(*deepest));
+        const bool is_deeper =
+            is_seen_cut(places[at]) && places[at].line == places[k].line && depth_mm(places[at]) > depth_mm(*deepest);
         deepest = is_deeper ? &places[at] : deepest;
     }
-    return deepest;
+    return *deepest;
 }
 
 /// Estimates differ from one piece of the path to the next by their noise; a cut that stays the same is one place.
@@ -250,13 +246,12 @@ void MapLearner::add(Bin& bin, const firmware::ForceControlTick<float>& tick) co
     const estimation::CutEstimate<float>& e = tick.estimate();
     const float sd_N = std::sqrt(e.tangential_N.variance);
     // Half of what counts as contact, as the tick re-zeroes in air: a faster run would feel it.
-    const float contact_N = control::contact_level_N(tools_[tool_].parameters.control, sd_N);
-    const bool is_contact = e.tangential_N.value > 0.5F * contact_N;
+    const float least_N = 0.5F * control::contact_level_N(tools_[tool_].parameters.control, sd_N);
     if (bin.air + bin.contact >= enough) {
         return;
     }
-    if (!is_contact) {
-        add_air(bin, 0.5F * contact_N, e.feed_mm_s);
+    if (!(e.tangential_N.value > least_N)) {
+        add_air(bin, least_N, e.feed_mm_s);
         return;
     }
     ++bin.contact;
@@ -374,7 +369,7 @@ std::vector<MapPlace> MapLearner::SeenRun::seen() const {
 bool MapLearner::SeenRun::is_surely_air(const Bin& bin, const Block& block) const {
     constexpr float tooth_per_tangential = 4.0F;  // of a narrow cut, its runout included
     const float air_mm_s = block.feed_mm_s * parameters_.machine.cnc.override_max;
-    return block.rapid || bin.air == 0 ||
+    return block.rapid ||
            tooth_per_tangential * bin.hidden_N_s_per_mm * air_mm_s < parameters_.tool.tooth_force_limit_N;
 }
 
@@ -408,7 +403,7 @@ void MapLearner::SeenRun::bound_by(const std::vector<MapPlace>& seen, std::size_
 /// cut.
 void MapLearner::SeenRun::doubt_depth(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const {
     constexpr double much_shallower = 0.6;
-    const MapPlace& deepest = *deepest_around(seen, k, reach());
+    const MapPlace& deepest = deepest_around(seen, k, reach());
     if (depth_mm(seen[k]) < much_shallower * depth_mm(deepest)) {
         set_at_most(deepest, true, run_.bins[k], place);
     }

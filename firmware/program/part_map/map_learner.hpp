@@ -72,8 +72,7 @@ class MapLearner {
     /// Sums over the estimates that belong to a piece of the path.
     struct Bin {
         std::uint16_t air = 0;
-        float hidden_N_s_per_mm = 0.0F;  ///< of the air: the force that it may have hidden, over the feed there
-        std::uint16_t contact = 0;       ///< of them with an engagement: cut
+        std::uint16_t contact = 0;  ///< of them with an engagement: cut
         std::uint16_t cut = 0;
         std::uint16_t up = 0;  ///< of the cuts in up milling
         float immersion = 0.0F;
@@ -82,6 +81,7 @@ class MapLearner {
         float depth_variance_mm2 = 0.0F;
         float highest_N = 0.0F;  ///< F_at in contact, and the feed there
         float feed_per_tooth_mm = 0.0F;
+        float hidden_N_s_per_mm = 0.0F;  ///< of the air: the force that it may have hidden, over the feed there
     };
     struct Run {
         std::vector<Block> blocks;

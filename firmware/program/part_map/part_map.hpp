@@ -52,6 +52,11 @@ struct MapPlace {
 /// Each place holds to the next one. The last is the program's end.
 using PartMap = std::vector<MapPlace>;
 
+/// Known to be air.
+[[nodiscard]] inline bool is_air(const MapPlace& place) {
+    return place.known == Known::cut && place.cut.empty();
+}
+
 /// Alike within 0.005 rad and 0.01 mm, at the same programmed feed and speed, and known alike: of equal forces at equal
 /// feeds.
 [[nodiscard]] bool is_same_cut(const MapPlace& a, const MapPlace& b);
