@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "csv_rows.hpp"
 #include "inputs.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <string>
 
 using namespace millforce::test;
@@ -31,20 +31,11 @@ const std::string rows_of_run =
     "20,30,1,0,1200,4000,,,,2,0,0,1.25,0.04,0,0,1\n"
     "30,30,1,0,1200,4000,,,,2,0,0,1.25,0.04,0,0,1\n";
 
-/// NaN where no row has that cell in column `known`.
+/// Where the map first says so in column `known`; NaN where it does not.
 double first_path_mm_of_known(const std::string& known, const std::string& map) {
-    constexpr std::size_t column = 9;
-    std::istringstream lines(map);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream cells(line);
-        std::string path_mm;
-        std::string cell;
-        std::getline(cells, path_mm, ',');
-        for (std::size_t k = 1; k <= column; ++k) {
-            std::getline(cells, cell, ',');
-        }
-        if (cell == known) {
-            return std::stod(path_mm);
+    for (const auto& row : csv_rows(map.substr(map.find("path_mm")))) {
+        if (row.at("known") == known) {
+            return std::stod(row.at("path_mm"));
         }
     }
     return std::nan("");
