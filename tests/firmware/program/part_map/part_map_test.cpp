@@ -158,10 +158,10 @@ TEST(PartMap, goes_slower_where_the_arc_is_less_sure) {
 TEST(PartMap, of_any_arc_and_doubt_that_a_file_may_hold_gives_finite_numbers) {
     for (const double width_rad : {1e-5, 0.03, 1.0, 3.1}) {
         for (const double depth_mm : {0.001, 500.0}) {
-            for (const double feed_mm_s : {1e-5, 20.0, 1e4}) {
+            for (const double programmed_mm_s : {1e-5, 20.0, 1e4}) {
                 MapPlace place = cut_at(0.0, depth_mm);
                 place.cut = {{0.02, 0.02 + width_rad, depth_mm}};
-                place.programmed_feed_mm_s = feed_mm_s;
+                place.programmed_feed_mm_s = programmed_mm_s;
                 place.arc_sd_rad = 3.14;
                 const auto stretch = stretches_of({place}, parameters)[0];
                 CHECK(std::isfinite(stretch.feed_mm_s) && std::isfinite(stretch.tooth_per_tangential));
