@@ -48,6 +48,10 @@ TickRecord tick_record(const Tick& tick, const hal::FeedOverride& output, std::u
         record.axial_depth_mm = static_cast<float>(engagement.axial_depth_mm);
         record.axial_depth_sd_mm = static_cast<float>(engagement.axial_depth_sd_mm);
     }
+    if (engagement.solved) {
+        record.law_misfit = static_cast<float>(engagement.misfit);
+        record.side = engagement.side;
+    }
     record.tooth_force_N = value_or_none(estimate.tooth_force_N);
     record.total_force = in_float(tick.estimator().total_force_input());
     return record;

@@ -31,6 +31,8 @@ void describe(const firmware::TickRecord& tick, TracePoint& point) {
     point.axial_depth_sd_mm = in_double(tick.axial_depth_sd_mm);
     point.tooth_force_N = in_double(tick.tooth_force_N);
     point.runout_um = in_double(tick.runout_um);
+    point.law_misfit = in_double(tick.law_misfit);
+    point.side = static_cast<std::uint8_t>(tick.side);
 }
 
 template <typename Scalar>

@@ -48,6 +48,8 @@ struct TracePoint {
     double peak_force_N = host::no_estimate;
     double force_limit_N = host::no_estimate;  ///< the threshold on the total force, F_tooth,max · g
     double runout_um = host::no_estimate;
+    double law_misfit = host::no_estimate;
+    std::uint8_t side = 0;  ///< estimation::CutSide, where there is a law_misfit
 };
 
 /// The figures of one run.

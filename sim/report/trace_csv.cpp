@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "control/cut_state.hpp"
+#include "estimation/cutting/cut_geometry.hpp"
 
 namespace millforce::sim {
 
@@ -79,6 +80,11 @@ constexpr TraceColumn simulation[] = {
     number<&TracePoint::true_radial_immersion>("true_radial_immersion"),
     number<&TracePoint::true_axial_depth_mm>("true_axial_depth_mm"),
     number<&TracePoint::runout_um>("runout_um"),
+    {"cut_side", nullptr,
+     [](const TracePoint& point) {
+         return std::isnan(point.law_misfit) ? "" : name(static_cast<estimation::CutSide>(point.side));
+     }},
+    number<&TracePoint::law_misfit>("law_misfit"),
 };
 
 void append_cell(std::string& line, const TraceColumn& column, const TracePoint& point) {

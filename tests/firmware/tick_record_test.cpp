@@ -43,6 +43,9 @@ TEST(TickRecord, holds_what_the_tick_knows_in_a_cut) {
     DOUBLES_EQUAL(run.tick.engagement().radial_immersion, record.radial_immersion, 0.0);
     DOUBLES_EQUAL(run.tick.engagement().axial_depth_sd_mm, record.axial_depth_sd_mm, 0.0);
     CHECK(record.has_tooth_force());
+    CHECK(record.has_side());
+    CHECK(record.side == run.tick.engagement().side);
+    DOUBLES_EQUAL(run.tick.engagement().misfit, record.law_misfit, 0.0);
     DOUBLES_EQUAL(1000.0F * run.tick.estimate().runout_mm, record.runout_um, 0.0);
 }
 
@@ -64,6 +67,7 @@ TEST(TickRecord, says_no_estimate_in_air) {
     CHECK(std::isnan(record.radial_immersion));
     CHECK(std::isnan(record.axial_depth_mm));
     CHECK_FALSE(record.has_tooth_force());
+    CHECK_FALSE(record.has_side());
     CHECK_FALSE(std::isnan(record.runout_um));  // that of the tool stays
     CHECK(std::isnan(firmware::shown_forces(firmware::total_force(run.parameters), record).peak_N));
 }

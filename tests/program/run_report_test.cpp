@@ -81,7 +81,7 @@ TEST(RunReport, of_a_replay_tells_what_the_cut_was_and_names_the_ceilings_by_the
 }
 
 /// The file says 6 µm; with an axis 16 µm off the radii of neighbours differ by 16 √2 = 23 µm.
-TEST(RunReport, and_the_last_column_of_the_table_say_how_much_the_tool_runs_out) {
+TEST(RunReport, and_the_table_of_a_replay_say_how_much_the_tool_runs_out) {
     inputs.write("scenario.toml", straight_cut(4000, 1200, 8, 90) + "[cutter]\nrunout_um = 16\n");
     record();
     LONGS_EQUAL(0, inputs.replay({"--report", inputs.name("page")}).exit_code);
@@ -91,10 +91,16 @@ TEST(RunReport, and_the_last_column_of_the_table_say_how_much_the_tool_runs_out)
     CHECK(contains(page(), "<dt>Runout of the tool (runout_um)</dt><dd>2"));
     CHECK(contains(page(), " µm at most, as the cut showed; 6 µm by its file</dd>"));
     const std::string table = inputs.read("out.csv");
-    STRCMP_EQUAL("runout_um", csv_cells(table.substr(0, table.find('\n'))).back().c_str());
+    const std::string header = table.substr(0, table.find('\n'));
+    CHECK(header.ends_with(",runout_um,cut_side,law_misfit,limit,fault"));
     const std::vector<CsvRow> rows = csv_rows(table);
     DOUBLES_EQUAL(6.0, std::stod(rows[20].at("runout_um")), 0.01);
     DOUBLES_EQUAL(22.6, std::stod(rows.back().at("runout_um")), 3.0);
+    const CsvRow& in_the_cut = rows[rows.size() / 2];
+    STRCMP_EQUAL("down", in_the_cut.at("cut_side").c_str());
+    CHECK(std::stod(in_the_cut.at("law_misfit")) < 16.0);
+    STRCMP_EQUAL("none", in_the_cut.at("fault").c_str());
+    STRCMP_EQUAL("", rows.back().at("cut_side").c_str());
 }
 
 TEST(RunReport, changes_neither_the_table_of_a_replay_nor_where_it_goes) {

@@ -156,9 +156,9 @@ inline std::vector<std::string> estimates_of(const std::string& jsonl) {
             continue;
         }
         std::string row;
-        for (const char* key :
-             {"state", "tangential_force_N", "feed_force_N", "radial_immersion", "radial_immersion_sd",
-              "axial_depth_mm", "axial_depth_sd_mm", "peak_force_N", "force_limit_N", "override", "runout_um"}) {
+        for (const char* key : {"state", "tangential_force_N", "feed_force_N", "radial_immersion",
+                                "radial_immersion_sd", "axial_depth_mm", "axial_depth_sd_mm", "peak_force_N",
+                                "force_limit_N", "override", "runout_um", "cut_side", "law_misfit", "limit", "fault"}) {
             std::string value = member(line, key);
             std::erase(value, '"');
             row += (row.empty() ? "" : ",") + value;

@@ -29,9 +29,12 @@ struct TickRecord {
     float radial_immersion_sd = no_estimate;
     float axial_depth_mm = no_estimate;
     float axial_depth_sd_mm = no_estimate;
-    float tooth_force_N = no_estimate;  ///< peak of one tooth, or its upper bound
+    float law_misfit = no_estimate;  ///< J (immersion_profile.hpp): above 16 no law of this tool fits the forces
+    estimation::CutSide side = estimation::CutSide::unknown;  ///< that the forces fit better, or the declared one
+    float tooth_force_N = no_estimate;                        ///< peak of one tooth, or its upper bound
     estimation::TotalForceInput<float> total_force{};
 
+    [[nodiscard]] bool has_side() const { return estimation::is_finite(law_misfit); }
     [[nodiscard]] bool has_tooth_force() const { return estimation::is_finite(tooth_force_N); }
 };
 

@@ -182,7 +182,7 @@ void refuse_what_cuts_lack(const ForceShapeCalibrationOptions& options, const st
         refuse(fmt::format(
             "the forces scatter by {:.0f} % about any cutting law of {} milling; expected less than {:.0f} % and a "
             "force that grows with the chip; are fx_N and fy_N swapped or reversed, or is the tool's side wrong?",
-            100.0 * scatter, cuts.front().measured.side == CutSide::up ? "up" : "down", 100.0 * largest_scatter));
+            100.0 * scatter, name(cuts.front().measured.side), 100.0 * largest_scatter));
     }
     if (!result.law.valid) {
         refuse("'b' cannot be determined: fewer than three cuts show their immersion; expected cuts of several widths");
@@ -292,7 +292,7 @@ int calibrate_force_drop(const ForceShapeCalibrationOptions& options, std::ostre
     write_law(toml, result.law);
     file.commit();
     out << fmt::format("force drops of {} times {} revolutions, {} milling\n", cuts.size(), revolutions_of_a_cut,
-                       cuts.front().measured.side == CutSide::up ? "up" : "down");
+                       name(cuts.front().measured.side));
     print_law(out, result);
     out << fmt::format(
         "  jumps and averages scatter by {:.1f} % about the edge law; immersions from {:.3g} to {:.3g}\n",

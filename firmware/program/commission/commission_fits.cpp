@@ -175,8 +175,7 @@ void Commissioning::write_page() {
     CommissionPage page;
     page.facts = {
         {"Axes", fmt::format("{}", fmt::join(axes_, ", "))},
-        {"Standard cut",
-         fmt::format("{}, {} milling", plan_.entry, plan_.side == estimation::CutSide::down ? "down" : "up")},
+        {"Standard cut", fmt::format("{}, {} milling", plan_.entry, name(plan_.side))},
         {"Tool", fmt::format("{} teeth, Ø{:g} mm", plan_.flutes, plan_.tool_diameter_mm)},
     };
     const Facts process = facts_of_this_process();

@@ -129,9 +129,8 @@ bool Commissioning::record_cuts(const std::string& step, const CutWatchSettings&
         std::filesystem::rename(recording, recording.string() + ".incomplete");
     }
     CutWatch cut_watch(settings);
-    const std::string hint =
-        fmt::format("Origin: top corner of the block, {:.1f} mm long or more; {} milling.", block_length_mm(plan_),
-                    plan_.side == estimation::CutSide::down ? "down" : "up");
+    const std::string hint = fmt::format("Origin: top corner of the block, {:.1f} mm long or more; {} milling.",
+                                         block_length_mm(plan_), name(plan_.side));
     if (!watch(step, cut_watch, false, hint)) {
         return false;
     }

@@ -19,4 +19,10 @@ void write_estimate_row(std::ostream& out, double time_s, const firmware::TickRe
     out << line << ',' << CsvWriter::cell(tick.feed_override.ratio);
 }
 
+void ReasonCells::write(std::ostream& out, const firmware::TickRecord& tick) {
+    out << ',' << CsvWriter::cell(tick.runout_um) << ',' << (tick.has_side() ? name(tick.side) : "") << ','
+        << CsvWriter::cell(tick.law_misfit) << ',' << control::name(static_cast<control::Limit>(tick.limit)) << ','
+        << control::name(static_cast<control::Fault>(tick.feed_override.fault));
+}
+
 }  // namespace millforce::host

@@ -52,13 +52,12 @@ class ToolCells {
     std::size_t without_ = 0;
 };
 
-/// The last column: by how much the chip of one tooth is thicker than the mean one, at most.
-class RunoutCells {
+/// The last columns: by how much the chip of one tooth is thicker than the mean one, at most; the side of the cut, how
+/// badly the law explains the forces, and what holds the override down.
+class ReasonCells {
   public:
-    static void write_header(std::ostream& out) { out << ",runout_um"; }
-    static void write(std::ostream& out, const firmware::TickRecord& tick) {
-        out << ',' << CsvWriter::cell(tick.runout_um);
-    }
+    static void write_header(std::ostream& out) { out << ",runout_um,cut_side,law_misfit,limit,fault"; }
+    static void write(std::ostream& out, const firmware::TickRecord& tick);
 };
 
 /// The columns of the roughness, where the tool has a model of it: value, 95 % interval, and 1 within the range of the

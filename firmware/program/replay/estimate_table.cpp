@@ -63,7 +63,7 @@ EstimateTable::EstimateTable(const Settings& settings, const ToolSet& tools, Wid
     numbers_.write_header(out());
     roughness_.write_header(out());
     wide_band_.write_header(out());
-    RunoutCells::write_header(out());
+    ReasonCells::write_header(out());
     out() << '\n';
 }
 
@@ -72,7 +72,7 @@ void EstimateTable::write(const Row& row) {
     numbers_.write(out(), row.tool);
     roughness_.write(out(), row.roughness);
     wide_band_.write(out(), row.wide_band);
-    RunoutCells::write(out(), row.record);
+    ReasonCells::write(out(), row.record);
     out() << '\n';
 }
 

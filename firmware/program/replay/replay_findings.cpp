@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "control/cut_state.hpp"
+#include "estimation/engagement/side_choice.hpp"
 #include "replay/slow_samples.hpp"
 
 namespace millforce::host {
@@ -11,6 +12,7 @@ namespace millforce::host {
 namespace {
 
 constexpr std::size_t few_samples = 20;  // in which no force is to be expected
+constexpr std::size_t often = 20;        // one in so many: the right law is refuted in one window of 3,000
 
 }  // namespace
 
@@ -20,6 +22,8 @@ void ReplayFindings::follow(const hal::DriveSample& sample, const firmware::Tick
     follow_turning(sample);
     ++samples_;
     without_current_ += (sample.present & hal::mask(hal::Present::spindle_current)) == 0 ? 1U : 0U;
+    with_law_ += record.has_side() ? 1U : 0U;
+    refuted_ += record.law_misfit > estimation::misfit_of_a_wrong_model<float> ? 1U : 0U;
     with_force_ += record.tangential_force_N == record.tangential_force_N ? 1U : 0U;
     if (record.feed_override.fault != 0) {
         first_fault_ = in_fault_ == 0 ? record.feed_override.fault : first_fault_;
@@ -65,6 +69,13 @@ std::vector<std::string> ReplayFindings::notes() const {
     std::vector<std::string> notes;
     if (samples_ > few_samples && 2 * with_force_ < samples_) {
         notes.push_back(fmt::format("a force in {} of {} samples: {}", with_force_, samples_, reason_for_no_force()));
+    }
+    if (refuted_ > few_samples && often * refuted_ > with_law_) {
+        notes.push_back(fmt::format(
+            "the tool's law does not explain the forces (law_misfit above {}) in {} of {} samples of the cut, and "
+            "there "
+            "is no immersion there; look at the axes' currents (friction, sign, which is x), and at the material",
+            estimation::misfit_of_a_wrong_model<float>, refuted_, with_law_));
     }
     if (in_fault_ > 0) {
         std::string note = fmt::format("fault '{}' at {:.3f} s after the begin, and in {} of {} samples",

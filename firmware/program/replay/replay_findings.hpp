@@ -32,6 +32,8 @@ class ReplayFindings {
     std::size_t backwards_ = 0;
     std::size_t too_far_ = 0;  // between two samples
     std::size_t with_force_ = 0;
+    std::size_t with_law_ = 0;
+    std::size_t refuted_ = 0;
     std::size_t in_fault_ = 0;
     std::uint8_t first_fault_ = 0;
     std::uint64_t fault_us_ = 0;

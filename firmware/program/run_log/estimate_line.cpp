@@ -35,6 +35,8 @@ std::string estimate_members(const EstimateEntry& entry, const ToolForces& force
           std::pair{"force_limit_N", shown.limit_N}, std::pair{"runout_um", tick.runout_um}}) {
         text += fmt::format(R"(,"{}":{})", key, number_or_null(value));
     }
+    text += tick.has_side() ? fmt::format(R"(,"cut_side":"{}")", name(tick.side)) : R"(,"cut_side":null)";
+    text += fmt::format(R"(,"law_misfit":{})", number_or_null(tick.law_misfit));
     text += forces.has_numbers() ? fmt::format(R"(,"tool":{})", entry.tool) : "";
     return text + fmt::format(R"(,"digest":"{:016x}")", entry.digest);
 }

@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, count> names_of() {
 constexpr auto state_names = names_of<control::CutState, control::state_count>();
 constexpr auto limit_names = names_of<control::Limit, control::limit_count>();
 constexpr auto fault_names = names_of<control::Fault, control::fault_count>();
+constexpr auto side_names = names_of<estimation::CutSide, estimation::cut_side_count>();
 constexpr auto condition_names = names_of<firmware::Condition, firmware::condition_count>();
 
 FieldValue number(float value) {
@@ -100,6 +101,16 @@ constexpr std::array fields{
                    [](Of t) { return number(t.sample.tick.tooth_force_N); }},
     TelemetryField{"tooth_force_limit_N", "N", "Largest force that one tooth may carry, of the tool's file",
                    Kind::number, [](Of t) { return number(t.tooth_force_limit_N); }},
+    TelemetryField{"cut_side", "", "Side of the cut that the forces fit better, or the declared one", Kind::word,
+                   [](Of t) {
+                       const firmware::TickRecord& tick = t.sample.tick;
+                       return tick.has_side() ? FieldValue(std::string_view(name(tick.side))) : FieldValue();
+                   },
+                   side_names},
+    TelemetryField{"law_misfit", "1",
+                   "How badly the tool's law explains the forces: one window in 20 of the right law exceeds 3.8, and "
+                   "above 16 there is no immersion",
+                   Kind::number, [](Of t) { return number(t.sample.tick.law_misfit); }},
     TelemetryField{"runout_um", "µm",
                    "By how much the chip of the tooth that stands out furthest is thicker than the mean one, at most; "
                    "runout_um of the tool's file until a cut shows it",

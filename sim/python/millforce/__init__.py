@@ -163,8 +163,7 @@ class Tick:
 
         Returns time_s, state, tangential_force_N, feed_force_N, radial_immersion, radial_immersion_sd, axial_depth_mm,
         axial_depth_sd_mm, peak_force_N, force_limit_N, override, tooth_force_N, limit, fault, runout_um,
-        hold. NaN is
-        "no estimate". With several tools also tool, 0: not known. With one, and with fx_N and fy_N or a tool that has
+        cut_side, law_misfit, hold. NaN, or an empty cut_side, is "no estimate". With several tools also tool, 0: not known. With one, and with fx_N and fy_N or a tool that has
         [force_drop]: force_drop_immersion, depth_shape_axial_depth_mm, depth_shape_radial_width_mm, each with its
         standard deviation, and the two depths' variations from the nominal ones. The forces are means over a tooth period, radial_immersion is a_e/R (0…2), *_sd are standard
         deviations. The numbers are those of `millforce replay --interval 0`. Cost: some 7 µs a sample."""

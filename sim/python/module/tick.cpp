@@ -62,8 +62,9 @@ class Tick {
         py::dict out;
         add_columns(out, made.points, sim::estimate_columns());
         for (const sim::TraceColumn& column : sim::simulation_columns()) {
-            if (const std::string_view name = column.name;
-                name == "limit" || name == "fault" || name == "tooth_force_N" || name == "runout_um") {
+            if (const std::string_view name = column.name; name == "limit" || name == "fault" ||
+                                                           name == "tooth_force_N" || name == "runout_um" ||
+                                                           name == "cut_side" || name == "law_misfit") {
                 add_columns(out, made.points, std::span(&column, 1));
             }
         }

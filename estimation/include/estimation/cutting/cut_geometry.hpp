@@ -20,6 +20,12 @@ enum class CutSide : unsigned char {
     centred,  ///< the workpiece's centre line has a fixed offset from the cutter's axis (face milling).
     unknown,  ///< not given: inferred from the forces where they allow it.
 };
+inline constexpr unsigned cut_side_count = static_cast<unsigned>(CutSide::unknown) + 1U;
+
+constexpr const char* name(CutSide side) {
+    constexpr const char* names[cut_side_count] = {"down", "up", "centred", "unknown"};
+    return names[static_cast<unsigned>(side) % cut_side_count];
+}
 
 /// Entry and exit angle of a tooth, 0 ≤ φ_st ≤ φ_ex ≤ π.
 template <typename Scalar>

@@ -61,6 +61,8 @@ TEST(TelemetryFields, show_what_the_tick_answered_and_what_went_in) {
     sample.tick.feed_override = {0.75F, false, static_cast<std::uint8_t>(control::CutState::in_cut), 0, 42};
     sample.tick.limit = static_cast<std::uint8_t>(control::Limit::force);
     sample.tick.radial_immersion = 0.5F;
+    sample.tick.side = estimation::CutSide::up;
+    sample.tick.law_misfit = 2.5F;
     sample.tick.runout_um = 24.0F;
     sample.is_held = false;
     sample.drives.spindle_current_A = 8.5F;
@@ -69,10 +71,10 @@ TEST(TelemetryFields, show_what_the_tick_answered_and_what_went_in) {
     sample.drives.axis_velocity_mm_s[1] = -12.5F;
     sample.conditions.set(firmware::Condition::drive_lost, true);
     const std::string text = telemetry_json(telemetry);
-    for (const char* member :
-         {R"("time_s":1.250000)", R"("state":"in_cut")", R"("limit":"force")", R"("fault":"none")", R"("hold":false)",
-          R"("override":0.75)", R"("ticks":42)", R"("radial_immersion":0.5)", R"("spindle_current_A":8.5)",
-          R"("runout_um":24)", R"("y_velocity_mm_s":-12.5)", R"("conditions":["drive_lost"])"}) {
+    for (const char* member : {R"("time_s":1.250000)", R"("state":"in_cut")", R"("limit":"force")", R"("fault":"none")",
+                               R"("hold":false)", R"("override":0.75)", R"("ticks":42)", R"("radial_immersion":0.5)",
+                               R"("spindle_current_A":8.5)", R"("cut_side":"up")", R"("law_misfit":2.5)",
+                               R"("runout_um":24)", R"("y_velocity_mm_s":-12.5)", R"("conditions":["drive_lost"])"}) {
         CHECK_TEXT(contains(text, member), (std::string(member) + " in " + text).c_str());
     }
     CHECK(!contains(text, "y_current_A"));
