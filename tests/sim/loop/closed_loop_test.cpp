@@ -5,11 +5,15 @@
 #include "loop/simulation.hpp"
 #include "sim/converter_load.hpp"
 #include "sim/without_axis_currents.hpp"
+#include "temporary_folder.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string>
+#include <vector>
 
 using namespace millforce::sim;
 
@@ -227,6 +231,47 @@ TEST(ClosedLoop, takes_no_rapid_and_no_change_of_the_spindles_speed_in_air_for_a
         }
         STRCMP_EQUAL("none", run.figures.fault.c_str());
     }
+}
+
+/// Of the spindle's current; but for the one window in 200 in which its speed steps.
+TEST(ClosedLoop, leaves_of_the_current_in_air_no_more_than_noise_through_rapids_and_steps_of_the_speed) {
+    constexpr double noise_A = 0.06;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Scenario scenario = scenario_named("speed_steps", {1.0, 1.0, seed});
+        MillforceController controller(scenario.parameters);
+        const double A_per_N = 5e-4 * static_cast<double>(scenario.parameters.tool.diameter_mm) /
+                               static_cast<double>(scenario.parameters.machine.spindle.K_t1_Nm_per_A);
+        std::vector<double> left_A;
+        for (const TracePoint& point : simulate(scenario, controller, "millforce").result.trace) {
+            if (std::isfinite(point.tangential_force_N)) {
+                left_A.push_back(A_per_N * std::abs(point.tangential_force_N));
+            }
+        }
+        CHECK(left_A.size() > 5000);
+        std::ranges::sort(left_A);
+        left_A.resize(left_A.size() - left_A.size() / 200);
+        const double squares_A2 = std::inner_product(left_A.begin(), left_A.end(), left_A.begin(), 0.0);
+        CHECK(std::sqrt(squares_A2 / static_cast<double>(left_A.size())) < noise_A);
+    }
+}
+
+/// The passes in both directions, each on a block that is already milled up to it, by a tool file with its own side.
+TEST(ClosedLoop, mills_a_zig_zag_no_slower_than_each_of_its_passes_alone) {
+    const millforce::test::TemporaryFolder folder;
+    const auto cutting_time_of_pass_s = [&](const std::string& from, const std::string& to, double milled_to_mm,
+                                            millforce::estimation::CutSide side) {
+        Scenario pass = scenario_named("zigzag");
+        pass.program_file = folder.write("pass.ngc", "%\nG21 G90 G17 G40 G49 G80 G94\nS4000 M3\nG0 Z5\nG0 " + from +
+                                                         "\nG0 Z-6\nG1 " + to + " F1500\nG0 Z5\nM5\nM30\n%\n");
+        pass.stock.block.max_y_mm = milled_to_mm;
+        pass.parameters.tool.side = side;
+        const RunFigures figures = controlled(pass);
+        CHECK(bounds_hold(figures));
+        return figures.cutting_time_s;
+    };
+    const double down_s = cutting_time_of_pass_s("X-8 Y2", "X88", 0.0, millforce::estimation::CutSide::down);
+    const double up_s = cutting_time_of_pass_s("X88 Y-1", "X-8", -3.0, millforce::estimation::CutSide::up);
+    CHECK(controlled(scenario_named("zigzag")).cutting_time_s < 3.0 * (down_s + up_s));
 }
 
 TEST(ClosedLoop, saves_time_against_a_safe_constant_feed) {
