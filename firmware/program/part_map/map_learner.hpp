@@ -12,6 +12,7 @@
 #include "firmware/tick.hpp"
 #include "hal/drive_sample.hpp"
 #include "part_map/part_map.hpp"
+#include "part_map/run_memory.hpp"
 
 namespace millforce::host {
 
@@ -36,7 +37,6 @@ namespace millforce::host {
 /// thread-safe.
 class MapLearner {
   public:
-    static constexpr double bin_mm = 0.5;
     static constexpr double longest_mm = 131072.0;
     static constexpr std::size_t most_blocks = 100'000;
     static constexpr double default_stock_tolerance_mm = 0.5;
@@ -59,50 +59,19 @@ class MapLearner {
     [[nodiscard]] PartMap map(std::uint32_t number) const;
 
   private:
-    class SeenRun;
-    struct Block {
-        std::size_t tool = 0;
-        std::uint32_t line = 0;
-        bool rapid = false;
-        double begin_mm = 0.0;
-        double end_mm = 0.0;
-        float feed_mm_s = 0.0F;
-        float spindle_speed_rad_s = 0.0F;
-    };
-    /// Sums over the estimates that belong to a piece of the path.
-    struct Bin {
-        std::uint16_t air = 0;
-        std::uint16_t contact = 0;  ///< of them with an engagement: cut
-        std::uint16_t cut = 0;
-        std::uint16_t up = 0;  ///< of the cuts in up milling
-        float immersion = 0.0F;
-        float immersion_variance = 0.0F;
-        float depth_mm = 0.0F;
-        float depth_variance_mm2 = 0.0F;
-        float highest_N = 0.0F;  ///< F_at in contact, and the feed there
-        float feed_per_tooth_mm = 0.0F;
-        float hidden_N_s_per_mm = 0.0F;  ///< of the air: the force that it may have hidden, over the feed there
-    };
-    struct Run {
-        std::vector<Block> blocks;
-        std::vector<Bin> bins;
-        std::size_t used = 0;  // bins
-        double path_mm = 0.0;  // farthest
-    };
-
     [[nodiscard]] std::size_t place_of(std::uint32_t number) const;
     [[nodiscard]] std::optional<double> follow(const hal::ProgramStatus& program);
     void begin_block(const hal::ProgramStatus& program);
     [[nodiscard]] bool begins_again(const hal::ProgramStatus& program) const;
     void begin_run();
-    void add(Bin& bin, const firmware::ForceControlTick<float>& tick) const;
-    static void add_air(Bin& bin, float hidden_N, float feed_mm_s);
+    void add(RunMemory::Bin& bin, const firmware::ForceControlTick<float>& tick) const;
+    static void add_air(RunMemory::Bin& bin, float hidden_N, float feed_mm_s);
 
     firmware::MachineParameters<float> machine_;
     std::vector<firmware::NumberedTool> tools_;  // without numbers the one tool as 0
     std::size_t tool_ = 0;                       // in the spindle; tools_.size(): none of them
-    Run run_;
-    Run longest_;  // of the runs before
+    RunMemory run_;
+    RunMemory longest_;  // of the runs before
     double stock_tolerance_mm_ = default_stock_tolerance_mm;
     double to_go_mm_ = 0.0;
     std::optional<double> last_middle_mm_;
