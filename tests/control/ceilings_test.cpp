@@ -202,13 +202,22 @@ TEST(Ceilings, the_lowest_lies_within_the_range_of_the_override) {
     DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_min), static_cast<double>(lowest.override_ratio), 0.0);
 }
 
-TEST(Ceilings, an_override_at_its_lowest_says_so_whatever_has_lowered_it) {
-    Controller controller;
-    Input input = in_contact();
-    input.cut.tooth_force_N = 1300.0F;
-    input.cut.cutting_share = 0.1F;
-    bring_into_cut(controller, input);
-    const Output output = repeat(controller, input, 500);
-    check_ratio(Parameters{}.override_min, output);
-    CHECK(output.limit == Limit::override_min);
+TEST(Ceilings, an_override_at_its_lowest_says_so_and_whether_a_tooth_may_carry_more_than_its_limit_there) {
+    const auto limit_at = [](float tooth_force_N, float way_mm_s) {
+        Controller controller;
+        Input input = in_contact();
+        input.cut.tooth_force_N = tooth_force_N;
+        input.cut.cutting_share = 0.1F;
+        input.way.known = true;
+        input.way.feed_mm_s = way_mm_s;
+        bring_into_cut(controller, input);
+        const Output output = repeat(controller, input, 500);
+        check_ratio(Parameters{}.override_min, output);
+        return output.limit;
+    };
+    constexpr float limit_N = 1000.0F;
+    constexpr float fast_mm_s = 1000.0F;
+    DOUBLES_EQUAL(limit_N, Parameters{}.tooth_force_limit_N, 0.0);
+    CHECK(limit_at(0.9F * limit_N, 0.0F) == Limit::override_min);
+    CHECK(limit_at(1.3F * limit_N, fast_mm_s) == Limit::force_at_minimum);
 }

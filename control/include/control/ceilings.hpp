@@ -116,6 +116,8 @@ class Ceilings {
     void lower_in_cut(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input,
                       const Situation& situation) const;
     void lower_by_surge(Ceiling<Scalar>& lowest, const Parameters& parameters, const ControlInput<Scalar>& input) const;
+    [[nodiscard]] static bool may_exceed_the_limit(const Parameters& parameters,
+                                                   const CutEstimateForControl<Scalar>& cut);
     [[nodiscard]] static Scalar ceiling_of_surge(const Parameters& parameters, const ControlInput<Scalar>& input);
     [[nodiscard]] bool surge_is_under_way(const Parameters& parameters) const;
 

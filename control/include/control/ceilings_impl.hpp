@@ -163,10 +163,18 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest(const Parameters& parameters, const Con
         lowest.lower_to(input.operator_override, Limit::operator_limit);
     }
     if (lowest.override_ratio <= parameters.override_min && lowest.limit != Limit::operator_limit) {
-        lowest.limit = Limit::override_min;
+        lowest.limit = may_exceed_the_limit(parameters, input.cut) && is_cutting(situation.state)
+                           ? Limit::force_at_minimum
+                           : Limit::override_min;
     }
     lowest.override_ratio = bounded(parameters, lowest.override_ratio);
     return lowest;
+}
+
+template <typename Scalar>
+bool Ceilings<Scalar>::may_exceed_the_limit(const Parameters& parameters, const CutEstimateForControl<Scalar>& cut) {
+    return FeedLaw<Scalar>::applies_to(cut) && cut.tooth_force_valid && !cut.tooth_force_is_bound &&
+           cut.tooth_force_N > parameters.tooth_force_limit_N;
 }
 
 /// The present override comes last, so it is reported as the limit only if it is lower than every other ceiling.

@@ -96,11 +96,12 @@ enum class Limit : std::uint8_t {
     load_unanswered = 15,   ///< the spindle's load, which comes seldom, has not changed as the feed did, or for 2 s
     spindle_torque = 16,    ///< the spindle loses its speed in the cut, or has lost it at a force as large
     current_in_doubt = 17,  ///< a current may have drifted in the cut: a dip of the feed asks, or is waited for
+    force_at_minimum = 18,  ///< as override_min, and a tooth may carry more than its limit there: no feed helps
 };
 
 inline constexpr unsigned state_count = static_cast<unsigned>(CutState::fault) + 1U;
 inline constexpr unsigned fault_count = static_cast<unsigned>(Fault::idle_torque) + 1U;
-inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::current_in_doubt) + 1U;
+inline constexpr unsigned limit_count = static_cast<unsigned>(Limit::force_at_minimum) + 1U;
 
 constexpr const char* name(CutState state) {
     constexpr const char* names[state_count] = {"air", "entry", "in_cut", "exit", "hold", "fault"};
@@ -126,10 +127,25 @@ constexpr const char* name(Fault fault) {
 }
 
 constexpr const char* name(Limit limit) {
-    constexpr const char* names[limit_count] = {
-        "none",      "force",          "override_max", "override_min",    "air_feed",       "entry_feed",
-        "surge",     "operator_limit", "no_estimate",  "feed_per_tooth",  "roughness",      "law_misfit",
-        "way_ahead", "feed_mismatch",  "depth_step",   "load_unanswered", "spindle_torque", "current_in_doubt"};
+    constexpr const char* names[limit_count] = {"none",
+                                                "force",
+                                                "override_max",
+                                                "override_min",
+                                                "air_feed",
+                                                "entry_feed",
+                                                "surge",
+                                                "operator_limit",
+                                                "no_estimate",
+                                                "feed_per_tooth",
+                                                "roughness",
+                                                "law_misfit",
+                                                "way_ahead",
+                                                "feed_mismatch",
+                                                "depth_step",
+                                                "load_unanswered",
+                                                "spindle_torque",
+                                                "current_in_doubt",
+                                                "force_at_minimum"};
     return names[static_cast<unsigned>(limit) % limit_count];
 }
 

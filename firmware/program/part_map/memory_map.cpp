@@ -116,8 +116,12 @@ class Smoother {
 
 class MemoryMap {
   public:
-    MemoryMap(const RunMemory& run, std::size_t tool, const firmware::Parameters<float>& parameters, double stock_tolerance_mm)
-        : run_(run), tool_(tool), parameters_(parameters), next_blank_off_(RunMemory::bin_at(2.0 * stock_tolerance_mm)) {}
+    MemoryMap(const RunMemory& run, std::size_t tool, const firmware::Parameters<float>& parameters,
+              double stock_tolerance_mm)
+        : run_(run),
+          tool_(tool),
+          parameters_(parameters),
+          next_blank_off_(RunMemory::bin_at(2.0 * stock_tolerance_mm)) {}
 
     [[nodiscard]] PartMap map() const;
 
@@ -126,7 +130,9 @@ class MemoryMap {
     [[nodiscard]] MapPlace seen_in(const RunMemory::Bin& bin) const;
     [[nodiscard]] bool is_surely_air(const RunMemory::Bin& bin, const RunMemory::Block& block) const;
     [[nodiscard]] bool carries(const std::vector<EngagedArc>& cut, const RunMemory::Bin& bin) const;
-    [[nodiscard]] std::size_t reach() const { return RunMemory::bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm)); }
+    [[nodiscard]] std::size_t reach() const {
+        return RunMemory::bin_at(2.0 * static_cast<double>(parameters_.tool.diameter_mm));
+    }
     void bound_by(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const;
     void doubt_depth(const std::vector<MapPlace>& seen, std::size_t k, MapPlace& place) const;
     [[nodiscard]] std::vector<MapPlace> doubted_beside_cuts(const std::vector<MapPlace>& places) const;
@@ -169,7 +175,8 @@ std::vector<MapPlace> MemoryMap::seen() const {
     std::transform(run_.bins.begin(), run_.bins.begin() + static_cast<std::ptrdiff_t>(run_.used), seen.begin(),
                    [this](const RunMemory::Bin& bin) { return seen_in(bin); });
     for (const RunMemory::Block& block : run_.blocks) {
-        for (std::size_t k = RunMemory::bin_at(block.begin_mm); k < std::min(RunMemory::bin_at(block.end_mm) + 1, seen.size()); ++k) {
+        for (std::size_t k = RunMemory::bin_at(block.begin_mm);
+             k < std::min(RunMemory::bin_at(block.end_mm) + 1, seen.size()); ++k) {
             seen[k].line = block.line;
             if (is_air(seen[k]) && !is_surely_air(run_.bins[k], block)) {
                 seen[k].known = Known::nothing;

@@ -108,6 +108,10 @@ const CeilingWords& words_of(control::Limit limit) {
         {"a current that may have drifted", "",
          "The cut seemed to become wider and the tooth's force smaller. A current that drifts looks the same, so the "
          "feed dipped, to see whether both forces follow it, or waited for that."},
+        {"load on a tooth, at the smallest override", "override_min, tooth_force_limit_N",
+         "A tooth may have carried more than its limit although the override was the smallest that may be sent. Lower "
+         "F "
+         "or <code>override_min</code>, or cut less deep or wide."},
     };
     static_assert(sizeof words / sizeof words[0] == control::limit_count);
     return words[static_cast<unsigned>(limit) % control::limit_count];

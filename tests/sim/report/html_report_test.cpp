@@ -61,7 +61,7 @@ TEST(HtmlReport, ShowsEachLimitByItsOwnDigitAndName) {
     const std::string data = report_data_json(info, std::span(&run, 1));
     CHECK(data.find("\"limits\":\"ffff") != std::string::npos);
     CHECK(data.find("\"way_ahead\",\"feed_mismatch\",\"depth_step\",\"load_unanswered\",\"spindle_torque\","
-                    "\"current_in_doubt\"]") != std::string::npos);
+                    "\"current_in_doubt\",\"force_at_minimum\"]") != std::string::npos);
 }
 
 TEST(HtmlReport, AsksTheNetworkForNothing) {
