@@ -274,6 +274,21 @@ TEST(ClosedLoop, mills_a_zig_zag_no_slower_than_each_of_its_passes_alone) {
     CHECK(controlled(scenario_named("zigzag")).cutting_time_s < 3.0 * (down_s + up_s));
 }
 
+/// Its two arcs show the mean forces of one wide and shallow cut, whose teeth would carry much less.
+TEST(ClosedLoop, holds_the_limit_where_the_tool_straddles_a_channel) {
+    for (const double channel_mm : {4.0, 7.0, 9.0}) {
+        for (const Conditions& conditions : {Conditions{1.0, 1.0, 1}, Conditions{1.3, 0.8, 2}}) {
+            Scenario scenario = scenario_named("slot_entry", conditions);
+            scenario.parameters.tool.control.depth_step_ratio = 2.0F;
+            const double half_mm = 0.5 * channel_mm;
+            scenario.stock.boxes.push_back({25.0, -half_mm, 60.0, half_mm, -10.0, -10.0});
+            const RunFigures figures = controlled(scenario);
+            STRCMP_EQUAL("none", figures.fault.c_str());
+            CHECK(bounds_hold(figures));
+        }
+    }
+}
+
 TEST(ClosedLoop, saves_time_against_a_safe_constant_feed) {
     CHECK(time_saved("depth_ramp") > 0.40);
     CHECK(time_saved("slot_entry") > 0.0);
