@@ -462,32 +462,6 @@ TEST(EngagementSolver, doubts_the_depth_by_the_doubt_in_K_s) {
     DOUBLES_EQUAL(0.1, e.axial_depth_sd_mm / e.axial_depth_mm, 0.02);
 }
 
-/// In thin chips the edge carries much of the force, and K_s changes nothing there.
-TEST(EngagementSolver, doubts_the_depth_by_as_much_as_another_K_s_would_change_it) {
-    constexpr double relative_sd = 0.1;
-    constexpr double feed_per_tooth_mm = 0.02;
-    const auto solver_of = [&](double K_s_ratio) {
-        auto law = linear_edge_law(1650.0, 22.0, 620.0, 28.0);
-        law.k_s_N_per_mm2 *= K_s_ratio;
-        law.K_s_relative_sd = relative_sd;
-        return EngagementSolver<double>(law, millforce::tests::solver_of_four_flutes<double>());
-    };
-    const auto forces = average_forces(linear_edge_law(1650.0, 22.0, 620.0, 28.0),
-                                       {feed_per_tooth_mm, 6.0, engagement_angles(CutSide::down, 1.0), 4.0});
-    AverageForceMeasurement<double> m;
-    m.tangential_N = {true, forces.tangential_N, 0.04};
-    m.x_N = {true, forces.feed_N, 0.04};
-    m.y_N = {true, forces.normal_N, 0.04};
-    m.radial_immersion = {true, 1.0, 1e-6};
-    const auto depth_mm = [&](double K_s_ratio) {
-        return solver_of(K_s_ratio).solve(m, feed_per_tooth_mm, CutSide::down).axial_depth_mm;
-    };
-    const double by_K_s = (depth_mm(1.0 - relative_sd) - depth_mm(1.0 + relative_sd)) / (2.0 * depth_mm(1.0));
-    CHECK(by_K_s < 0.7 * relative_sd);
-    const auto e = solver_of(1.0).solve(m, feed_per_tooth_mm, CutSide::down);
-    DOUBLES_EQUAL(by_K_s, e.axial_depth_sd_mm / e.axial_depth_mm, 0.1 * by_K_s);
-}
-
 TEST(EngagementSolver, tells_narrow_up_milling_with_one_axis_by_a_remembered_depth) {
     const KnownDepth<double> remembered{6.0, 0.06, false};
     for (const double immersion : {0.2, 0.4, 0.6}) {

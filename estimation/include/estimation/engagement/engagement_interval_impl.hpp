@@ -115,8 +115,8 @@ void EngagementSolver<Scalar, Nodes>::find_interval(Search& s) const {
     e.immersion_valid = width <= settings_.widest_interval;
 }
 
-/// Depth at the estimate and at the interval's ends; its deviation adds the uncertainty of immersion and K_s. F_at is
-/// a_p times a cutting force, which K_s scales, and an edge force: d ln a_p/d ln K_s is the share of the first.
+/// Depth at the estimate and at the interval's ends; its deviation adds the uncertainty of immersion and K_s. All of
+/// F_at is taken to scale with K_s, the edge force too: it grows with the hardness of the steel.
 template <typename Scalar, int Nodes>
 void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     using std::sqrt;
@@ -128,8 +128,7 @@ void EngagementSolver<Scalar, Nodes>::find_depth(Search& s) const {
     e.depth_at_low_mm = s.profile_.at(table(s.side_), e.engagement_low_rad).depth_mm;
     e.depth_at_high_mm = s.profile_.at(table(s.side_), e.engagement_high_rad).depth_mm;
     const Scalar spread_mm = sd_of_interval(e.depth_at_high_mm, best.depth_mm, e.depth_at_low_mm);
-    const Scalar by_K_s = square(best.depth_mm * (Scalar(1) - best.edge_share)) *
-                          s.profile_.doubt_of_K_s().variance_at(best.ln_t_in_references);
+    const Scalar by_K_s = square(best.depth_mm) * s.profile_.doubt_of_K_s().variance_at(best.ln_t_in_references);
     const Scalar flute_mm = settings_.flute_length_mm;
     e.axial_depth_mm = flute_mm > Scalar(0) && best.depth_mm > flute_mm ? flute_mm : best.depth_mm;
     const Scalar by_forces = square(spread_mm) + variance_per_stated(best.misfit) / best.information;

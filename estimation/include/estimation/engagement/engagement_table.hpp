@@ -97,6 +97,11 @@ class EngagementTable {
     [[nodiscard]] Doubt doubt_of_K_s() const { return {square(law_.K_s_relative_sd), law_.K_s_exponent_sd}; }
     [[nodiscard]] Doubt doubt_of_r_1() const { return {square(law_.r_1_relative_sd), law_.r_1_exponent_sd}; }
 
+    /// ln(t_a/t_ref) at a node without the forces.
+    [[nodiscard]] static Scalar ln_t_in_references(const Node& node, const Feed& feed) {
+        return feed.ln_f_in_references + node[ln_sine];
+    }
+
     [[nodiscard]] Forces at_node(std::size_t k, const Feed& feed) const { return forces(nodes_[k], feed); }
 
     /// θ outside of the table is taken at its end.

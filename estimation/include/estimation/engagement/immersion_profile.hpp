@@ -36,7 +36,6 @@ class ImmersionProfile {
         Scalar depth_mm{0};
         Scalar information{0};  ///< Σ w g²: inverse variance of the depth at this immersion
         Scalar ln_t_in_references{0};
-        Scalar edge_share{0};  ///< of F_at: what K_s does not change
     };
 
     ImmersionProfile() = default;

@@ -61,15 +61,15 @@ typename ImmersionProfile<Scalar, Nodes>::LawDoubt ImmersionProfile<Scalar, Node
             K_s_.variance_at(model.ln_t_in_references), r_1_.variance_at(model.ln_t_in_references)};
 }
 
-/// It bounds what the forces leave open. K_s and depth act on the cutting forces as one factor, so the relative
-/// variance of this term is the sum of both, that of K_s as far as F_at is a cutting force.
+/// It bounds what the forces leave open. K_s and depth act on all forces as one factor, so the relative variance of
+/// this term is the sum of both.
 template <typename Scalar, int Nodes>
 typename ImmersionProfile<Scalar, Nodes>::Term ImmersionProfile<Scalar, Nodes>::of_known_depth(
     const LawDoubt& doubt) const {
     if (!(known_.depth_mm > Scalar(0))) {
         return {};
     }
-    const Scalar by_K_s = known_.K_s_is_in_doubt ? doubt.K_s * square(Scalar(1) - doubt.edge_share) : Scalar(0);
+    const Scalar by_K_s = known_.K_s_is_in_doubt ? doubt.K_s : Scalar(0);
     const Scalar relative_variance = square(known_.relative_sd) + by_K_s;
     return {known_.depth_mm, Scalar(1), Scalar(1) / (square(known_.depth_mm) * relative_variance)};
 }
@@ -111,7 +111,6 @@ typename ImmersionProfile<Scalar, Nodes>::Value ImmersionProfile<Scalar, Nodes>:
         value.depth_mm = largest_depth_mm_;
     }
     value.ln_t_in_references = model.ln_t_in_references;
-    value.edge_share = doubt.edge_share;
     for (const Term& term : terms) {
         value.misfit += term.weight * square(term.measured - value.depth_mm * term.per_mm);
     }

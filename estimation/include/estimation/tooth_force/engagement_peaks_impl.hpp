@@ -122,18 +122,15 @@ void EngagementPeaks<Scalar>::search(const EngagementSolver<Scalar>& solver) {
     }
 }
 
-/// An error in K_s is an error of the depth, as far as F_at is a cutting force, and so of how much of the edge is taken
-/// to be in cut.
+/// An error in K_s is an error of the depth, and so of how much of the edge is taken to be in cut.
 template <typename Scalar>
 Scalar EngagementPeaks<Scalar>::change_by_K_s(const Table& table) const {
     using std::sqrt;
     if (!(feed_.G_N_per_mm > Scalar(0))) {
         return Scalar(0);
     }
-    const auto model = table.forces(here_node_, feed_);
-    const Scalar variance = table.doubt_of_K_s().variance_at(model.ln_t_in_references);
-    const Scalar cutting_share = model.cutting_tangential_N / model.tangential_N;
-    const Scalar shallower_mm = depth_mm_ * (Scalar(1) - cutting_share * sqrt(variance));
+    const Scalar variance = table.doubt_of_K_s().variance_at(Table::ln_t_in_references(here_node_, feed_));
+    const Scalar shallower_mm = depth_mm_ * (Scalar(1) - sqrt(variance));
     return factor(now_, shallower_mm) - factors_.now;
 }
 
