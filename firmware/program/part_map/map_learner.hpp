@@ -17,17 +17,8 @@
 namespace millforce::host {
 
 /// The part map that a run leaves behind: what the estimator saw along the program's path, every half millimetre. The
-/// path is put together from what the CNC reports, line and distance to go; neither program nor stock is needed.
-///
-/// A place where the force was that of air is air, as long as a cut that the noise may have hidden there would not load
-/// a tooth up to its limit at the feed of air; else it is not known. Where immersion and depth were estimated they are
-/// the cut, with their deviations. Where there was a force without them, as while the tool enters or leaves, the cut is
-/// at most that of its neighbour, or a slot as deep where the force was higher than that; otherwise it is not known.
-/// Nor are places that the run did not reach. A cut that seems less than 0.6 as deep as another one of its block within
-/// two diameters is at most that one: the forces over a hole are those of a wide and shallow cut. So is air within
-/// twice the stock's tolerance of a cut: where this blank had air, the next one may have stock.
-///
-/// Depth and K_s enter the forces as a product: the depth is the one that gives the measured force by the tool's law.
+/// path is put together from what the CNC reports, line and distance to go; neither program nor stock is needed. By
+/// which rules it becomes a map: memory_map.hpp.
 ///
 /// With tools by number there is a map for each tool: along the path that it goes itself, as if the program had its
 /// blocks alone.

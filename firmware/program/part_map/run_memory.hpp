@@ -25,9 +25,9 @@ struct RunMemory {
     /// Sums over the estimates that belong to a piece of the path.
     struct Bin {
         std::uint16_t air = 0;
-        std::uint16_t contact = 0;  ///< of them with an engagement: cut
-        std::uint16_t cut = 0;
-        std::uint16_t up = 0;  ///< of the cuts in up milling
+        std::uint16_t contact = 0;
+        std::uint16_t cut = 0;  ///< of the contacts: with an engagement
+        std::uint16_t up = 0;   ///< of the cuts in up milling
         float immersion = 0.0F;
         float immersion_variance = 0.0F;
         float depth_mm = 0.0F;
