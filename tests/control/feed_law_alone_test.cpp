@@ -122,6 +122,22 @@ TEST(FeedLawAlone, before_the_program_has_settled_in_a_cut_the_heaviest_one_boun
     DOUBLES_EQUAL(static_cast<double>(ratio_of(2.0F * 0.04F, input)), demand_after(0.04F), 1e-6);
 }
 
+/// Over a hole the tool cuts with two arcs, and no bound for one arc holds.
+TEST(FeedLawAlone, the_heaviest_cut_bounds_the_demand_where_the_force_on_a_tooth_is_only_known_to_be_small) {
+    Parameters p;
+    p.depth_step_ratio = 2.0F;
+    p.depth_step_share = 1.4F;
+    Input input = in_contact();
+    input.cut.tooth_force_N = 100.0F;
+    input.cut.tooth_force_is_bound = true;
+    Law law(1.0F);
+    law.follow(p, input, CutState::in_cut, 0.04F);
+    DOUBLES_EQUAL(static_cast<double>(ratio_of(2.0F * 0.04F, input)), static_cast<double>(law.demand()), 1e-6);
+    p.depth_step_ratio = 1.0F;  // the depth never steps
+    law.follow(p, input, CutState::in_cut, 0.04F);
+    CHECK(law.demand() > 2.0F * ratio_of(2.0F * 0.04F, input));
+}
+
 TEST(FeedLawAlone, keeps_within_the_range_of_the_override_whatever_is_wanted) {
     const Parameters p;
     Law falling(1.0F);
