@@ -71,6 +71,20 @@ TEST(BenchControl, ours_that_is_told_a_faster_safe_feed_is_faster) {
     CHECK_COMPARE(time_s(0.9), <, 0.9 * time_s(0.5));
 }
 
+/// Its mean forces over a hole are those of a wide and shallow cut, and then of none that fits.
+TEST(BenchControl, no_tooth_breaks_over_holes_though_the_override_rises_as_fast_as_may_be_set) {
+    const BenchPart& holes = *std::ranges::find(bench_parts(), "face_16_holes", &BenchPart::name);
+    PreparedPart part = prepare(folder.path("."), holes);
+    auto& control = part.on_machine[0].parameters.tool.control;
+    control.recovery_per_rev = 1.0F;
+    control.slew_up_per_s = 20.0F;
+    for (const std::uint64_t plant : {101U, 103U}) {
+        const BenchRun run = run_contender(*contender_named("ours"), part, plant, {});
+        DOUBLES_EQUAL(0.0, run.teeth_broken, 0.0);
+        CHECK_COMPARE(run.peak_over_limit, <, 1.3);
+    }
+}
+
 /// The constant feed is at its fastest where its peaks just keep to 105 %: slower than that, the search goes up.
 TEST(BenchControl, the_search_raises_a_constant_feed_that_is_slower_than_need_be) {
     std::vector<PreparedPart> parts{prepare(folder.path("."), bench_parts()[4])};
