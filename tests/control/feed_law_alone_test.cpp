@@ -33,6 +33,12 @@ float demand_at_entry(float least_tooth_force_N) {
     return law.demand();
 }
 
+float demand_in_cut(const Parameters& parameters, const Input& input, float contact_feed_mm) {
+    Law law(1.0F);
+    law.follow(parameters, input, CutState::in_cut, contact_feed_mm);
+    return law.demand();
+}
+
 float demand_for(float force_N, float share = 1.0F) {
     return Law::override_for(Parameters{}, in_contact(), {Parameters{}.setpoint_share, force_N, share});
 }
@@ -112,14 +118,10 @@ TEST(FeedLawAlone, before_the_program_has_settled_in_a_cut_the_heaviest_one_boun
     p.depth_step_share = 1.5F;
     Input input = in_contact();
     input.cut.tooth_force_N = 600.0F;
-    const auto demand_after = [&](float contact_feed_mm) {
-        Law law(1.0F);
-        law.follow(p, input, CutState::in_cut, contact_feed_mm);
-        return static_cast<double>(law.demand());
-    };
     const float by_its_force = Law::override_for(p, input, {0.75F, 600.0F, input.cut.cutting_share});
-    DOUBLES_EQUAL(static_cast<double>(by_its_force), demand_after(0.0F), 1e-6);
-    DOUBLES_EQUAL(static_cast<double>(ratio_of(2.0F * 0.04F, input)), demand_after(0.04F), 1e-6);
+    DOUBLES_EQUAL(static_cast<double>(by_its_force), static_cast<double>(demand_in_cut(p, input, 0.0F)), 1e-6);
+    DOUBLES_EQUAL(static_cast<double>(ratio_of(2.0F * 0.04F, input)),
+                  static_cast<double>(demand_in_cut(p, input, 0.04F)), 1e-6);
 }
 
 /// Over a hole the tool cuts with two arcs, and no bound for one arc holds.
@@ -130,12 +132,10 @@ TEST(FeedLawAlone, the_heaviest_cut_bounds_the_demand_where_the_force_on_a_tooth
     Input input = in_contact();
     input.cut.tooth_force_N = 100.0F;
     input.cut.tooth_force_is_bound = true;
-    Law law(1.0F);
-    law.follow(p, input, CutState::in_cut, 0.04F);
-    DOUBLES_EQUAL(static_cast<double>(ratio_of(2.0F * 0.04F, input)), static_cast<double>(law.demand()), 1e-6);
+    const float of_heaviest = ratio_of(2.0F * 0.04F, input);
+    DOUBLES_EQUAL(static_cast<double>(of_heaviest), static_cast<double>(demand_in_cut(p, input, 0.04F)), 1e-6);
     p.depth_step_ratio = 1.0F;  // the depth never steps
-    law.follow(p, input, CutState::in_cut, 0.04F);
-    CHECK(law.demand() > 2.0F * ratio_of(2.0F * 0.04F, input));
+    CHECK(demand_in_cut(p, input, 0.04F) > 2.0F * of_heaviest);
 }
 
 TEST(FeedLawAlone, keeps_within_the_range_of_the_override_whatever_is_wanted) {

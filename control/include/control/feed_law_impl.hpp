@@ -59,14 +59,15 @@ void FeedLaw<Scalar>::follow(const Parameters& parameters, const ControlInput<Sc
         demand_ = not_below_safe_feed(parameters, input, demand_, contact);
         return;
     }
+    const bool guards = guards_against_a_step(parameters, input);
     if (cut.tooth_force_is_bound) {
         const bool is_safe = parameters.safe_override > parameters.proven_override;
         const Scalar steady = is_safe ? parameters.safe_override : parameters.proven_override;
         demand_ = not_below_safe_feed(parameters, input, demand_, {steady, cut.least_tooth_force_N});
-    } else if (guards_against_a_step(parameters, input)) {
+    } else if (guards) {
         demand_ = not_below_safe_feed(parameters, input, demand_, {safe_entry(parameters, input), cut.tooth_force_N});
     }
-    if (guards_against_a_step(parameters, input)) {
+    if (guards) {
         const Scalar of_heaviest = override_before_heaviest(parameters, input, contact_feed_mm);
         demand_ = demand_ < of_heaviest ? demand_ : of_heaviest;
     }

@@ -188,8 +188,7 @@ std::string about_memory(const PartMap& map) {
     }
     std::string text = fmt::format("{:.0f} mm of path learnt", map.back().path_mm);
     text += unknown_mm > 0.0 ? fmt::format(", {:.0f} mm of it not known", unknown_mm) : "";
-    const bool has_cut = std::any_of(
-        map.begin(), map.end(), [](const MapPlace& place) { return place.known == Known::cut && !place.cut.empty(); });
+    const bool has_cut = std::any_of(map.begin(), map.end(), is_seen_cut);
     return text + (has_cut || !(unknown_mm > 0.0)
                        ? ""
                        : "; it holds air alone: without currents of the axes a run does not know how wide it cuts");

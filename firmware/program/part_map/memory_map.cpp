@@ -19,10 +19,6 @@ double arc_sd_rad(double immersion, double immersion_sd) {
     return std::max(angle(immersion + immersion_sd) - middle, middle - angle(immersion - immersion_sd));
 }
 
-bool is_seen_cut(const MapPlace& place) {
-    return place.known == Known::cut && !place.cut.empty();
-}
-
 double depth_mm(const MapPlace& place) {
     return place.cut.front().axial_depth_mm;
 }

@@ -56,6 +56,10 @@ using PartMap = std::vector<MapPlace>;
 [[nodiscard]] inline bool is_air(const MapPlace& place) {
     return place.known == Known::cut && place.cut.empty();
 }
+/// A cut as it is, not only what it may be at most.
+[[nodiscard]] inline bool is_seen_cut(const MapPlace& place) {
+    return place.known == Known::cut && !place.cut.empty();
+}
 
 /// Alike within 0.005 rad and 0.01 mm, at the same programmed feed and speed, and known alike: of equal forces at equal
 /// feeds.
