@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t few_samples = 20;  // in which no force is to be expected
 constexpr std::size_t often = 20;        // one in so many: the right law is refuted in one window of 3,000
+constexpr float misfit_of_a_wrong_law = estimation::misfit_of_a_wrong_model<float>;
 
 }  // namespace
 
@@ -23,7 +24,7 @@ void ReplayFindings::follow(const hal::DriveSample& sample, const firmware::Tick
     ++samples_;
     without_current_ += (sample.present & hal::mask(hal::Present::spindle_current)) == 0 ? 1U : 0U;
     with_law_ += record.has_side() ? 1U : 0U;
-    refuted_ += record.law_misfit > estimation::misfit_of_a_wrong_model<float> ? 1U : 0U;
+    refuted_ += record.law_misfit > misfit_of_a_wrong_law ? 1U : 0U;
     with_force_ += record.tangential_force_N == record.tangential_force_N ? 1U : 0U;
     if (record.feed_override.fault != 0) {
         first_fault_ = in_fault_ == 0 ? record.feed_override.fault : first_fault_;
