@@ -15,7 +15,11 @@ FAULTS = (("millforce-guard.0.reason", "drivers/linuxcnc/millforce_guard.comp"),
 
 
 def pin(name):
-    return subprocess.run(["halcmd", "getp", name], capture_output=True, text=True, check=True).stdout.strip()
+    answer = subprocess.run(["halcmd", "getp", name], capture_output=True, text=True)
+    if answer.returncode != 0:
+        print(f"FAILED: halcmd getp {name}: {answer.stderr.strip() or answer.stdout.strip()}", flush=True)
+        sys.exit(2)
+    return answer.stdout.strip()
 
 
 def fault_that_holds():
