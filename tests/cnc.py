@@ -8,7 +8,7 @@ import struct
 import threading
 import time
 
-SAMPLE = struct.Struct("<4sHHIIIIBBBBf3f3fffIfI")
+SAMPLE = struct.Struct("<4sHHIIIIBBBBf3f3fffIfIf")
 AXES = ("x", "y", "z")
 
 
@@ -49,11 +49,11 @@ class Cnc(threading.Thread):
 
     def sample(self, sequence, time_s, angle_rad, row):
         return SAMPLE.pack(
-            b"MFLK", 3, 1, sequence, round((time_s + 10) * 1e6) % 2**32, round(angle_rad * self.counts_per_rad) % 2**32,
+            b"MFLK", 4, 1, sequence, round((time_s + 10) * 1e6) % 2**32, round(angle_rad * self.counts_per_rad) % 2**32,
             0, 0, 0x1F, int(row["rapid"]), 0, float(row["spindle_current_A"]),
             *(float(row[f"{axis}_current_A"]) for axis in AXES),
             *(float(row[f"{axis}_velocity_mm_s"]) for axis in AXES),
-            float(row["programmed_feed_mm_s"]), 1.0, 0, 0.0, 0)
+            float(row["programmed_feed_mm_s"]), 1.0, 0, 0.0, 0, float(row["commanded_speed_rad_s"]))
 
     def stop(self):
         self.stopped.set()

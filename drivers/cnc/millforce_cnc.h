@@ -10,8 +10,8 @@
 ///
 /// C99 or C++, this header alone: no library, no heap, no floating point, no clock. Bounded loops; a few hundred
 /// instructions per frame. One thread per object. Times are in µs, as a count that may wrap. The frames' layouts are in
-/// override_frame/override_frame.hpp and, in program_status, program_status_frame.hpp, tool_frame.hpp and
-/// position_frame.hpp; vectors.txt has them as bytes.
+/// override_frame/override_frame.hpp and, in program_status, program_status_frame.hpp, tool_frame.hpp,
+/// speed_frame.hpp and position_frame.hpp; vectors.txt has them as bytes.
 ///
 ///     static millforce_receiver receiver;
 ///     static millforce_status_sender sender;
@@ -22,6 +22,8 @@
 ///     millforce_received received = millforce_now(&receiver, now_us);
 ///     feed = received.hold ? 0 : programmed_feed * received.ratio / MILLFORCE_RATIO_OF_1;
 ///     if (millforce_status_due(&sender, &status, now_us, &frame)) { write_to_bus(&frame); }
+///     // The encoder is compared with the spindle's speed, by a millforce_speed_sender that was started like the
+///     other: if (millforce_speed_due(&speed_sender, speed, now_us, &frame)) { write_to_bus(&frame); }
 ///     // With tools by number, and a millforce_tool_sender that was started like the other:
 ///     if (millforce_tool_due(&tool_sender, tool_number, now_us, &frame)) { write_to_bus(&frame); }
 ///     // Where the controller looks ahead in a part map, and a millforce_position_sender that was started:
@@ -36,7 +38,10 @@
 #define MILLFORCE_STATUS_PERIOD_US 10000U
 #define MILLFORCE_TOOL_ID 0x2FDU  ///< TPDO 2 of node 125
 #define MILLFORCE_TOOL_PERIOD_US 100000U
-#define MILLFORCE_POSITION_ID 0x3FDU  ///< TPDO 3 of node 125
+#define MILLFORCE_SPEED_ID 0x4FDU  ///< TPDO 4 of node 125
+#define MILLFORCE_SPEED_PERIOD_US 100000U
+#define MILLFORCE_SPEED_UNITS_PER_RPM 1000U  ///< `speed` at 1/min
+#define MILLFORCE_POSITION_ID 0x3FDU         ///< TPDO 3 of node 125
 #define MILLFORCE_POSITION_PERIOD_US 10000U
 #define MILLFORCE_DISTANCE_NOT_KNOWN 0xFFFFFFU
 #define MILLFORCE_FRAME_BYTES 8U
@@ -407,6 +412,40 @@ static inline bool millforce_tool_due(millforce_tool_sender* sender, uint32_t nu
     sender->has_sent = true;
     sender->sent_us = now_us;
     millforce_encode_tool(number, sender->id, frame);
+    return true;
+}
+
+/// What the spindle's drive is told, the operator's share in it, 0.001/min; 0: not known, or the spindle is off.
+static inline void millforce_encode_speed(uint32_t speed, uint32_t id, millforce_can_frame* frame) {
+    millforce_encode_tool(speed, id, frame);
+}
+
+/// Writes `speed` where the result is ok.
+static inline millforce_result millforce_decode_speed(const millforce_can_frame* frame, uint32_t id, uint32_t* speed) {
+    return millforce_decode_tool(frame, id, speed);
+}
+
+typedef struct {
+    uint32_t id;
+    bool has_sent;
+    uint32_t sent_us;
+} millforce_speed_sender;
+
+static inline void millforce_speed_start(millforce_speed_sender* sender) {
+    sender->id = MILLFORCE_SPEED_ID;
+    sender->has_sent = false;
+    sender->sent_us = 0U;
+}
+
+/// In each cycle. True where `frame` is to be sent: every 100 ms.
+static inline bool millforce_speed_due(millforce_speed_sender* sender, uint32_t speed, uint32_t now_us,
+                                       millforce_can_frame* frame) {
+    if (sender->has_sent && now_us - sender->sent_us < MILLFORCE_SPEED_PERIOD_US) {
+        return false;
+    }
+    sender->has_sent = true;
+    sender->sent_us = now_us;
+    millforce_encode_speed(speed, sender->id, frame);
     return true;
 }
 

@@ -26,6 +26,8 @@ constexpr const char* component_name = "millforce-can";
 constexpr long wait_ns = 1'000'000;
 constexpr real_t mm_min_per_mm_s = 60.0;
 constexpr real_t micrometres_per_mm = 1000.0;
+constexpr real_t s_per_min = 60.0;
+constexpr real_t largest_speed = 4.0e9;  // 0.001/min
 
 /// Wraps after 71.6 minutes.
 std::uint32_t now_us() {
@@ -47,6 +49,7 @@ struct Pins {
     hal_float_t* operator_override;
     hal_s32_t* motion_type;
     hal_s32_t* tool_number;
+    hal_float_t* commanded_rps;
     hal_s32_t* program_line;
     hal_float_t* distance_to_go;
     hal_bit_t* feed_hold;
@@ -66,15 +69,15 @@ int export_pins(Pins& p, int component) {
     const auto bit = [&](hal_pin_dir_t direction, hal_bit_t** pin, const char* name) {
         return hal_pin_bit_newf(direction, pin, component, "%s.%s", component_name, name);
     };
-    const int failed = f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") |
-                       bit(HAL_OUT, &p.hold, "hold") | bit(HAL_OUT, &p.connected, "connected") |
-                       u32(&p.state, "state") | u32(&p.fault, "fault") | u32(&p.refused, "refused") |
-                       u32(&p.dropped, "dropped") | f32(HAL_IN, &p.requested_velocity, "requested-velocity") |
-                       f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
-                       f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
-                       s32(&p.tool_number, "tool-number") | s32(&p.program_line, "program-line") |
-                       f32(HAL_IN, &p.distance_to_go, "distance-to-go") | bit(HAL_IN, &p.feed_hold, "feed-hold") |
-                       bit(HAL_IN, &p.reset, "reset");
+    const int failed =
+        f32(HAL_OUT, &p.ratio, "override") | u32(&p.heartbeat, "heartbeat") | bit(HAL_OUT, &p.hold, "hold") |
+        bit(HAL_OUT, &p.connected, "connected") | u32(&p.state, "state") | u32(&p.fault, "fault") |
+        u32(&p.refused, "refused") | u32(&p.dropped, "dropped") |
+        f32(HAL_IN, &p.requested_velocity, "requested-velocity") | f32(HAL_IN, &p.mm_per_unit, "mm-per-unit") |
+        f32(HAL_IN, &p.operator_override, "operator-override") | s32(&p.motion_type, "motion-type") |
+        s32(&p.tool_number, "tool-number") | s32(&p.program_line, "program-line") |
+        f32(HAL_IN, &p.commanded_rps, "commanded-rps") | f32(HAL_IN, &p.distance_to_go, "distance-to-go") |
+        bit(HAL_IN, &p.feed_hold, "feed-hold") | bit(HAL_IN, &p.reset, "reset");
     if (failed == 0) {
         *p.hold = true;
         *p.mm_per_unit = 1.0;
@@ -126,6 +129,7 @@ class Bridge {
         millforce_receiver_start(&receiver_, millforce_default_settings());
         millforce_status_start(&status_sender_);
         millforce_tool_start(&tool_sender_);
+        millforce_speed_start(&speed_sender_);
         millforce_position_start(&position_sender_);
     }
 
@@ -182,6 +186,11 @@ class Bridge {
         if (millforce_tool_due(&tool_sender_, number_of(*pins_.tool_number), now_us(), &frame)) {
             send(frame);
         }
+        const real_t speed_rpm = *pins_.commanded_rps * s_per_min;
+        const std::uint32_t speed = whole(speed_rpm * MILLFORCE_SPEED_UNITS_PER_RPM, largest_speed);
+        if (millforce_speed_due(&speed_sender_, speed, now_us(), &frame)) {
+            send(frame);
+        }
         report_position();
     }
 
@@ -226,6 +235,7 @@ class Bridge {
     millforce_receiver receiver_{};
     millforce_status_sender status_sender_{};
     millforce_tool_sender tool_sender_{};
+    millforce_speed_sender speed_sender_{};
     millforce_position_sender position_sender_{};
     bool knows_lines_ = false;
     std::uint32_t heartbeat_ = 0;

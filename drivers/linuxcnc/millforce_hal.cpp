@@ -103,6 +103,7 @@ SampleMessage message_of(const std::array<hal_stream_data, MILLFORCE_FIELDS>& ro
     m.line = row[MILLFORCE_LINE].u;
     m.distance_to_go_mm = f32(MILLFORCE_DISTANCE_TO_GO);
     m.tool = row[MILLFORCE_TOOL].u;
+    m.commanded_speed_rad_s = f32(MILLFORCE_COMMANDED_SPEED);
     return m;
 }
 

@@ -20,6 +20,7 @@ pin in float requested_velocity "F of the block in work in machine units/s: moti
 pin in s32 motion_type "motion.motion-type: 1 is a rapid";
 pin in s32 program_line "Line of the block in work: motion.program-line; not wired or 0: not known";
 pin in float distance_to_go "To that block's end, in machine units: motion.distance-to-go";
+pin in float commanded_rps "Speed that the spindle's drive is told, in revolutions/s: spindle.0.speed-out-rps-abs; not wired or 0: not known";
 pin in s32 tool_number "Of the tool in the spindle: iocontrol.0.tool-number; not wired or 0: not known";
 pin in bit feed_hold "Operator or CNC hold the feed, e.g. halui.program.is-paused";
 pin in bit reset "Leaves a fault of the controller; the same signal as the guard's";
@@ -114,6 +115,7 @@ FUNCTION(_) {
     field[MILLFORCE_LINE].u = program_line > 0 ? (rtapi_u32)program_line : 0u;
     field[MILLFORCE_DISTANCE_TO_GO].f = distance_to_go * mm_per_unit;
     field[MILLFORCE_TOOL].u = tool_number > 0 ? (rtapi_u32)tool_number : 0u;
+    field[MILLFORCE_COMMANDED_SPEED].f = commanded_rps * 6.283185307179586;
     delay(field, cycle, spindle_current_delay / fperiod + 0.5);
     if (hal_stream_write(&stream, field) < 0) overruns++;
 }

@@ -5,7 +5,7 @@
 /* One row of the HAL stream from millforce_sample (servo thread) to millforce-hal. */
 #define MILLFORCE_STREAM_KEY 0x4D464C4B
 #define MILLFORCE_STREAM_DEPTH 4000 /* cycles that millforce-hal may be late */
-#define MILLFORCE_STREAM_TYPES "uuuuuufffffffffufu"
+#define MILLFORCE_STREAM_TYPES "uuuuuufffffffffufuf"
 
 enum {
     MILLFORCE_CYCLE,
@@ -26,6 +26,7 @@ enum {
     MILLFORCE_LINE,
     MILLFORCE_DISTANCE_TO_GO,
     MILLFORCE_TOOL,
+    MILLFORCE_COMMANDED_SPEED,
     MILLFORCE_FIELDS
 };
 

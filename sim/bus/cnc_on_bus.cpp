@@ -29,6 +29,9 @@ void CncOnBus::poll(std::uint64_t time_us) {
     if (has_status_ && time_us >= next_us_) {
         send(time_us);
     }
+    if (has_status_ && time_us >= next_speed_us_) {
+        send_speed(time_us);
+    }
     if (tool_ && time_us >= next_tool_us_) {
         send_tool(time_us);
     }
@@ -40,9 +43,17 @@ void CncOnBus::set_tool(std::uint32_t number, std::uint64_t time_us) {
 }
 
 void CncOnBus::send_tool(std::uint64_t time_us) {
-    next_tool_us_ = time_us + settings_.tool_period_us;
+    next_tool_us_ = time_us + settings_.number_period_us;
     if (const std::uint32_t id = program_status::tool_frame_id(settings_.program_status_id); id != 0) {
         outgoing_.push_back(program_status::encode_tool(*tool_, id));
+    }
+}
+
+void CncOnBus::send_speed(std::uint64_t time_us) {
+    next_speed_us_ = time_us + settings_.number_period_us;
+    const std::uint32_t id = program_status::speed_frame_id(settings_.program_status_id);
+    if (settings_.reports_speed && id != 0) {
+        outgoing_.push_back(program_status::encode_speed(newest_.program.commanded_speed_rad_s, id));
     }
 }
 

@@ -10,6 +10,7 @@
 #include "override_frame/override_receiver.hpp"
 #include "program_status/position_frame.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/speed_frame.hpp"
 #include "program_status/tool_frame.hpp"
 
 namespace millforce::sim {
@@ -18,8 +19,9 @@ struct CncOnBusSettings {
     override_frame::OverrideReceiverSettings feed_override{};
     std::uint32_t program_status_id = program_status::default_id;  ///< 0: it reports nothing
     std::uint32_t program_status_period_us = 10'000;
-    std::uint32_t tool_period_us = 100'000;
-    bool reports_position = false;  ///< line and distance to go, beside each program status
+    std::uint32_t number_period_us = 100'000;  ///< of the tool and of the spindle's speed
+    bool reports_position = false;             ///< line and distance to go, beside each program status
+    bool reports_speed = true;                 ///< what the spindle's drive is told
 };
 
 /// A CNC's side of the bus: it takes the feed override and reports F, rapid and hold, at once when one of them changes.
@@ -43,6 +45,7 @@ class CncOnBus {
     void send(std::uint64_t time_us);
     void send_position();
     void send_tool(std::uint64_t time_us);
+    void send_speed(std::uint64_t time_us);
 
     CncOnBusSettings settings_;
     override_frame::OverrideReceiver receiver_;
@@ -52,6 +55,7 @@ class CncOnBus {
     std::uint64_t next_us_ = 0;
     std::optional<std::uint32_t> tool_{};
     std::uint64_t next_tool_us_ = 0;
+    std::uint64_t next_speed_us_ = 0;
     std::vector<hal::CanFrame> outgoing_;
 };
 

@@ -148,6 +148,7 @@ hal::ProgramStatus SteppedSimulation::program() const {
     program.rapid = cnc_.is_rapid();
     program.line = static_cast<std::uint32_t>(cnc_.line());
     program.distance_to_go_mm = static_cast<float>(cnc_.distance_to_go_mm());
+    program.commanded_speed_rad_s = static_cast<float>(cnc_.spindle_speed_rad_s());
     return program;
 }
 

@@ -213,6 +213,7 @@ std::string sample_message(const SampleOfRun& at) {
     out.key("rapid").boolean(at.program.rapid);
     out.key("line").integer(at.program.line);
     write_float(out, "distance_to_go_mm", at.program.distance_to_go_mm);
+    write_float(out, "commanded_speed_rad_s", at.program.commanded_speed_rad_s);
     out.key("estimate").begin_object();
     for (const EstimateKey& key : estimate_keys) {
         out.key(key.name).number(at.estimate.*key.value, float_digits);

@@ -14,6 +14,7 @@
 #include "override_sender_settings.hpp"
 #include "program_status/position_frame.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/speed_frame.hpp"
 #include "program_status/tool_frame.hpp"
 #include "way_window/way_frames.hpp"
 
@@ -121,6 +122,15 @@ void print_tools() {
     for (const std::uint32_t number : {0U, 1U, 258U, 70'007U, UINT32_MAX}) {
         const hal::CanFrame frame = program_status::encode_tool(number, id);
         print(frame, {{"ToolNumber", number}, {"ToolReserved", 0.0}, {"ToolChecksum", frame.data[7]}});
+    }
+}
+
+void print_speeds() {
+    const std::uint32_t id = program_status::speed_frame_id(program_status::default_id);
+    for (const double rpm : {0.0, 0.5, 955.0, 24'000.0}) {
+        const hal::CanFrame frame =
+            program_status::encode_speed(static_cast<float>(1000.0 * rpm) * program_status::speed_rad_s_per_bit, id);
+        print(frame, {{"CommandedSpeed", rpm}, {"SpeedReserved", 0.0}, {"SpeedChecksum", frame.data[7]}});
     }
 }
 
@@ -251,6 +261,7 @@ int main() {
     print_own_emergencies();
     print_program_statuses();
     print_tools();
+    print_speeds();
     print_positions();
     print_way_window();
     print_master();

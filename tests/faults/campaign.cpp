@@ -91,9 +91,9 @@ FaultyMachine::Corrupt corruption(const Part& part, const Fault& fault, std::uin
         return {};
     }
     const firmware::MachineParameters<float>& machine = part.stated.machine;
-    const auto spindle_rated_A = static_cast<double>(machine.spindle_rated_current_A);
-    const auto axis_rated_A = static_cast<double>(machine.axis_rated_current_A[0]);
-    return [corruption = SignalCorruption(*of_signal, spindle_rated_A, axis_rated_A, seed)](
+    const Rated rated{static_cast<double>(machine.spindle_rated_current_A),
+                      static_cast<double>(machine.axis_rated_current_A[0]), machine.encoder_counts_per_rev};
+    return [corruption = SignalCorruption(*of_signal, rated, seed)](
                hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before,
                double since_s) mutable { corruption.corrupt(sample, program, before, since_s); };
 }
@@ -109,6 +109,8 @@ bool is_in_message_alone(SignalFault fault) {
         case SignalFault::time_backwards:
         case SignalFault::time_double:
         case SignalFault::time_half:
+        case SignalFault::time_jitters:
+        case SignalFault::all_late:
             return true;
         default:
             return false;
@@ -158,6 +160,13 @@ bool leaves_blind(const Fault& fault, const Part& part) {
                                                  LinkFault::samples_repeated,
                                                  LinkFault::controller_hangs};
     return std::find(blind.begin(), blind.end(), fault) != blind.end();
+}
+
+bool is_unseen(const Fault& fault) {
+    using S = SignalFault;
+    static constexpr std::array<Fault, 6> unseen{S::spindle_drifts, S::x_drifts, S::spindle_fair,
+                                                 S::spindle_fades,  S::x_strong, S::currents_halved};
+    return std::find(unseen.begin(), unseen.end(), fault) != unseen.end();
 }
 
 namespace {

@@ -18,7 +18,7 @@ struct Request {
     hal::DriveSample sample;
     hal::ProgramStatus program;
 };
-static_assert(sizeof(hal::DriveSample) == 52 && sizeof(hal::ProgramStatus) == 20);
+static_assert(sizeof(hal::DriveSample) == 52 && sizeof(hal::ProgramStatus) == 24);
 
 /// The override, and what a trace shows of the estimates; as float whatever the scalar.
 struct Answer {

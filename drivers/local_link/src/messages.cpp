@@ -113,6 +113,7 @@ SampleBytes encode(const SampleMessage& m) {
     out.u32(m.line);
     out.f32(m.distance_to_go_mm);
     out.u32(m.tool);
+    out.f32(m.commanded_speed_rad_s);
     return bytes;
 }
 
@@ -168,6 +169,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, SampleMessage& message)
     m.line = in.u32();
     m.distance_to_go_mm = in.f32();
     m.tool = in.u32();
+    m.commanded_speed_rad_s = in.f32();
     message = m;
     return MessageError::none;
 }

@@ -60,6 +60,7 @@ CanController::CanController(const CanControllerSettings& settings, const Parame
       sync_(settings.drives.sync_id, settings.drives.sync_period_us),
       program_receiver_(settings.program),
       tool_receiver_(tool_id(settings, tools)),
+      speed_receiver_(program_status::speed_frame_id(settings.program.id)),
       position_receiver_(position_id(settings, way)),
       sender_(settings.feed_override),
       tick_(parameters, tools),
@@ -79,6 +80,7 @@ void CanController::begin() {
     std::construct_at(&bus_, settings_.drives);
     program_receiver_ = program_status::ProgramStatusReceiver(settings_.program);
     tool_receiver_ = program_status::ToolReceiver(tool_id(settings_, tools_));
+    speed_receiver_ = program_status::SpeedReceiver(program_status::speed_frame_id(settings_.program.id));
     position_receiver_ = program_status::PositionReceiver(position_id(settings_, way_));
     if (has_begun_) {
         std::destroy_at(&tick_);
@@ -133,6 +135,7 @@ void CanController::on_frame(const hal::CanFrame& frame, std::uint64_t time_us, 
     }
     program_receiver_.on_frame(frame, time_us);
     tool_receiver_.on_frame(frame, time_us);
+    speed_receiver_.on_frame(frame, time_us);
     position_receiver_.on_frame(frame, time_us);
     if (way_ != nullptr && frame.id == way_->frame_id()) {
         way_->on_frame(frame);
@@ -268,6 +271,7 @@ hal::ProgramStatus CanController::program_at(std::uint64_t time_us) const {
     const program_status::ProgramPosition position = position_receiver_.position(time_us, path_speed_mm_s(sample_));
     program.line = position.line;
     program.distance_to_go_mm = position.distance_to_go_mm;
+    program.commanded_speed_rad_s = speed_receiver_.speed_rad_s(time_us);
     return program;
 }
 
@@ -335,8 +339,9 @@ std::uint64_t CanController::next_event_us(std::uint64_t now_us) const {
 
 std::size_t CanController::filters(std::span<hal::CanFilter, filter_capacity> filters) const {
     std::size_t count = bus_.filters(filters.first<cia402::DriveBus::filter_capacity>());
-    for (const std::uint32_t id : {settings_.program.id, tool_id(settings_, tools_), position_id(settings_, way_),
-                                   way_id(way_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
+    for (const std::uint32_t id :
+         {settings_.program.id, program_status::speed_frame_id(settings_.program.id), tool_id(settings_, tools_),
+          position_id(settings_, way_), way_id(way_), settings_.feed_override.id, own_heartbeat_id(settings_)}) {
         filters[count] = {id, hal::largest_standard_can_id};
         count += id != 0 ? 1U : 0U;
     }

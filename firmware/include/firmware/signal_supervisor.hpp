@@ -6,6 +6,7 @@
 
 #include "control/cut_state.hpp"
 #include "estimation/cut_estimate.hpp"
+#include "firmware/commanded_speed.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/stuck_signal.hpp"
 #include "hal/drive_sample.hpp"
@@ -17,7 +18,8 @@
 ///   stale_input        the samples' time stands or runs backwards: 32 samples
 ///   encoder_mismatch   counts between two index pulses are not one revolution: three in a row;
 ///                      the spindle's speed changes by 40 % within one revolution of a cut, or grows anywhere by more
-///                      than 20,000 rad/s²: its encoder, or the samples' clock, has failed. Two teeth on end
+///                      than 20,000 rad/s²: its encoder, or the samples' clock, has failed. Two teeth on end. In a
+///                      feed move: it turns evenly, and not at the commanded speed (commanded_speed.hpp)
 ///   signal_stuck       the current of a turning spindle, or in a cut of a moving axis, stands (stuck_signal.hpp);
 ///                      a load that comes seldom does not answer the feed (load_answer.hpp)
 ///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
@@ -104,6 +106,9 @@ class SignalSupervisor {
     [[nodiscard]] bool is_negative_in_the_mean(const estimation::Measurement<Scalar>& tangential_N, bool feeds);
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
     void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
+    void judge_speed(const Estimate& e, const hal::ProgramStatus& program);
+    /// Since the estimate before.
+    [[nodiscard]] Scalar elapsed_s(const Estimate& e) const;
 
     static constexpr Scalar significant = Scalar(6);  // standard deviations
     static constexpr Scalar significant_of_held_load = Scalar(4);
@@ -195,6 +200,7 @@ class SignalSupervisor {
     std::uint8_t air_turns_ = 0;  // with a known feed force, at an unchanged velocity
     Scalar least_feed_force_N_{0};
     Scalar too_fast_s_{0};
+    CommandedSpeed<Scalar> commanded_speed_{};
 };
 
 }  // namespace millforce::firmware

@@ -54,6 +54,7 @@ void SignalSupervisor<Scalar>::restart() {
     negative_turns_ = rapid_turns_ = contradicting_turns_ = air_turns_ = 0;
     feed_torque_ = {};
     too_fast_s_ = Scalar(0);
+    commanded_speed_.restart();
 }
 
 template <typename Scalar>
@@ -144,6 +145,7 @@ void SignalSupervisor<Scalar>::judge(const Estimate& e, const hal::ProgramStatus
                                      bool feed_is_settled) {
     judge_teeth(e, state, feed_is_settled);
     judge_feed(e, program);
+    judge_speed(e, program);
     periods_in_turn_ += e.tooth_periods;
     if (Scalar(periods_in_turn_) >= teeth_) {
         periods_in_turn_ = 0;
@@ -223,7 +225,7 @@ bool SignalSupervisor<Scalar>::gains_more_than_any_spindle(const Estimate& e, Sc
     if (!(growth > least_share * ratio)) {
         return false;
     }
-    const Scalar tooth_s = control::tooth_period_s(teeth_, e.spindle_speed_rad_s) * Scalar(e.tooth_periods);
+    const Scalar tooth_s = elapsed_s(e);
     return tooth_s < longest_s && e.spindle_speed_rad_s * (growth / ratio) > most_rad_s2 * (tooth_s + tooth_s);
 }
 
@@ -362,11 +364,24 @@ void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramS
         too_fast_s_ = Scalar(0);
         return;
     }
-    const Scalar teeth_per_s = teeth_ * e.spindle_speed_rad_s * estimation::turns_per_rad<Scalar>;
-    too_fast_s_ += Scalar(e.tooth_periods) / teeth_per_s;
+    too_fast_s_ += elapsed_s(e);
     if (too_fast_s_ > reaction_s_ + patience_s + e.feed_mm_s * per_acceleration_) {
         find(control::Fault::feed_mismatch);
     }
+}
+
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_speed(const Estimate& e, const hal::ProgramStatus& program) {
+    const bool is_missed =
+        commanded_speed_.is_missed(Scalar(program.commanded_speed_rad_s), e.spindle_speed_rad_s, elapsed_s(e));
+    if (is_missed && e.feed_mm_s > Scalar(moving_mm_s) && !program.rapid) {
+        find(control::Fault::encoder_mismatch);
+    }
+}
+
+template <typename Scalar>
+Scalar SignalSupervisor<Scalar>::elapsed_s(const Estimate& e) const {
+    return control::tooth_period_s(teeth_, e.spindle_speed_rad_s) * Scalar(e.tooth_periods);
 }
 
 }  // namespace millforce::firmware

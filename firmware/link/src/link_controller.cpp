@@ -19,6 +19,7 @@ hal::ProgramStatus program_of(const local_link::SampleMessage& m) {
     program.feed_hold = m.feed_hold;
     program.line = m.line;
     program.distance_to_go_mm = m.distance_to_go_mm;
+    program.commanded_speed_rad_s = m.commanded_speed_rad_s;
     return program;
 }
 

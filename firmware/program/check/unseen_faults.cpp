@@ -39,6 +39,9 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
             "second current");
     }
     faults.emplace_back(
+        "a current whose gain becomes another by less than a factor of two, and all currents that do so at once, look "
+        "like another cut: most are found in the next air, by the idle torque");
+    faults.emplace_back(
         "a spindle current that is cut off above some value, while the spindle keeps its speed, looks like a lighter "
         "cut: largest_share_of_rated below that value holds the feed there");
     const auto& machine = parameters.machine;

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, hal::axis_count> axis_names{"x", "y", "z"
 
 constexpr std::string_view header =
     "time_s,spindle_angle_rad,spindle_current_A,x_current_A,y_current_A,z_current_A,x_velocity_mm_s,y_velocity_mm_s,"
-    "z_velocity_mm_s,override,spindle_index_angle_rad,programmed_feed_mm_s,rapid";
+    "z_velocity_mm_s,override,spindle_index_angle_rad,programmed_feed_mm_s,rapid,commanded_speed_rad_s";
 
 bool has(const hal::DriveSample& sample, std::uint8_t mask) {
     return (sample.present & mask) != 0;
@@ -60,6 +60,7 @@ void RecordingWriter::add(const RecordedStep& step) {
     cell(counts_.index_angle_rad(s), ContinuousCounts::has_index(s));
     cell(step.program.programmed_feed_mm_s);
     line_ += step.program.rapid ? ",1" : ",0";
+    cell(step.program.commanded_speed_rad_s);
     for (std::size_t k = 0; has_force_sensor_ && k < s.force_N.size(); ++k) {
         cell(s.force_N[k], has_force);
     }
@@ -81,6 +82,7 @@ RecordingReader::RecordingReader(std::unique_ptr<NumberTable> rows, std::uint32_
       index_angle_(rows_->find("spindle_index_angle_rad")),
       programmed_feed_(rows_->find("programmed_feed_mm_s")),
       rapid_(rows_->find("rapid")),
+      commanded_speed_(rows_->find("commanded_speed_rad_s")),
       tool_(rows_->find("tool")) {
     for (std::size_t k = 0; k < axes_.size(); ++k) {
         axes_[k].current = rows_->find(fmt::format("{}_current_A", axis_names[k]));
@@ -214,6 +216,11 @@ void RecordingReader::read_program() {
     }
     program_.programmed_feed_mm_s = std::isnan(feed_mm_s) ? 0.0F : static_cast<float>(feed_mm_s);
     program_.rapid = rows_->number(rapid_) > 0.5;
+    const double speed_rad_s = rows_->number(commanded_speed_);
+    if (speed_rad_s < 0.0 || speed_rad_s > 1e5) {
+        rows_->fail(*commanded_speed_, fmt::format("{}, expected a speed from 0 to 1e5 rad/s", speed_rad_s));
+    }
+    program_.commanded_speed_rad_s = std::isnan(speed_rad_s) ? 0.0F : static_cast<float>(speed_rad_s);
 }
 
 void RecordingReader::read_tool() {

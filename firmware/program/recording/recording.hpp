@@ -21,8 +21,9 @@ struct RecordedStep {
 };
 
 /// Writes a recording step by step: time_s, spindle_angle_rad, spindle_current_A, x_current_A … z_velocity_mm_s,
-/// override, and three columns that make a replay exact: spindle_index_angle_rad (where the encoder's last index pulse
-/// came; empty before the first), programmed_feed_mm_s and rapid (0 or 1). The angles are the encoder's whole counts.
+/// override, and four columns that make a replay exact: spindle_index_angle_rad (where the encoder's last index pulse
+/// came; empty before the first), programmed_feed_mm_s, rapid (0 or 1) and commanded_speed_rad_s (what the spindle's
+/// drive is told; 0: not known). The angles are the encoder's whole counts.
 /// With a force sensor, fx_N and fy_N are the last columns.
 /// A missing value is an empty cell. Appears as a whole with commit(). Steps must be less than 2³¹ µs and 2³¹ counts
 /// apart.
@@ -98,6 +99,7 @@ class RecordingReader {
     std::optional<CsvColumn> index_angle_;
     std::optional<CsvColumn> programmed_feed_;
     std::optional<CsvColumn> rapid_;
+    std::optional<CsvColumn> commanded_speed_;
     std::optional<CsvColumn> tool_;
     hal::DriveSample sample_{};
     hal::ProgramStatus program_{};

@@ -134,6 +134,11 @@ constexpr std::array fields{
                        const float feed_mm_s = t.sample.program.programmed_feed_mm_s;
                        return number_if(feed_mm_s > 0.0F, feed_mm_s);
                    }},
+    TelemetryField{"commanded_speed_rad_s", "rad/s", "Speed that the spindle's drive is told", Kind::number,
+                   [](Of t) {
+                       const float speed_rad_s = t.sample.program.commanded_speed_rad_s;
+                       return number_if(speed_rad_s > 0.0F, speed_rad_s);
+                   }},
     TelemetryField{"operator_override", "1", "The operator's override", Kind::number,
                    [](Of t) { return number(t.sample.program.operator_override); }},
     TelemetryField{"rapid", "", "A rapid move is in work", Kind::flag,

@@ -108,12 +108,13 @@ constexpr void add(DriveSample& sample, const DriveSample& other) {
 
 /// What the CNC and the operator report, whenever it changes.
 struct ProgramStatus {
-    float programmed_feed_mm_s = 0.0F;  ///< F of the current block; 0: not known
-    float operator_override = 1.0F;     ///< the operator's override; it always wins downwards
-    bool rapid = false;                 ///< a G0 block is active
-    bool feed_hold = false;             ///< the operator or the CNC holds the feed
-    std::uint32_t line = 0;             ///< number of the program line of the block in work; 0: not known
-    float distance_to_go_mm = 0.0F;     ///< way to that block's end, along its path
+    float programmed_feed_mm_s = 0.0F;   ///< F of the current block; 0: not known
+    float operator_override = 1.0F;      ///< the operator's override; it always wins downwards
+    bool rapid = false;                  ///< a G0 block is active
+    bool feed_hold = false;              ///< the operator or the CNC holds the feed
+    std::uint32_t line = 0;              ///< number of the program line of the block in work; 0: not known
+    float distance_to_go_mm = 0.0F;      ///< way to that block's end, along its path
+    float commanded_speed_rad_s = 0.0F;  ///< what the spindle's drive is told, the operator's share in it; 0: not known
 };
 
 }  // namespace millforce::hal

@@ -48,6 +48,22 @@ millforce_result c99_decode_tool(const millforce_can_frame* frame, uint32_t id, 
     return millforce_decode_tool(frame, id, number);
 }
 
+void c99_encode_speed(uint32_t speed, uint32_t id, millforce_can_frame* frame) {
+    millforce_encode_speed(speed, id, frame);
+}
+
+millforce_result c99_decode_speed(const millforce_can_frame* frame, uint32_t id, uint32_t* speed) {
+    return millforce_decode_speed(frame, id, speed);
+}
+
+void c99_speed_start(millforce_speed_sender* sender) {
+    millforce_speed_start(sender);
+}
+
+bool c99_speed_due(millforce_speed_sender* sender, uint32_t speed, uint32_t now_us, millforce_can_frame* frame) {
+    return millforce_speed_due(sender, speed, now_us, frame);
+}
+
 void c99_tool_start(millforce_tool_sender* sender) {
     millforce_tool_start(sender);
 }

@@ -3,6 +3,7 @@
 #include "cnc_in_c99.h"
 #include "override_frame/override_receiver.hpp"
 #include "program_status/program_status_receiver.hpp"
+#include "program_status/speed_frame.hpp"
 #include "program_status/tool_frame.hpp"
 
 #include <algorithm>
@@ -186,6 +187,23 @@ TEST(CncSide, sends_the_tool_every_hundred_ms_and_at_once_where_it_changes) {
     LONGS_EQUAL(6, sent);  // 0, 100, 200, 250, 350, 450 ms
 }
 
+TEST(CncSide, sends_the_spindles_speed_every_hundred_ms_and_no_sooner) {
+    millforce_speed_sender sender{};
+    c99_speed_start(&sender);
+    program_status::SpeedReceiver receiver(program_status::speed_frame_id(program_status::default_id));
+    millforce_can_frame frame{};
+    int sent = 0;
+    for (std::uint32_t now_us = 0; now_us < 500'000; now_us += 1000) {
+        const std::uint32_t speed_rpm = now_us < 250'000 ? 3000 : 3300;
+        if (c99_speed_due(&sender, speed_rpm * MILLFORCE_SPEED_UNITS_PER_RPM, now_us, &frame)) {
+            CHECK(receiver.on_frame(in_cpp(frame), now_us));
+            ++sent;
+        }
+    }
+    LONGS_EQUAL(5, sent);
+    DOUBLES_EQUAL(345.575, static_cast<double>(receiver.speed_rad_s(500'000)), 1e-3);  // 3300/min
+}
+
 TEST(CncSide, saturates_what_the_program_status_cannot_hold) {
     const millforce_program_status status{0x1000000, 300, false, false, false};
     millforce_can_frame frame{};
@@ -202,7 +220,7 @@ TEST(CncSide, in_structured_text_has_the_constants_of_the_c_header) {
     std::ostringstream id;
     id << std::uppercase << std::hex << "OverrideId : WORD := 16#" << settings.id << ";|HeartbeatId : WORD := 16#"
        << 0x700U + settings.node << ";|StatusId : WORD := 16#" << MILLFORCE_STATUS_ID << ";|ToolId : WORD := 16#"
-       << MILLFORCE_TOOL_ID << ";|";
+       << MILLFORCE_TOOL_ID << ";|SpeedId : WORD := 16#" << MILLFORCE_SPEED_ID << ";|";
     std::ostringstream limits;
     limits << "Timeout : TIME := T#" << settings.timeout_us / 1000 << "ms;|Period : TIME := T#"
            << MILLFORCE_STATUS_PERIOD_US / 1000 << "ms;|Period : TIME := T#" << MILLFORCE_TOOL_PERIOD_US / 1000

@@ -124,27 +124,41 @@ TEST(CncVectors, of_the_program_status_are_what_the_c_header_makes_and_what_our_
     LONGS_EQUAL(7, count);
 }
 
-TEST(CncVectors, of_the_tool_are_what_the_c_header_makes_and_what_our_receiver_reads) {
+struct NumberInC {
+    void (*encode)(std::uint32_t number, std::uint32_t id, millforce_can_frame* frame);
+    millforce_result (*decode)(const millforce_can_frame* frame, std::uint32_t id, std::uint32_t* number);
+};
+
+/// How many vectors there are of this name.
+int check_numbers(const std::string& name, const NumberInC& in_c99) {
     int count = 0;
     for (const Words& words : cnc_vectors()) {
-        if (words[0] != "tool") {
+        if (words[0] != name) {
             continue;
         }
         const char* text = words.back().c_str();
         const hal::CanFrame frame = frame_of(words, 1, 4);
         const std::uint32_t number = decimal(words[2]);
         millforce_can_frame encoded{};
-        c99_encode_tool(number, frame.id, &encoded);
+        in_c99.encode(number, frame.id, &encoded);
         check_same(frame, encoded, text);
         std::uint32_t decoded = ~number;
-        CHECK_EQUAL_TEXT(millforce_ok, c99_decode_tool(&encoded, frame.id, &decoded), text);
+        CHECK_EQUAL_TEXT(millforce_ok, in_c99.decode(&encoded, frame.id, &decoded), text);
         CHECK_EQUAL_TEXT(number, decoded, text);
         std::uint32_t ours = ~number;
-        CHECK_TEXT(program_status::decode_tool(frame, frame.id, ours) == program_status::FrameError::none, text);
+        CHECK_TEXT(program_status::decode_number(frame, frame.id, ours) == program_status::FrameError::none, text);
         CHECK_EQUAL_TEXT(number, ours, text);
         ++count;
     }
-    LONGS_EQUAL(5, count);
+    return count;
+}
+
+TEST(CncVectors, of_the_tool_are_what_the_c_header_makes_and_what_our_receiver_reads) {
+    LONGS_EQUAL(5, check_numbers("tool", {c99_encode_tool, c99_decode_tool}));
+}
+
+TEST(CncVectors, of_the_speed_are_what_the_c_header_makes_and_what_our_receiver_reads) {
+    LONGS_EQUAL(4, check_numbers("speed", {c99_encode_speed, c99_decode_speed}));
 }
 
 TEST(CncVectors, of_the_position_are_what_the_c_header_makes_and_what_our_receiver_reads) {
@@ -204,6 +218,10 @@ TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_n
             std::uint32_t number = 0;
             CHECK(program_status::decode_tool(frame, frame.id, number) == status_reasons.at(words[1]).first);
             CHECK_EQUAL(status_reasons.at(words[1]).second, c99_decode_tool(&c_frame, frame.id, &number));
+        } else if (words[0] == "refused_speed") {
+            std::uint32_t speed = 0;
+            CHECK(program_status::decode_number(frame, frame.id, speed) == status_reasons.at(words[1]).first);
+            CHECK_EQUAL(status_reasons.at(words[1]).second, c99_decode_speed(&c_frame, frame.id, &speed));
         } else if (words[0] == "refused_position") {
             program_status::ProgramPosition ours;
             millforce_position theirs{};
@@ -219,7 +237,7 @@ TEST(CncVectors, that_are_refused_are_refused_by_both_for_the_reason_that_they_n
         }
         ++count;
     }
-    LONGS_EQUAL(16, count);
+    LONGS_EQUAL(19, count);
 }
 
 TEST(CncVectors, of_sequences_lead_both_receivers_to_what_they_say) {

@@ -31,6 +31,7 @@ SampleMessage a_sample() {
     m.line = 258;
     m.distance_to_go_mm = 12.5F;
     m.tool = 70'007;
+    m.commanded_speed_rad_s = 314.25F;
     return m;
 }
 
@@ -69,11 +70,12 @@ TEST(LocalLink, gives_a_sample_back_as_it_was) {
     CHECK(got.programmed_feed_mm_s == sent.programmed_feed_mm_s && got.operator_limit == sent.operator_limit);
     CHECK(got.line == sent.line && got.distance_to_go_mm == sent.distance_to_go_mm);
     UNSIGNED_LONGS_EQUAL(sent.tool, got.tool);
+    CHECK(got.commanded_speed_rad_s == sent.commanded_speed_rad_s);
 }
 
 TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
     const SampleBytes bytes = encode(a_sample());
-    MEMCMP_EQUAL("MFLK\x03\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
+    MEMCMP_EQUAL("MFLK\x04\x00\x01\x00\x04\x03\x02\x01\xFE\xFF\xFF\xFF", bytes.data(), 16);
     BYTES_EQUAL(9, bytes[24]);
     BYTES_EQUAL(0x1F, bytes[25]);
     BYTES_EQUAL(5, bytes[26]);                                               // rapid and reset
@@ -82,7 +84,7 @@ TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
     MEMCMP_EQUAL("\x02\x01\x00\x00\x00\x00\x48\x41", bytes.data() + 64, 8);  // 258, 12.5
     MEMCMP_EQUAL("\x77\x11\x01\x00", bytes.data() + 72, 4);                  // 70 007
     const OverrideBytes answer = encode(an_override());
-    MEMCMP_EQUAL("MFLK\x03\x00\x02\x00", answer.data(), 8);
+    MEMCMP_EQUAL("MFLK\x04\x00\x02\x00", answer.data(), 8);
     BYTES_EQUAL(77, answer[8]);
     BYTES_EQUAL(76, answer[12]);
     BYTES_EQUAL(2, answer[20]);  // no hold, tool not known

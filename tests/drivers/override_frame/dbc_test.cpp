@@ -6,6 +6,7 @@
 
 #include "override_frame/override_frame.hpp"
 #include "program_status/program_status_frame.hpp"
+#include "program_status/speed_frame.hpp"
 #include "program_status/tool_frame.hpp"
 
 #include <CppUTest/TestHarness.h>
@@ -93,4 +94,14 @@ TEST(Dbc, describes_the_tool_frame_as_it_is_encoded) {
     DOUBLES_EQUAL(0xDEADBEEF, value_of(signals["ToolNumber"], frame), 0);
     DOUBLES_EQUAL(0, value_of(signals["ToolReserved"], frame), 0);
     DOUBLES_EQUAL(frame.data[7], value_of(signals["ToolChecksum"], frame), 0);
+}
+
+TEST(Dbc, describes_the_speed_frame_as_it_is_encoded) {
+    auto signals = signals_of("BO_ 1277 SpindleCommand: 8 ");
+    CHECK_EQUAL(3U, signals.size());
+    UNSIGNED_LONGS_EQUAL(1277, program_status::speed_frame_id(program_status::default_id));
+    const hal::CanFrame frame = program_status::encode_speed(314.159265F, 1277);
+    DOUBLES_EQUAL(3000.0, value_of(signals["CommandedSpeed"], frame), 1e-3);
+    DOUBLES_EQUAL(0, value_of(signals["SpeedReserved"], frame), 0);
+    DOUBLES_EQUAL(frame.data[7], value_of(signals["SpeedChecksum"], frame), 0);
 }

@@ -97,7 +97,7 @@ class ControllerOnLoopback : public sim::OverrideSource {
     }
 
     hal::FeedOverride step(const hal::DriveSample& sample, const hal::ProgramStatus& program) override {
-        before_ = newest_;
+        follow_speed(newest_, sample);
         newest_ = sample;
         newest_us_ = now_us;
         machine.set(sample);
@@ -151,14 +151,26 @@ class ControllerOnLoopback : public sim::OverrideSource {
 
   private:
     /// A drive latches its values at the SYNC, which other frames delay, and not when the plant was stepped last.
+    /// The spindle between two samples. A count alone is known to one, and so would its step be.
+    void follow_speed(const hal::DriveSample& before, const hal::DriveSample& now) {
+        constexpr double rounding = 1.5;  // counts
+        constexpr double share = 0.0625;
+        const auto step_us = static_cast<double>(now.time_us - before.time_us);
+        const auto step_counts =
+            static_cast<double>(static_cast<std::int32_t>(now.spindle_count - before.spindle_count));
+        step_us_ = step_us;
+        if (!(step_us > 0.0)) {
+            return;
+        }
+        const double deviation = step_counts - counts_per_us_ * step_us;
+        counts_per_us_ += (std::abs(deviation) < rounding ? share : 1.0) * deviation / step_us;
+    }
     [[nodiscard]] hal::DriveSample sample_at(std::uint64_t time_us) const {
         hal::DriveSample sample = newest_;
         const auto later_us = static_cast<double>(time_us - newest_us_);
-        const auto step_us = static_cast<double>(newest_.time_us - before_.time_us);
-        const auto step_counts = static_cast<std::int32_t>(newest_.spindle_count - before_.spindle_count);
-        if (step_us > 0.0 && later_us < step_us) {
+        if (later_us < step_us_) {
             sample.time_us += static_cast<std::uint32_t>(later_us);
-            sample.spindle_count += static_cast<std::uint32_t>(std::lround(step_counts * later_us / step_us));
+            sample.spindle_count += static_cast<std::uint32_t>(std::lround(counts_per_us_ * later_us));
         }
         return sample;
     }
@@ -176,8 +188,9 @@ class ControllerOnLoopback : public sim::OverrideSource {
         }
     }
 
-    hal::DriveSample before_{};
     hal::DriveSample newest_{};
+    double step_us_ = 0.0;  // between the newest two
+    double counts_per_us_ = 0.0;
     std::uint64_t newest_us_ = 0;
     int sender_ = 0;
     int plant_ = 0;

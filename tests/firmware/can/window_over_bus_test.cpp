@@ -196,7 +196,9 @@ TEST(WindowOverBus, a_bus_that_loses_a_fifth_doubles_delays_and_reorders_costs_l
     }
     std::ranges::sort(times_s);
     CHECK(times_s[times_s.size() / 2] < 1.05 * clean.figures.time_s);
-    CHECK(times_s.back() < 1.2 * clean.figures.time_s);  // a window that has to begin again within the cut
+    CHECK(times_s[times_s.size() - 2] < 1.2 * clean.figures.time_s);
+    // A window that has to begin again within the cut leaves the tool blind for that long.
+    CHECK(times_s.back() < with_way(scenario, nullptr).time_s);
 }
 
 TEST(WindowOverBus, a_chip_that_starts_anew_in_mid_program_gets_the_map_from_there) {

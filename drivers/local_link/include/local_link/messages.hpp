@@ -18,7 +18,7 @@
 /// | sample, bytes | what | unit and range |
 /// |---|---|---|
 /// | 0…3 | "MFLK" | |
-/// | 4, 5 | version of the layout, U16 | 3 |
+/// | 4, 5 | version of the layout, U16 | 4 |
 /// | 6, 7 | kind, U16 | 1 |
 /// | 8…11 | sequence, U32 | is given back in the answer |
 /// | 12…15 | time, U32 | µs, wraps; only differences are used |
@@ -36,11 +36,12 @@
 /// | 64…67 | program line of the block in work, U32 | 1 the first; 0: not known |
 /// | 68…71 | distance to go to that block's end, F32 | mm along its path |
 /// | 72…75 | number of the tool in the spindle, U32 | 0: none, or not known |
+/// | 76…79 | speed that the spindle's drive is told, F32 | rad/s; 0: not known |
 ///
 /// | override, bytes | what | unit and range |
 /// |---|---|---|
 /// | 0…3 | "MFLK" | |
-/// | 4, 5 | version, U16 | 3 |
+/// | 4, 5 | version, U16 | 4 |
 /// | 6, 7 | kind, U16 | 2 |
 /// | 8…11 | sequence of the sample that is answered, U32 | |
 /// | 12…15 | heartbeat: ticks of the controller, U32 | |
@@ -55,8 +56,8 @@
 
 namespace millforce::local_link {
 
-inline constexpr std::uint16_t layout_version = 3;
-inline constexpr std::size_t sample_bytes = 76;
+inline constexpr std::uint16_t layout_version = 4;
+inline constexpr std::size_t sample_bytes = 80;
 inline constexpr std::size_t override_bytes = 52;
 inline constexpr std::size_t link_axes = 3;
 
@@ -78,6 +79,7 @@ struct SampleMessage {
     std::uint32_t line = 0;
     float distance_to_go_mm = 0.0F;
     std::uint32_t tool = 0;
+    float commanded_speed_rad_s = 0.0F;
 };
 
 struct OverrideMessage {

@@ -32,10 +32,12 @@ AnalogueController::AnalogueController(const Peripherals& p, const Wiring& wirin
       sender_(wiring.feed_override),
       program_(wiring.program),
       tool_(program_status::tool_frame_id(wiring.program.id)),
+      speed_(program_status::speed_frame_id(wiring.program.id)),
       position_(program_status::position_frame_id(wiring.program.id)),
       emergencies_(wiring.feed_override.node_id),
       filters_{{{wiring.program.id, hal::largest_standard_can_id},
                 {program_status::tool_frame_id(wiring.program.id), hal::largest_standard_can_id},
+                {program_status::speed_frame_id(wiring.program.id), hal::largest_standard_can_id},
                 {program_status::position_frame_id(wiring.program.id), hal::largest_standard_can_id},
                 {way_window::way_frame_id(wiring.feed_override.node_id), hal::largest_standard_can_id}}} {}
 
@@ -96,6 +98,7 @@ void AnalogueController::receive_frames(std::uint64_t now_us) {
     while (can_.receive(frame)) {
         program_.on_frame(frame, now_us);
         tool_.on_frame(frame, now_us);
+        speed_.on_frame(frame, now_us);
         position_.on_frame(frame, now_us);
         if (way_) {
             way_->on_frame(frame);
@@ -169,6 +172,7 @@ hal::ProgramStatus AnalogueController::program_at(std::uint64_t now_us) const {
     const program_status::ProgramPosition position = position_.position(now_us, firmware::path_speed_mm_s(sample_));
     program.line = position.line;
     program.distance_to_go_mm = position.distance_to_go_mm;
+    program.commanded_speed_rad_s = speed_.speed_rad_s(now_us);
     return program;
 }
 

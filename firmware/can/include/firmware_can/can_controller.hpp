@@ -15,6 +15,7 @@
 #include "override_frame/override_sender.hpp"
 #include "program_status/position_frame.hpp"
 #include "program_status/program_status_receiver.hpp"
+#include "program_status/speed_frame.hpp"
 #include "program_status/tool_frame.hpp"
 
 /// The whole controller on a CAN bus, without the bus: frames and times in, frames to send and one tick per SYNC out.
@@ -43,6 +44,8 @@
 /// CNC's `stale_s` it faults and holds the feed. The feed is held while a drive is in fault or quick stop, or while the
 /// CNC is silent, and while another node sends this controller's override or heartbeat. A fault is latched until the
 /// CNC resets it (program status frame) with all axes at rest.
+///
+/// A CNC that reports the speed of its spindle (speed_frame.hpp) has it compared with the encoder.
 ///
 /// With a ToolSource the CNC reports which tool is in the spindle (tool_frame.hpp), and the tool's parameters change
 /// with it, at rest (tool_tick.hpp).
@@ -76,7 +79,7 @@ class TickListener {
 
 class CanController {
   public:
-    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 6;
+    static constexpr std::size_t filter_capacity = cia402::DriveBus::filter_capacity + 7;
 
     /// With `tools`, which outlives this, `parameters.tool` is any tool. `way`: what lies ahead of the tool in the
     /// spindle; it outlives this.
@@ -157,6 +160,7 @@ class CanController {
     cia402::SyncProducer sync_;
     program_status::ProgramStatusReceiver program_receiver_;
     program_status::ToolReceiver tool_receiver_;
+    program_status::SpeedReceiver speed_receiver_;
     program_status::PositionReceiver position_receiver_;
     override_frame::OverrideSender sender_;
     ToolTick tick_;

@@ -22,7 +22,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// The unit as the end of a name has it.
 std::string suffix_of(std::string_view unit) {
-    return unit == "mm/s" ? "_mm_s" : unit == "µm" ? "_um" : "_" + std::string(unit);
+    return unit == "mm/s" ? "_mm_s" : unit == "rad/s" ? "_rad_s" : unit == "µm" ? "_um" : "_" + std::string(unit);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "override_frame/override_sender.hpp"
 #include "program_status/position_frame.hpp"
 #include "program_status/program_status_receiver.hpp"
+#include "program_status/speed_frame.hpp"
 #include "program_status/tool_frame.hpp"
 #include "stm32/clock.hpp"
 #include "stm32/watchdog.hpp"
@@ -118,9 +119,10 @@ class AnalogueController {
     override_frame::OverrideSender sender_;
     program_status::ProgramStatusReceiver program_;
     program_status::ToolReceiver tool_;
+    program_status::SpeedReceiver speed_;
     program_status::PositionReceiver position_;
     emergency::Emergencies emergencies_;
-    std::array<hal::CanFilter, 4> filters_;
+    std::array<hal::CanFilter, 5> filters_;
 
     const firmware::Parameters<float>* parameters_ = nullptr;
     std::optional<firmware::ToolTickOf<Tick, Tools>> tick_{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program_status/tool_frame.hpp"
+#include "program_status/number_frame.hpp"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ constexpr std::size_t checksum_place = frame_bytes - 1;
 
 }  // namespace
 
-hal::CanFrame encode_tool(std::uint32_t number, std::uint32_t id) {
+hal::CanFrame encode_number(std::uint32_t number, std::uint32_t id) {
     hal::CanFrame frame;
     frame.id = id & hal::largest_standard_can_id;
     frame.length = frame_bytes;
@@ -23,7 +23,7 @@ hal::CanFrame encode_tool(std::uint32_t number, std::uint32_t id) {
     return frame;
 }
 
-FrameError decode_tool(const hal::CanFrame& frame, std::uint32_t id, std::uint32_t& number) {
+FrameError decode_number(const hal::CanFrame& frame, std::uint32_t id, std::uint32_t& number) {
     if (frame.id != id || frame.extended || frame.remote) {
         return FrameError::not_this_frame;
     }
@@ -44,8 +44,8 @@ FrameError decode_tool(const hal::CanFrame& frame, std::uint32_t id, std::uint32
     return FrameError::none;
 }
 
-bool ToolReceiver::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
-    if (id_ == 0 || decode_tool(frame, id_, number_) != FrameError::none) {
+bool NumberReceiver::on_frame(const hal::CanFrame& frame, std::uint64_t time_us) {
+    if (id_ == 0 || decode_number(frame, id_, number_) != FrameError::none) {
         return false;
     }
     fresh_us_ = time_us;
