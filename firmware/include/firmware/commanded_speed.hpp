@@ -12,7 +12,7 @@ namespace millforce::firmware {
 /// whose counts are taken twice or four times, encoder_counts_per_rev for another resolution, a gear that the CNC does
 /// not know of, and a spindle that a cut has slowed down are not.
 ///
-/// Valid for commands above 0; 0 or less is "not known", and nothing is judged. Cost: some 20 instructions an estimate.
+/// Valid for commands above 0. Cost: some 20 instructions an estimate.
 /// No heap, no clock. One thread.
 template <typename Scalar>
 class CommandedSpeed {
@@ -30,8 +30,7 @@ class CommandedSpeed {
             return false;
         }
         even_s_ = even_s_ > settled_s ? even_s_ : even_s_ + elapsed_s;
-        return even_s_ > settled_s && commanded_rad_s > Scalar(0) &&
-               !is_near(speed_rad_s, commanded_rad_s, largest_share);
+        return even_s_ > settled_s && !is_near(speed_rad_s, commanded_rad_s, largest_share);
     }
 
   private:

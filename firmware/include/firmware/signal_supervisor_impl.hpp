@@ -372,8 +372,12 @@ void SignalSupervisor<Scalar>::judge_feed(const Estimate& e, const hal::ProgramS
 
 template <typename Scalar>
 void SignalSupervisor<Scalar>::judge_speed(const Estimate& e, const hal::ProgramStatus& program) {
-    const bool is_missed =
-        commanded_speed_.is_missed(Scalar(program.commanded_speed_rad_s), e.spindle_speed_rad_s, elapsed_s(e));
+    const Scalar commanded_rad_s = Scalar(program.commanded_speed_rad_s);
+    if (!(commanded_rad_s > Scalar(0))) {
+        commanded_speed_.restart();
+        return;
+    }
+    const bool is_missed = commanded_speed_.is_missed(commanded_rad_s, e.spindle_speed_rad_s, elapsed_s(e));
     if (is_missed && e.feed_mm_s > Scalar(moving_mm_s) && !program.rapid) {
         find(control::Fault::encoder_mismatch);
     }
