@@ -48,7 +48,7 @@ TEST_GROUP(CommissionOnVcan) {
     /// of a move: then the program is run again, as an operator would.
     void run_step(Program & commissioning, const std::string& step, double start_x_mm, const std::string& next) {
         bool is_done = !commissioning.prints(step + ": run ", patience);
-        for (int attempt = 0; attempt < 3 && !is_done; ++attempt) {
+        for (int attempt = 0; attempt < 6 && !is_done; ++attempt) {
             folder.machine_for(step, start_x_mm)->wait();
             is_done = commissioning.prints(next, 10s);
         }
