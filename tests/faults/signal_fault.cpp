@@ -157,7 +157,7 @@ const char* name_of(SignalFault fault) {
 
 void SignalCorruption::corrupt(hal::DriveSample& sample, hal::ProgramStatus& program, const hal::DriveSample& before,
                                double since_s) {
-    make_late(sample, program, since_s);
+    corrupt_by_past(sample, program, since_s);
     corrupt_currents(sample, before, since_s);
     corrupt_single_samples(sample, since_s);
     corrupt_velocities(sample, before);
@@ -244,7 +244,7 @@ void SignalCorruption::corrupt_single_samples(hal::DriveSample& sample, double s
     }
 }
 
-void SignalCorruption::make_late(hal::DriveSample& sample, hal::ProgramStatus& program, double since_s) {
+void SignalCorruption::corrupt_by_past(hal::DriveSample& sample, hal::ProgramStatus& program, double since_s) {
     constexpr double time_constant_s = 0.3;
     const double dt_s = past_.empty() ? 0.0 : since_s - past_.back().since_s;
     const auto now_A = static_cast<double>(sample.spindle_current_A);

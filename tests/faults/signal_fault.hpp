@@ -126,7 +126,7 @@ class SignalCorruption {
     void corrupt_encoder(hal::DriveSample& sample, const hal::DriveSample& before, double since_s);
     void corrupt_program(hal::ProgramStatus& program);
     void corrupt_time(hal::DriveSample& sample, const hal::DriveSample& before);
-    void make_late(hal::DriveSample& sample, hal::ProgramStatus& program, double since_s);
+    void corrupt_by_past(hal::DriveSample& sample, hal::ProgramStatus& program, double since_s);
     [[nodiscard]] bool every_second_time() { return (++calls_ & 1U) != 0; }
 
     SignalFault fault_;
