@@ -83,6 +83,7 @@ TEST(LocalLink, stands_on_the_wire_as_the_table_says) {
     MEMCMP_EQUAL("\x00\x00\xC8\xC1", bytes.data() + 44, 4);                  // -25
     MEMCMP_EQUAL("\x02\x01\x00\x00\x00\x00\x48\x41", bytes.data() + 64, 8);  // 258, 12.5
     MEMCMP_EQUAL("\x77\x11\x01\x00", bytes.data() + 72, 4);                  // 70 007
+    MEMCMP_EQUAL("\x00\x20\x9D\x43", bytes.data() + 76, 4);                  // 314.25
     const OverrideBytes answer = encode(an_override());
     MEMCMP_EQUAL("MFLK\x04\x00\x02\x00", answer.data(), 8);
     BYTES_EQUAL(77, answer[8]);
