@@ -128,7 +128,8 @@ Simulated SteppedSimulation::result(const std::string& controller_name) {
 
 /// Spindle on, axes at rest: for the time that a CNC waits for its spindle, and until the controller has answered.
 void SteppedSimulation::turn_spindle() {
-    plant_.idle(steps_.step_s, {cnc_.position_mm(), Eigen::Vector3d::Zero(), cnc_.spindle_speed_rad_s()});
+    commanded_speed_rad_s_ = cnc_.spindle_speed_rad_s();
+    plant_.idle(steps_.step_s, {cnc_.position_mm(), Eigen::Vector3d::Zero(), commanded_speed_rad_s_});
 }
 
 void SteppedSimulation::step_plant() {
@@ -139,6 +140,7 @@ void SteppedSimulation::step_plant() {
     if (settings_.interfere) {
         settings_.interfere(plant_, command);
     }
+    commanded_speed_rad_s_ = command.spindle_speed_rad_s;
     plant_.advance(steps_.step_s, command);
 }
 
@@ -148,7 +150,7 @@ hal::ProgramStatus SteppedSimulation::program() const {
     program.rapid = cnc_.is_rapid();
     program.line = static_cast<std::uint32_t>(cnc_.line());
     program.distance_to_go_mm = static_cast<float>(cnc_.distance_to_go_mm());
-    program.commanded_speed_rad_s = static_cast<float>(cnc_.spindle_speed_rad_s());
+    program.commanded_speed_rad_s = static_cast<float>(commanded_speed_rad_s_);
     return program;
 }
 

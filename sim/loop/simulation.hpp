@@ -76,6 +76,7 @@ class SteppedSimulation {
     MillingPlant plant_;
     hal::DriveSample sample_{};
     hal::FeedOverride override_{};
+    double commanded_speed_rad_s_ = 0.0;  // to the spindle, with what the operator does to it
     OverrideSource::PlantSteps usual_{};
     OverrideSource::PlantSteps steps_{};  ///< left until the next sample
     bool has_begun_ = false;              ///< the program
