@@ -164,8 +164,9 @@ bool leaves_blind(const Fault& fault, const Part& part) {
 
 bool is_unseen(const Fault& fault) {
     using S = SignalFault;
-    static constexpr std::array<Fault, 6> unseen{S::spindle_drifts, S::x_drifts, S::spindle_fair,
-                                                 S::spindle_fades,  S::x_strong, S::currents_halved};
+    static constexpr std::array<Fault, 7> unseen{S::spindle_drifts, S::x_drifts, S::spindle_fair,
+                                                 S::spindle_fades,  S::x_strong, S::currents_halved,
+                                                 S::status_frozen};
     return std::find(unseen.begin(), unseen.end(), fault) != unseen.end();
 }
 

@@ -48,7 +48,7 @@ Part part_named(const std::string& name);
 [[nodiscard]] bool leaves_blind(const Fault& fault, const Part& part);
 
 /// No signal contradicts it (firmware/program/check/unseen_faults.hpp): a current that drifts so that a cut seems
-/// lighter, or whose gain is wrong by less than a factor of two or ever more so.
+/// lighter, or whose gain is wrong by less than a factor of two or ever more so; a CNC that goes on telling a rapid.
 [[nodiscard]] bool is_unseen(const Fault& fault);
 
 /// What can go wrong on this path, with what is read on this machine: a frame brings neither NaN nor the drive's time.

@@ -207,9 +207,8 @@ int run(const Options& options) {
             false_alarms += static_cast<int>(row.tally.reactions_s.size());
         }
     }
-    fmt::print(
-        "\n{} violations, and {} by currents that drift or have another gain; {} false alarms in {} sound runs\n",
-        violations, unseen, false_alarms, sound_runs);
+    fmt::print("\n{} violations, and {} by what no signal contradicts; {} false alarms in {} sound runs\n", violations,
+               unseen, false_alarms, sound_runs);
     constexpr int runs_per_false_alarm = 1000;
     return violations > 0 || false_alarms * runs_per_false_alarm > sound_runs ? 1 : 0;
 }

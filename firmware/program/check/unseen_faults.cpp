@@ -57,6 +57,9 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
             lightest_asked_N(parameters)));
     }
     faults.emplace_back(
+        "a CNC that goes on telling a rapid while its program feeds lets the tool meet the cut at the whole programmed "
+        "feed; the contact is the fault contact_in_rapid");
+    faults.emplace_back(
         "a programmed feed that is told too high, and velocities that are told too low, only slow the machine down; "
         "nothing reports them");
     return faults;
