@@ -22,8 +22,8 @@
 ///     millforce_received received = millforce_now(&receiver, now_us);
 ///     feed = received.hold ? 0 : programmed_feed * received.ratio / MILLFORCE_RATIO_OF_1;
 ///     if (millforce_status_due(&sender, &status, now_us, &frame)) { write_to_bus(&frame); }
-///     // The encoder is compared with the spindle's speed, by a millforce_speed_sender that was started like the
-///     other: if (millforce_speed_due(&speed_sender, speed, now_us, &frame)) { write_to_bus(&frame); }
+///     // So that the encoder can be compared with the spindle's speed, with a millforce_speed_sender:
+///     if (millforce_speed_due(&speed_sender, speed, now_us, &frame)) { write_to_bus(&frame); }
 ///     // With tools by number, and a millforce_tool_sender that was started like the other:
 ///     if (millforce_tool_due(&tool_sender, tool_number, now_us, &frame)) { write_to_bus(&frame); }
 ///     // Where the controller looks ahead in a part map, and a millforce_position_sender that was started:
@@ -364,8 +364,8 @@ static inline bool millforce_status_due(millforce_status_sender* sender, const m
     return true;
 }
 
-/// The tool in the spindle; 0: none, or not known.
-static inline void millforce_encode_tool(uint32_t number, uint32_t id, millforce_can_frame* frame) {
+/// A number in a frame of its own; 0: none, or not known.
+static inline void millforce_encode_number(uint32_t number, uint32_t id, millforce_can_frame* frame) {
     for (uint32_t k = 0U; k < 4U; ++k) {
         frame->data[k] = (number >> (8U * k)) & 0xFFU;
     }
@@ -374,7 +374,8 @@ static inline void millforce_encode_tool(uint32_t number, uint32_t id, millforce
 }
 
 /// Writes `number` where the result is ok.
-static inline millforce_result millforce_decode_tool(const millforce_can_frame* frame, uint32_t id, uint32_t* number) {
+static inline millforce_result millforce_decode_number(const millforce_can_frame* frame, uint32_t id,
+                                                       uint32_t* number) {
     const millforce_result result = millforce_check(frame, id);
     if (result != millforce_ok) {
         return result;
@@ -385,6 +386,16 @@ static inline millforce_result millforce_decode_tool(const millforce_can_frame* 
     const uint32_t high = millforce_16_bits(&frame->data[2]);
     *number = millforce_16_bits(&frame->data[0]) | (high << 16U);
     return millforce_ok;
+}
+
+/// The tool in the spindle.
+static inline void millforce_encode_tool(uint32_t number, uint32_t id, millforce_can_frame* frame) {
+    millforce_encode_number(number, id, frame);
+}
+
+/// Writes `number` where the result is ok.
+static inline millforce_result millforce_decode_tool(const millforce_can_frame* frame, uint32_t id, uint32_t* number) {
+    return millforce_decode_number(frame, id, number);
 }
 
 typedef struct {
@@ -417,12 +428,12 @@ static inline bool millforce_tool_due(millforce_tool_sender* sender, uint32_t nu
 
 /// What the spindle's drive is told, the operator's share in it, 0.001/min; 0: not known, or the spindle is off.
 static inline void millforce_encode_speed(uint32_t speed, uint32_t id, millforce_can_frame* frame) {
-    millforce_encode_tool(speed, id, frame);
+    millforce_encode_number(speed, id, frame);
 }
 
 /// Writes `speed` where the result is ok.
 static inline millforce_result millforce_decode_speed(const millforce_can_frame* frame, uint32_t id, uint32_t* speed) {
-    return millforce_decode_tool(frame, id, speed);
+    return millforce_decode_number(frame, id, speed);
 }
 
 typedef struct {

@@ -24,7 +24,6 @@ namespace {
 
 constexpr const char* component_name = "millforce-can";
 constexpr long wait_ns = 1'000'000;
-constexpr real_t mm_min_per_mm_s = 60.0;
 constexpr real_t micrometres_per_mm = 1000.0;
 constexpr real_t s_per_min = 60.0;
 constexpr real_t largest_speed = 4.0e9;  // 0.001/min
@@ -172,7 +171,7 @@ class Bridge {
     }
 
     void report() {
-        const real_t feed_mm_min = *pins_.requested_velocity * *pins_.mm_per_unit * mm_min_per_mm_s;
+        const real_t feed_mm_min = *pins_.requested_velocity * *pins_.mm_per_unit * s_per_min;
         millforce_program_status status{};
         status.feed = whole(feed_mm_min * MILLFORCE_FEED_UNITS_PER_MM_MIN, MILLFORCE_LARGEST_FEED);
         status.operator_override = whole(*pins_.operator_override * 100.0, 255.0);

@@ -52,7 +52,7 @@ void CncOnBus::send_tool(std::uint64_t time_us) {
 void CncOnBus::send_speed(std::uint64_t time_us) {
     next_speed_us_ = time_us + settings_.number_period_us;
     const std::uint32_t id = program_status::speed_frame_id(settings_.program_status_id);
-    if (settings_.reports_speed && id != 0) {
+    if (id != 0) {
         outgoing_.push_back(program_status::encode_speed(newest_.program.commanded_speed_rad_s, id));
     }
 }

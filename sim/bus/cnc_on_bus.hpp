@@ -21,7 +21,6 @@ struct CncOnBusSettings {
     std::uint32_t program_status_period_us = 10'000;
     std::uint32_t number_period_us = 100'000;  ///< of the tool and of the spindle's speed
     bool reports_position = false;             ///< line and distance to go, beside each program status
-    bool reports_speed = true;                 ///< what the spindle's drive is told
 };
 
 /// A CNC's side of the bus: it takes the feed override and reports F, rapid and hold, at once when one of them changes.

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <mutex>
 #include <random>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "faults/campaign.hpp"
@@ -194,6 +196,7 @@ int run(const Options& options) {
         "violations |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     int violations = 0;
     int unseen = 0;
+    std::set<std::string> names_of_unseen;
     int sound_runs = 0;
     int false_alarms = 0;
     for (const Row& row : rows) {
@@ -202,11 +205,15 @@ int run(const Options& options) {
         }
         print(row);
         (is_unseen(row.fault) ? unseen : violations) += row.tally.violations();
+        if (is_unseen(row.fault)) {
+            names_of_unseen.insert(name_of(row.fault));
+        }
         if (row.is_sound()) {
             sound_runs += row.tally.runs;
             false_alarms += static_cast<int>(row.tally.reactions_s.size());
         }
     }
+    fmt::print("\nNo signal contradicts: {}\n", fmt::join(names_of_unseen, "; "));
     fmt::print("\n{} violations, and {} by what no signal contradicts; {} false alarms in {} sound runs\n", violations,
                unseen, false_alarms, sound_runs);
     constexpr int runs_per_false_alarm = 1000;

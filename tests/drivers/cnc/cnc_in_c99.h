@@ -24,11 +24,11 @@ bool c99_status_due(millforce_status_sender* sender, const millforce_program_sta
 void c99_encode_tool(uint32_t number, uint32_t id, millforce_can_frame* frame);
 millforce_result c99_decode_tool(const millforce_can_frame* frame, uint32_t id, uint32_t* number);
 void c99_tool_start(millforce_tool_sender* sender);
+bool c99_tool_due(millforce_tool_sender* sender, uint32_t number, uint32_t now_us, millforce_can_frame* frame);
 void c99_encode_speed(uint32_t speed, uint32_t id, millforce_can_frame* frame);
 millforce_result c99_decode_speed(const millforce_can_frame* frame, uint32_t id, uint32_t* speed);
 void c99_speed_start(millforce_speed_sender* sender);
 bool c99_speed_due(millforce_speed_sender* sender, uint32_t speed, uint32_t now_us, millforce_can_frame* frame);
-bool c99_tool_due(millforce_tool_sender* sender, uint32_t number, uint32_t now_us, millforce_can_frame* frame);
 void c99_encode_position(const millforce_position* position, uint32_t counter, uint32_t id, millforce_can_frame* frame);
 millforce_result c99_decode_position(const millforce_can_frame* frame, uint32_t id, millforce_position* position,
                                      uint32_t* counter);

@@ -29,9 +29,7 @@ struct ProgramPosition {
 
 /// The frame's id beside that of the program status; 0: the two do not fit, or there is no program status.
 [[nodiscard]] constexpr std::uint32_t position_frame_id(std::uint32_t program_status_id) {
-    constexpr std::uint32_t third_pdo = 0x200;
-    const std::uint32_t id = program_status_id + third_pdo;
-    return program_status_id != 0 && id <= hal::largest_standard_can_id ? id : 0;
+    return id_of_pdo(3, program_status_id);
 }
 
 /// A line beyond 24 bits, and a distance that is negative, not finite or beyond the range, go out as "not known". `id`

@@ -30,6 +30,14 @@ struct ProgramStatusFrame {
     std::uint16_t counter = 0;
 };
 
+/// The id of TPDO `number`, 2…4, of the node whose TPDO 1 is the program status; 0: the two do not fit, or there is no
+/// program status.
+[[nodiscard]] constexpr std::uint32_t id_of_pdo(std::uint32_t number, std::uint32_t program_status_id) {
+    constexpr std::uint32_t ids_per_pdo = 0x100;
+    const std::uint32_t id = program_status_id + (number - 1) * ids_per_pdo;
+    return program_status_id != 0 && id <= hal::largest_standard_can_id ? id : 0;
+}
+
 /// CRC-8 as in the override frame, over id and all bytes but the last: of every frame by which the CNC reports.
 [[nodiscard]] std::uint8_t checksum_of(const hal::CanFrame& frame);
 

@@ -16,9 +16,7 @@ inline constexpr float speed_rad_s_per_bit = 0.001F * 6.2831853F / 60.0F;
 
 /// The frame's id beside that of the program status; 0: the two do not fit, or there is no program status.
 [[nodiscard]] constexpr std::uint32_t speed_frame_id(std::uint32_t program_status_id) {
-    constexpr std::uint32_t fourth_pdo = 0x300;
-    const std::uint32_t id = program_status_id + fourth_pdo;
-    return program_status_id != 0 && id <= hal::largest_standard_can_id ? id : 0;
+    return id_of_pdo(4, program_status_id);
 }
 
 /// A speed that is negative, not finite or beyond 4 million/min goes out as "not known". `id` has 11 bits.

@@ -13,9 +13,7 @@ namespace millforce::program_status {
 
 /// The frame's id beside that of the program status; 0: the two do not fit, or there is no program status.
 [[nodiscard]] constexpr std::uint32_t tool_frame_id(std::uint32_t program_status_id) {
-    constexpr std::uint32_t second_pdo = 0x100;
-    const std::uint32_t id = program_status_id + second_pdo;
-    return program_status_id != 0 && id <= hal::largest_standard_can_id ? id : 0;
+    return id_of_pdo(2, program_status_id);
 }
 
 [[nodiscard]] inline hal::CanFrame encode_tool(std::uint32_t number, std::uint32_t id) {
