@@ -66,6 +66,17 @@ TEST(ContactFeed, is_that_of_the_heaviest_cut) {
     DOUBLES_EQUAL(static_cast<double>(of_heavy_cut_mm), static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
 }
 
+TEST(ContactFeed, still_counts_a_cut_whose_slot_breaks_a_tooth_by_its_edge_force_alone) {
+    ContactFeed<float> feed;
+    Input too_heavy = cut_with(50'000.0F);
+    too_heavy.cut.turn_cutting_share = 0.5F;
+    learn(feed, too_heavy);
+    const float least_mm = feed.feed_per_tooth_mm();
+    CHECK(least_mm > 0.0F);
+    learn(feed, cut_with(500.0F));
+    DOUBLES_EQUAL(static_cast<double>(least_mm), static_cast<double>(feed.feed_per_tooth_mm()), 0.0);
+}
+
 TEST(ContactFeed, learns_nothing_from_a_bound_a_guess_or_forces_that_contradict_the_law) {
     using Cut = CutEstimateForControl<float>;
     for (bool Cut::*const flag : {&Cut::tooth_force_is_bound, &Cut::law_is_refuted}) {

@@ -16,7 +16,7 @@ namespace millforce::control {
 ///   f_z: its tooth force in a slot of the same depth is depth_step_share/depth_step_ratio of the limit (feed_law.hpp)
 ///
 /// averaged over 16 estimates, and the heaviest cut counts. With it a new contact is at most a step of the depth, which
-/// the tooth survives.
+/// the tooth survives. Where the edge force of that slot alone is more, no feed is that low: then f_z is 0.0001 mm.
 ///
 /// 0: nothing is known. So it is before the first settled cut, where the tool is lower than it has cut by more than
 /// 0.1 mm, and after the spindle stood (another part, another tool). Where nobody tells the height, a rapid may have
@@ -54,7 +54,7 @@ class ContactFeed {
         if (++estimates_ < block) {
             return;
         }
-        const Scalar mean_mm = sum_mm_ / Scalar(block);
+        const Scalar mean_mm = sum_mm_ > Scalar(block) * least_mm ? sum_mm_ / Scalar(block) : least_mm;
         lowest_mm_ = feed_per_tooth_mm_ > Scalar(0) && lowest_mm_ < height_mm_ ? lowest_mm_ : height_mm_;
         feed_per_tooth_mm_ =
             feed_per_tooth_mm_ > Scalar(0) && feed_per_tooth_mm_ < mean_mm ? feed_per_tooth_mm_ : mean_mm;
@@ -69,6 +69,7 @@ class ContactFeed {
 
   private:
     static constexpr int block = 16;
+    static constexpr Scalar least_mm = literal<Scalar>(0.0001L);
 
     Scalar height_mm_{0};  // since the spindle turns
     Scalar lowest_mm_{0};  // at which it has cut
