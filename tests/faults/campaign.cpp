@@ -162,22 +162,31 @@ bool leaves_blind(const Fault& fault, const Part& part) {
     return std::find(blind.begin(), blind.end(), fault) != blind.end();
 }
 
-bool is_unseen(const Fault& fault) {
+bool is_unseen(const Fault& fault, const Part& part) {
     using S = SignalFault;
-    static constexpr std::array<Fault, 7> unseen{S::spindle_drifts, S::x_drifts, S::spindle_fair,
-                                                 S::spindle_fades,  S::x_strong, S::currents_halved,
-                                                 S::status_frozen};
-    return std::find(unseen.begin(), unseen.end(), fault) != unseen.end();
+    static constexpr std::array<Fault, 5> like_another_cut{S::spindle_drifts, S::x_drifts, S::spindle_fair,
+                                                           S::spindle_fades, S::currents_halved};
+    const bool is_like_another_cut =
+        std::find(like_another_cut.begin(), like_another_cut.end(), fault) != like_another_cut.end();
+    return fault == Fault{S::status_frozen} || fault == Fault{S::x_strong} ||
+           (is_like_another_cut && (part.is_declared || part.is_spindle_alone));
 }
 
 namespace {
+
+void set_undeclared(Part& part) {
+    part.is_declared = false;
+    part.scenario.parameters.tool.declared_axial_depth_mm = 0.0F;
+    part.scenario.parameters.tool.control.depth_step_ratio =
+        control::FeedControllerParameters<float>{}.depth_step_ratio;
+}
 
 /// What is known of the cut beside encoder and CNC.
 void set_machine(Part& part, std::string_view machine) {
     constexpr double load_period_s = 0.1;
     constexpr double load_age_s = 0.1;
     part.is_spindle_alone = !machine.empty();
-    part.is_load_seldom = machine == "vfd";
+    part.is_load_seldom = machine == ":vfd";
     if (part.is_load_seldom) {
         part.scenario = test::with_converter_load(part.scenario, load_period_s, load_age_s);
     }
@@ -188,12 +197,18 @@ void set_machine(Part& part, std::string_view machine) {
 }  // namespace
 
 Part part_named(const std::string& name) {
+    constexpr std::string_view undeclared = ":undeclared";
     const std::size_t colon = std::min(name.find(':'), name.size());
+    std::string_view machine = std::string_view(name).substr(colon);
     Part part;
     part.name = name;
     part.scenario =
         sim::read_scenario(std::string(MILLFORCE_SOURCE_DIR) + "/sim/scenarios/" + name.substr(0, colon) + ".toml");
-    set_machine(part, std::string_view(name).substr(std::min(colon + 1, name.size())));
+    if (machine.starts_with(undeclared)) {
+        set_undeclared(part);
+        machine.remove_prefix(undeclared.size());
+    }
+    set_machine(part, machine);
     part.scenario.cutting_options.resolution = coarse;
     sim::MillforceController controller(part.stated);
     part.duration_s = sim::simulate(part.scenario, controller, "millforce").result.figures.time_s;
@@ -287,10 +302,11 @@ Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t
     return mill_with_controller(drawn, *seat.controller, fault, seed, seat.on_path);
 }
 
-void Tally::add(const Outcome& outcome) {
+void Tally::add(const Outcome& outcome, bool is_unseen) {
     if (!outcome.reaction.has_begun) {
         return;
     }
+    const int violations_before = violations();
     ++runs;
     const sim::RunFigures& figures = outcome.run.figures;
     broken_parts += figures.teeth_broken > 0 ? 1 : 0;
@@ -306,6 +322,10 @@ void Tally::add(const Outcome& outcome) {
     largest_peak = std::max(largest_peak, figures.peak_over_limit);
     if (outcome.reaction.has_reacted) {
         reactions_s.push_back(outcome.reaction.after_s);
+    }
+    if (is_unseen) {
+        ++unseen_runs;
+        unseen_violations += violations() - violations_before;
     }
 }
 

@@ -31,15 +31,17 @@ const char* name_of(const Fault& fault);
 
 /// One part. `duration_s`: of the run without a fault, in which the fault's begin is drawn.
 struct Part {
-    std::string name;  ///< of its scenario; with ":spindle" or ":vfd", below
+    std::string name;  ///< of its scenario, with what follows it, below
     sim::Scenario scenario;
     firmware::Parameters<float> stated{};  ///< to the controller
     bool is_spindle_alone = false;
     bool is_load_seldom = false;  ///< a converter's load
+    bool is_declared = true;      ///< its depth does not step, and the controller is told so
     double duration_s = 0.0;
 };
 /// "NAME:spindle": the axes' currents are not read. "NAME:vfd": nor the spindle's, but the load that a frequency
-/// converter gives ten times a second and late.
+/// converter gives ten times a second and late. "NAME:undeclared", "NAME:undeclared:spindle": nothing is told of the
+/// part's depth, so a step of it may come (depth_step_ratio).
 Part part_named(const std::string& name);
 
 /// After it nothing says what the tool does: the spindle's current or its encoder is not there, or does not change. A
@@ -47,9 +49,12 @@ Part part_named(const std::string& name);
 /// (firmware/program/check/unseen_faults.hpp).
 [[nodiscard]] bool leaves_blind(const Fault& fault, const Part& part);
 
-/// No signal contradicts it (firmware/program/check/unseen_faults.hpp): a current that drifts so that a cut seems
-/// lighter, or whose gain is wrong by less than a factor of two or ever more so; a CNC that goes on telling a rapid.
-[[nodiscard]] bool is_unseen(const Fault& fault);
+/// No signal contradicts it (firmware/program/check/unseen_faults.hpp), and nothing else bounds the feed: a CNC that
+/// goes on telling a rapid; an axis' current that has suddenly another gain; and a current that drifts, or whose gain
+/// is wrong by less than a factor of two or ever more so, as if the cut had become lighter. The last ones where the
+/// depth is declared or the axes' currents are not read: elsewhere a step of the depth may come, and the feed waits for
+/// it.
+[[nodiscard]] bool is_unseen(const Fault& fault, const Part& part);
 
 /// What can go wrong on this path, with what is read on this machine: a frame brings neither NaN nor the drive's time.
 [[nodiscard]] std::vector<Fault> faults_on(Path path, const Part& part);
@@ -81,13 +86,15 @@ struct Tally {
     double largest_peak = 0.0;
     double largest_peak_until_held = 0.0;  ///< of the runs that held the feed or faulted
     std::vector<double> reactions_s;       ///< of the runs that held the feed or faulted
+    int unseen_runs = 0;                   ///< of the runs: is_unseen
+    int unseen_violations = 0;             ///< of those
 
-    void add(const Outcome& outcome);
+    void add(const Outcome& outcome, bool is_unseen = false);
     [[nodiscard]] double median_reaction_s() const;
     [[nodiscard]] double longest_reaction_s() const;
-    /// What must never be.
+    /// What must never be, but by a fault that nothing shows.
     [[nodiscard]] int violations() const {
-        return broken_parts + beyond_bound + ran_in_fault + rose_blind + stopped_silently;
+        return broken_parts + beyond_bound + ran_in_fault + rose_blind + stopped_silently - unseen_violations;
     }
 };
 

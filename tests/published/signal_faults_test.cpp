@@ -20,7 +20,20 @@ TEST(SignalFaults, break_no_tooth_whenever_they_begin) {
         const auto fault = static_cast<SignalFault>(k);
         for (const Part& part : parts) {
             const Outcome outcome = mill_with(part, Path::tick, fault, ++seed);
-            CHECK_TEXT(is_unseen(fault) || outcome.run.figures.teeth_broken == 0, name_of(fault));
+            CHECK_TEXT(is_unseen(fault, part) || outcome.run.figures.teeth_broken == 0, name_of(fault));
+        }
+    }
+}
+
+TEST(SignalFaults, that_look_like_another_cut_break_no_tooth_where_the_depth_may_step) {
+    const std::array<Part, 2> undeclared{part_named("depth_ramp:undeclared"), part_named("slot_entry:undeclared")};
+    for (const SignalFault fault : {SignalFault::spindle_fair, SignalFault::currents_halved, SignalFault::spindle_fades,
+                                    SignalFault::spindle_drifts, SignalFault::x_drifts}) {
+        for (const Part& part : undeclared) {
+            for (std::uint64_t seed = 70'010; seed < 70'015; ++seed) {
+                const Outcome outcome = mill_with(part, Path::tick, fault, seed);
+                LONGS_EQUAL_TEXT(0, outcome.run.figures.teeth_broken, name_of(fault));
+            }
         }
     }
 }

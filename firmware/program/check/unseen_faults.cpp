@@ -40,7 +40,9 @@ std::vector<std::string> unseen_faults(const firmware::Parameters<float>& parame
     }
     faults.emplace_back(
         "a current whose gain becomes another by less than a factor of two, and all currents that do so at once, look "
-        "like another cut: most are found in the next air, by the idle torque");
+        "like another cut: most are found in the next air, by the idle torque. Where the depth is not declared and "
+        "depth_step_ratio is above 1 the heaviest cut so far bounds the feed, else nothing does; a gain that changes "
+        "while the tool enters may break a tooth all the same");
     faults.emplace_back(
         "a spindle current that is cut off above some value, while the spindle keeps its speed, looks like a lighter "
         "cut: largest_share_of_rated below that value holds the feed there");

@@ -27,6 +27,7 @@ TEST(UnseenFaults, of_a_machine_with_all_currents_are_drifts_and_a_current_that_
     CHECK(names("a current that drifts within one cut"));
     CHECK(names("goes on telling a rapid"));
     CHECK(names("gain becomes another by less than a factor of two"));
+    CHECK(names("the heaviest cut so far bounds the feed"));
     CHECK(names("largest_share_of_rated below that value"));
     CHECK_FALSE(names("a spindle current that drifts"));
     CHECK_FALSE(names("contradicted by no second current"));
