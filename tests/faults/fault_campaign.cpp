@@ -30,17 +30,8 @@ struct Options {
     std::uint64_t seed = 1;
     double sound_share = 0.1;
     double repaired_share = 0.2;
-    std::vector<std::string> parts = [] {
-        std::vector<std::string> all;
-        for (const char* machine : {"", ":spindle"}) {
-            for (const char* told : {"", ":undeclared"}) {
-                for (const char* scenario : {"depth_ramp", "width_step", "slot_entry"}) {
-                    all.push_back(fmt::format("{}{}{}", scenario, told, machine));
-                }
-            }
-        }
-        return all;
-    }();
+    std::vector<std::string> parts{"depth_ramp",         "width_step",         "slot_entry",
+                                   "depth_ramp:spindle", "width_step:spindle", "slot_entry:spindle"};
     std::vector<std::string> paths{"tick", "can", "link"};
     std::vector<std::string> faults{};
     bool lists_violations = false;
