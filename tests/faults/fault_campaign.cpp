@@ -8,7 +8,6 @@
 #include <fstream>
 #include <mutex>
 #include <random>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -198,7 +197,6 @@ int run(const Options& options) {
     int violations = 0;
     int unseen = 0;
     int unseen_runs = 0;
-    std::set<std::string> names_of_unseen;
     int sound_runs = 0;
     int false_alarms = 0;
     for (const Row& row : rows) {
@@ -209,15 +207,11 @@ int run(const Options& options) {
         violations += row.tally.violations();
         unseen += row.tally.unseen_violations;
         unseen_runs += row.tally.unseen_runs;
-        if (row.tally.unseen_runs > 0) {
-            names_of_unseen.insert(name_of(row.fault));
-        }
         if (row.is_sound()) {
             sound_runs += row.tally.runs;
             false_alarms += static_cast<int>(row.tally.reactions_s.size());
         }
     }
-    fmt::print("\nNo signal contradicts: {}\n", fmt::join(names_of_unseen, "; "));
     fmt::print("\n{} violations, and {} in {} runs by what no signal contradicts; {} false alarms in {} sound runs\n",
                violations, unseen, unseen_runs, false_alarms, sound_runs);
     constexpr int runs_per_false_alarm = 1000;
