@@ -395,6 +395,25 @@ TEST(FeedAhead, meets_what_it_does_not_know_at_the_blind_feed_and_says_that_it_d
     CHECK_TRUE(behind.known);
 }
 
+TEST(FeedAhead, what_is_known_at_most_is_met_no_slower_than_what_is_not_known_at_all) {
+    constexpr float slow_mm_s = 2.0F;
+    Stretch<float> heavy = at_most_from(20.0F);
+    heavy.feed_mm_s = slow_mm_s;
+    Ahead ahead = with({cut_from(0.0F), heavy, cut_from(40.0F, slow_mm_s), air_from(end_mm)});
+    (void)cut(ahead, 1.0F, 10.0F, 300.0F);
+    DOUBLES_EQUAL(at(0.0F).blind_feed_mm_s, ahead.step(at(25.0F)).feed_mm_s, 1e-3);
+    DOUBLES_EQUAL(slow_mm_s, ahead.step(at(45.0F)).feed_mm_s, 1e-3);
+}
+
+TEST(FeedAhead, until_the_material_is_known_no_cut_is_met_slower_than_what_is_not_known_at_all) {
+    constexpr float slow_mm_s = 2.0F;
+    Ahead ahead = with({cut_from(0.0F, slow_mm_s, 60.0F), air_from(end_mm)});
+    DOUBLES_EQUAL(at(0.0F).blind_feed_mm_s, ahead.step(at(1.0F)).feed_mm_s, 1e-3);
+    const WayAhead<float> way = cut(ahead, 1.1F, 10.0F, 300.0F);  // five times the feed, five times the force
+    DOUBLES_EQUAL(1.0, static_cast<double>(ahead.hardness()), 1e-3);
+    DOUBLES_EQUAL(slow_mm_s, way.feed_mm_s, 1e-3);
+}
+
 TEST(FeedAhead, a_force_where_it_knows_nothing_neither_confirms_nor_refutes_it) {
     Ahead ahead = with({air_from(0.0F), unknown_from(10.0F), air_from(end_mm)});
     CHECK_FALSE(cut(ahead, 12.0F, 30.0F, 900.0F).known);

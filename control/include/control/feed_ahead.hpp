@@ -58,7 +58,8 @@
 /// A stretch may be known to lie between least_share of its F_i and F_i: then the least and the most bound the force,
 /// its direction is not asked for, and each millimetre counts as the share of the most that is sure. Where the tool
 /// enters that is 0. Near a stretch that is not known at all `known` is false, and it is met at blind_feed_mm_s; it
-/// neither confirms the map nor refutes it.
+/// neither confirms the map nor refutes it. What is known at most is met no slower than that, and so is every cut until
+/// κ is measured: v_i is a guess there.
 ///
 /// Use: restart() with each program, add() stretches in the order of the path while room() lasts, step() at each tick.
 /// If the window runs empty, nothing is known of the path ahead: the feed has fallen to blind_feed_mm_s by then.

@@ -295,7 +295,9 @@ Scalar FeedAhead<Scalar, Capacity>::feed_at(std::size_t i, const Step& now) cons
     const Scalar feed_mm_s = ratio > Scalar(0) ? stretch.feed_mm_s * ratio : Scalar(0);
     const Scalar least_mm_s = feed_mm_s * now.tooth_share;
     const Scalar of_worst_tooth_mm_s = feed_mm_s + now.mapped_runout_mm_s - now.runout_mm_s;
-    return of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
+    const Scalar highest_mm_s = of_worst_tooth_mm_s > least_mm_s ? of_worst_tooth_mm_s : least_mm_s;
+    const bool is_guess = stretch.is_open() || !is_hardness_measured_;
+    return is_guess && highest_mm_s < now.blind_feed_mm_s ? now.blind_feed_mm_s : highest_mm_s;
 }
 
 /// In squares: one root for all.
