@@ -4,6 +4,7 @@
 #include "calibration/plausible_units.hpp"
 #include "check/air.hpp"
 #include "check/axis_friction.hpp"
+#include "check/commanded_speed.hpp"
 #include "check/recorded_units.hpp"
 #include "check/spindle_idle.hpp"
 #include "check/tooth_lines.hpp"
@@ -115,7 +116,11 @@ Findings RecordingCheck::findings(const std::string& name) const {
     }
     Findings findings = check_motion(name, windows, parameters_);
     const bool is_motion_wrong = is_something_wrong(findings);
-    append(findings, encoder_.findings(has_index_));
+    Findings of_encoder = encoder_.findings({has_index_, ratio_to_commanded_speed(windows).has_value()});
+    if (!is_something_wrong(of_encoder)) {
+        append(of_encoder, check_commanded_speed(windows, parameters_.machine, encoder_.is_proven(has_index_)));
+    }
+    append(findings, std::move(of_encoder));
     append(findings, check_spindle_current(windows, parameters_.machine, channels_[0].stands()));
     if (is_motion_wrong) {  // in another unit: nothing of what is worked out from it would help
         return findings;

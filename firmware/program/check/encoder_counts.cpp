@@ -83,12 +83,12 @@ Finding EncoderCounts::wrong_count() const {
             is_in_degrees ? "spindle_angle_rad" : counts_key};
 }
 
-Findings EncoderCounts::findings(bool has_index) const {
+Findings EncoderCounts::findings(const Beside& beside) const {
     const auto is_most = [this](std::size_t count) { return 2 * count > steps_; };
     if (steps_ == 0) {
         return {{Severity::note, "spindle: it never turns: its encoder is not judged", counts_key}};
     }
-    if (has_index && is_enough() && std::abs(std::abs(typical_rev()) - 1.0) > tolerance_rev()) {
+    if (beside.has_index && is_enough() && std::abs(std::abs(typical_rev()) - 1.0) > tolerance_rev()) {
         return {wrong_count()};
     }
     if (is_most(too_far_)) {
@@ -102,8 +102,10 @@ Findings EncoderCounts::findings(bool has_index) const {
         return {{Severity::error, "spindle: it turns backwards; expected an angle that grows in the cutting direction",
                  "bus.spindle.count_reversed"}};
     }
-    if (!has_index || !is_enough()) {
-        return {{Severity::note, "spindle: no index pulses in the recording: the encoder's counts are not compared",
+    if (!beside.has_index || !is_enough()) {
+        return {{Severity::note,
+                 fmt::format("spindle: no index pulses in the recording: the encoder's counts are {}",
+                             beside.has_command ? "compared with the commanded speed alone" : "not compared"),
                  counts_key}};
     }
     return {};

@@ -17,8 +17,12 @@ class EncoderCounts {
 
     void add(const hal::DriveSample& sample);
 
-    /// `has_index`: the recording has a column of index pulses.
-    [[nodiscard]] Findings findings(bool has_index) const;
+    /// What else the recording holds.
+    struct Beside {
+        bool has_index = false;    ///< a column of index pulses
+        bool has_command = false;  ///< commanded speeds that can be judged (commanded_speed.hpp)
+    };
+    [[nodiscard]] Findings findings(const Beside& beside) const;
     /// Whether the index pulses prove the counts right.
     [[nodiscard]] bool is_proven(bool has_index) const;
 

@@ -85,6 +85,9 @@ void MotionWindows::add(double time_s, const hal::DriveSample& sample, const hal
         window_.has_spindle_current && (sample.present & hal::mask(hal::Present::spindle_current)) != 0;
     window_.spindle_current_A += static_cast<double>(sample.spindle_current_A);
     window_.is_rapid = (window_.samples == 1 || window_.is_rapid) && program.rapid;
+    const auto commanded_rad_s = static_cast<double>(program.commanded_speed_rad_s);
+    const bool is_commanded_as_before = window_.samples == 1 || commanded_rad_s == window_.commanded_rad_s;
+    window_.commanded_rad_s = is_commanded_as_before ? commanded_rad_s : 0.0;
     window_.programmed_feed_mm_s =
         std::max(window_.programmed_feed_mm_s, static_cast<double>(program.programmed_feed_mm_s));
     add_axes(sample);

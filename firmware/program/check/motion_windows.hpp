@@ -39,6 +39,7 @@ struct MotionWindow {
     std::array<AxisWindow, hal::axis_count> axes{};
     bool is_rapid = false;
     double programmed_feed_mm_s = 0.0;  ///< the largest of the window; 0: not known
+    double commanded_rad_s = 0.0;       ///< speed that the spindle is commanded; 0: not told, or it changes
     ToolPlace place = ToolPlace::unknown;
 
     [[nodiscard]] double end_s() const { return start_s + duration_s; }

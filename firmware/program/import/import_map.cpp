@@ -84,6 +84,22 @@ void read_source_name(Table& table, SourceName& source) {
     }
 }
 
+void read_threshold(Table& table, ColumnMap& column) {
+    column.threshold = table.number("threshold", -largest_factor, largest_factor, column.threshold);
+}
+
+void read_state(Table& table, ColumnMap& column) {
+    column.unit = unit_names(Quantity::state).front();
+    if (!table.has("equals")) {
+        read_threshold(table, column);
+        return;
+    }
+    if (table.has("threshold")) {
+        table.fail("threshold", "expected either equals or threshold");
+    }
+    column.equals = table.number("equals", -largest_factor, largest_factor);
+}
+
 void read_unit(Table& table, Quantity quantity, ColumnMap& column) {
     const std::vector<std::string> names = unit_names(quantity);
     const Unit& unit = unit_of(quantity, table.choice("unit", names, std::size_t{0}));
@@ -95,10 +111,7 @@ void read_unit(Table& table, Quantity quantity, ColumnMap& column) {
     }
 }
 
-ColumnMap read_column(Table& table, const RecordingColumn& target) {
-    ColumnMap column;
-    column.column = target;
-    read_source_name(table, column.source);
+void read_measured(Table& table, ColumnMap& column) {
     const Quantity measured = read_derivation(table, column);
     read_unit(table, measured, column);
     if (measured != Quantity::time) {  // a recording begins at 0
@@ -111,7 +124,18 @@ ColumnMap read_column(Table& table, const RecordingColumn& target) {
         column.smoothing_s = table.number("smoothing_s", 1e-6, 1.0, 0.01, "s");
     }
     if (column.derived_from == Derivation::index) {
-        column.threshold = table.number("threshold", -largest_factor, largest_factor, 0.5);
+        read_threshold(table, column);
+    }
+}
+
+ColumnMap read_column(Table& table, const RecordingColumn& target) {
+    ColumnMap column;
+    column.column = target;
+    read_source_name(table, column.source);
+    if (target.quantity == Quantity::state) {
+        read_state(table, column);
+    } else {
+        read_measured(table, column);
     }
     table.reject_unknown_keys();
     return column;

@@ -44,8 +44,9 @@ struct ColumnMap {
     double offset = 0.0;  ///< added last, in the unit of the recording
     double wrap = 0.0;    ///< the source begins again at this value, in its own unit; 0: never
     Derivation derived_from = Derivation::none;
-    double smoothing_s = 0.0;  ///< a velocity is the slope over this time
-    double threshold = 0.0;    ///< a pulse is above it
+    double smoothing_s = 0.0;        ///< a velocity is the slope over this time
+    double threshold = 0.5;          ///< a pulse, or a state that is 1, is above it
+    std::optional<double> equals{};  ///< instead: a state is 1 where the source is this
 };
 
 /// The file that says how a source becomes a recording.
@@ -93,6 +94,10 @@ struct ImportMap {
 ///     source = "X load"
 ///     unit = "%"                      # A, mA, %, permille, rated
 ///     rated_A = 11.5
+///
+///     [rapid]
+///     source = "motion type"
+///     equals = 1                      # or 1 where it is above `threshold`
 [[nodiscard]] ImportMap read_import_map(const std::string& file);
 
 /// For a table whose columns have the recording's names and units already: those that exist are taken.

@@ -19,6 +19,10 @@ std::string figure(double value) {
 }
 
 std::string unit_text(const ColumnMap& column) {
+    if (column.column.quantity == Quantity::state) {
+        return column.equals ? fmt::format("1 where it is {:g}", *column.equals)
+                             : fmt::format("1 above {:g}", column.threshold);
+    }
     std::string text = column.unit;
     switch (column.derived_from) {
         case Derivation::none:
@@ -60,16 +64,18 @@ void write_times(std::string& out, const ImportedRecording& recording) {
 }
 
 void write_columns(std::string& out, const ImportedRecording& recording) {
+    std::size_t name_width = 17;
     std::size_t source_width = 6;
     std::size_t unit_width = 4;
     for (const ColumnMap& column : recording.columns) {
+        name_width = std::max(name_width, column.column.name.size());
         source_width = std::max(source_width, column.source.shown().size());
         unit_width = std::max(unit_width, unit_text(column).size());
     }
     const auto line = [&](std::string_view name, std::string_view source, std::string_view unit, std::string_view low,
                           std::string_view mean, std::string_view high, std::string_view missing) {
-        fmt::format_to(std::back_inserter(out), "{:<17}  {:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>7}\n", name, source,
-                       source_width, unit, unit_width, low, mean, high, missing);
+        fmt::format_to(std::back_inserter(out), "{:<{}}  {:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>7}\n", name,
+                       name_width, source, source_width, unit, unit_width, low, mean, high, missing);
     };
     line("column", "source", "unit", "minimum", "mean", "maximum", "missing");
     for (std::size_t k = 0; k < recording.columns.size(); ++k) {
@@ -79,7 +85,7 @@ void write_columns(std::string& out, const ImportedRecording& recording) {
              fmt::format("{}", statistics.missing()));
     }
     for (std::size_t k = 0; k < recording.columns.size(); ++k) {
-        fmt::format_to(std::back_inserter(out), "{:<17}  {}\n", recording.columns[k].column.name,
+        fmt::format_to(std::back_inserter(out), "{:<{}}  {}\n", recording.columns[k].column.name, name_width,
                        recording.statistics[k].sparkline());
     }
 }

@@ -35,6 +35,30 @@ std::string velocity_doubt(const ColumnMap& column, double largest) {
     return unit_doubt(column, largest, "2 m/s", likely);
 }
 
+std::vector<std::string> feed_doubts(const ColumnMap& column, const ColumnStatistics& feed) {
+    if (feed.minimum() < 0.0) {
+        return {fmt::format("{} falls to {:.4g}, expected a feed from 0 on: is it sign = -1?", column.column.name,
+                            feed.minimum())};
+    }
+    if (feed.largest_magnitude() > fastest_axis_mm_s) {
+        return {unit_doubt(column, feed.largest_magnitude(), "2 m/s", "is it mm/min?")};
+    }
+    return {};
+}
+
+std::vector<std::string> speed_doubts(const ColumnMap& column, const ColumnStatistics& speed) {
+    const double largest_rpm = speed.largest_magnitude() * 60.0 / estimation::turn_rad<double>;
+    if (speed.minimum() < 0.0) {
+        return {fmt::format("{} falls to {:.4g}, expected a speed from 0 on: is it sign = -1?", column.column.name,
+                            speed.minimum())};
+    }
+    if (largest_rpm > fastest_spindle_rpm) {
+        return {fmt::format("{} reaches {:.3g} rpm; its unit is \"{}\": is it rpm?", column.column.name, largest_rpm,
+                            column.unit)};
+    }
+    return {};
+}
+
 std::string current_doubt(const ColumnMap& column, double largest) {
     const char* likely = column.unit == "A"       ? "is it mA, % or permille of the rated current?"
                          : column.unit == "rated" ? "is it % or permille?"
@@ -94,6 +118,10 @@ std::vector<std::string> doubts_about(const ColumnMap& column, const ColumnStati
         case Quantity::ratio:
             return largest > largest_override ? std::vector{unit_doubt(column, largest, "3", "is it %?")}
                                               : std::vector<std::string>{};
+        case Quantity::feed:
+            return feed_doubts(column, statistics);
+        case Quantity::speed:
+            return speed_doubts(column, statistics);
         case Quantity::angle:
             return angle_doubts(column, statistics, duration_s);
         default:

@@ -55,11 +55,18 @@ constexpr std::array known_units{
     Unit{Quantity::position, "in", inch_mm, needs_nothing},
     Unit{Quantity::position, "rev", 1.0, needs_pitch},
     Unit{Quantity::position, "counts", 1.0, needs_pitch | needs_counts},
+    Unit{Quantity::feed, "mm/s", 1.0, needs_nothing},
+    Unit{Quantity::feed, "mm/min", 1.0 / 60.0, needs_nothing},
+    Unit{Quantity::feed, "m/min", 1000.0 / 60.0, needs_nothing},
+    Unit{Quantity::feed, "m/s", 1000.0, needs_nothing},
+    Unit{Quantity::feed, "in/min", inch_mm / 60.0, needs_nothing},
+    Unit{Quantity::feed, "in/s", inch_mm, needs_nothing},
     Unit{Quantity::force, "N", 1.0, needs_nothing},
     Unit{Quantity::force, "kN", 1e3, needs_nothing},
     Unit{Quantity::force, "lbf", pound_force_N, needs_nothing},
     Unit{Quantity::ratio, "1", 1.0, needs_nothing},
     Unit{Quantity::ratio, "%", 1e-2, needs_nothing},
+    Unit{Quantity::state, "1", 1.0, needs_nothing},
 };
 
 constexpr std::array columns_of_recording{
@@ -76,6 +83,9 @@ constexpr std::array columns_of_recording{
     RecordingColumn{"fy_N", Quantity::force},
     RecordingColumn{"fz_N", Quantity::force},
     RecordingColumn{"override", Quantity::ratio},
+    RecordingColumn{"programmed_feed_mm_s", Quantity::feed},
+    RecordingColumn{"rapid", Quantity::state},
+    RecordingColumn{"commanded_speed_rad_s", Quantity::speed},
 };
 
 }  // namespace

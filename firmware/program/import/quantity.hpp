@@ -13,13 +13,15 @@ namespace millforce::host {
 enum class Quantity : std::uint8_t {
     time,      ///< s
     angle,     ///< rad
-    speed,     ///< speed of the spindle, rad/s: becomes an angle
+    speed,     ///< speed of the spindle, rad/s: the commanded one, or becomes an angle
     pulse,     ///< level of an index pulse: becomes an angle
     current,   ///< A
     velocity,  ///< velocity of an axis, mm/s
     position,  ///< position of an axis, mm: becomes a velocity
+    feed,      ///< along the path, mm/s
     force,     ///< N
     ratio,     ///< 1
+    state,     ///< 0 or 1
 };
 
 /// What the unit alone leaves open. The map's keys of the same names; 0: not given.

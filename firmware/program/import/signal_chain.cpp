@@ -22,6 +22,11 @@ std::unique_ptr<SampleDerivation> derivation_of(const ColumnMap& column) {
     return nullptr;
 }
 
+double state_of(const ColumnMap& column, double raw) {
+    const bool is_set = column.equals ? raw == *column.equals : raw > column.threshold;
+    return std::isnan(raw) ? raw : is_set ? 1.0 : 0.0;
+}
+
 }  // namespace
 
 SignalChain::SignalChain(const ColumnMap& column)
@@ -30,6 +35,9 @@ SignalChain::SignalChain(const ColumnMap& column)
 bool SignalChain::add(double time_s, double raw) {
     if (column_.wrap > 0.0 && !unwrap_.follow(raw)) {
         return false;
+    }
+    if (column_.column.quantity == Quantity::state) {
+        raw = state_of(column_, raw);
     }
     const std::size_t before = out_.size();
     // A pulse is compared with the threshold in its own unit.

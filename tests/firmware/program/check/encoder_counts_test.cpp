@@ -43,25 +43,26 @@ EncoderCounts counts_of(const Turning& turning) {
 TEST_GROUP(EncoderCounts){};
 
 TEST(EncoderCounts, of_a_spindle_that_turns_as_it_should_find_nothing) {
-    STRCMP_EQUAL("", lines_of(counts_of({}).findings(true)).c_str());
+    STRCMP_EQUAL("", lines_of(counts_of({}).findings({.has_index = true})).c_str());
     CHECK(counts_of({}).is_proven(true));
     CHECK_FALSE(counts_of({}).is_proven(false));
 }
 
 TEST(EncoderCounts, of_a_spindle_that_stands_are_not_judged) {
-    STRCMP_CONTAINS("it never turns", lines_of(counts_of({.rev_per_sample = 0.0}).findings(true)).c_str());
+    STRCMP_CONTAINS("it never turns",
+                    lines_of(counts_of({.rev_per_sample = 0.0}).findings({.has_index = true})).c_str());
 }
 
 TEST(EncoderCounts, tell_degrees_from_another_number_of_counts) {
     const EncoderCounts in_degrees = counts_of({.recorded_scale = 180.0 / std::numbers::pi});
-    STRCMP_CONTAINS("is it in degrees?", lines_of(in_degrees.findings(true)).c_str());
+    STRCMP_CONTAINS("is it in degrees?", lines_of(in_degrees.findings({.has_index = true})).c_str());
     STRCMP_CONTAINS("8192 counts per revolution instead of 4096?",
-                    lines_of(counts_of({.recorded_scale = 2.0}).findings(true)).c_str());
+                    lines_of(counts_of({.recorded_scale = 2.0}).findings({.has_index = true})).c_str());
     CHECK_FALSE(in_degrees.is_proven(true));
 }
 
 TEST(EncoderCounts, begin_anew_after_a_sample_without_a_count) {
     const EncoderCounts counts = counts_of({.without_count_every = 3});  // and a turn has 20 samples
-    STRCMP_CONTAINS("no index pulses in the recording", lines_of(counts.findings(true)).c_str());
+    STRCMP_CONTAINS("no index pulses in the recording", lines_of(counts.findings({.has_index = true})).c_str());
     CHECK_FALSE(counts.is_proven(true));
 }

@@ -120,9 +120,10 @@ std::string lines_of(const host::Findings& findings) {
     return lines;
 }
 
-std::string lines_for(const MadeRecording& recording, const firmware::Parameters<float>& parameters, bool has_index) {
+std::string lines_for(const MadeRecording& recording, const firmware::Parameters<float>& parameters, bool has_index,
+                      float commanded_rad_s) {
     host::RecordingCheck check(parameters, has_index);
-    const hal::ProgramStatus program{.programmed_feed_mm_s = 20.0F};
+    const hal::ProgramStatus program{.programmed_feed_mm_s = 20.0F, .commanded_speed_rad_s = commanded_rad_s};
     for (const RecordedSample& sample : recording) {
         check.add(sample.time_s, sample.drives, program);
     }

@@ -40,9 +40,9 @@ firmware::Parameters<float> right_parameters();
 /// All findings, a line each.
 std::string lines_of(const host::Findings& findings);
 
-/// Of the recording against the parameters; with index pulses or without.
+/// Of the recording against the parameters; with index pulses or without. `commanded_rad_s`: what the CNC tells.
 std::string lines_for(const MadeRecording& recording, const firmware::Parameters<float>& parameters,
-                      bool has_index = true);
+                      bool has_index = true, float commanded_rad_s = 0.0F);
 
 /// The recording after `change` of each sample's drives.
 template <typename Change>

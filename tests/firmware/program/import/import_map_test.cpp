@@ -50,6 +50,8 @@ TEST(ImportMap, knows_the_units_of_each_quantity) {
         1e-15);
     DOUBLES_EQUAL(4.4482216152605, factor_of("fx_N", "unit = \"lbf\""), 1e-12);
     DOUBLES_EQUAL(0.01, factor_of("override", "unit = \"%\""), 1e-15);
+    DOUBLES_EQUAL(1.0 / 60.0, factor_of("programmed_feed_mm_s", "unit = \"mm/min\""), 1e-15);
+    DOUBLES_EQUAL(turn / 60.0, factor_of("commanded_speed_rad_s", "unit = \"rpm\""), 1e-15);
 }
 
 TEST(ImportMap, multiplies_sign_scale_and_unit) {
@@ -73,6 +75,11 @@ TEST(ImportMap, names_the_key_its_place_and_what_was_expected) {
                    "expected one of csv, odrive, sinumerik, halsampler, candump"));
     CHECK(contains(error_of("[spindle_angle_rad]\nsource = \"s\"\nderived_from = \"position\"\n"),
                    "expected one of speed, index"));
+    CHECK(contains(error_of("[rapid]\nsource = \"m\"\nequals = 1\nthreshold = 1\n"),
+                   "expected either equals or threshold"));
+    CHECK(contains(error_of("[rapid]\nsource = \"m\"\nsign = -1\n"), "rapid.sign: unknown key"));
+    CHECK(contains(error_of("[programmed_feed_mm_s]\nsource = \"F\"\nderived_from = \"position\"\n"),
+                   "derived_from: unknown key"));
     CHECK(contains(error_of("[time_s]\nunit = \"s\"\n"), "time_s.rate_hz: missing"));
     CHECK(contains(error_of("[time_s]\nsource = \"t\"\n"), "no column of a recording"));
 }

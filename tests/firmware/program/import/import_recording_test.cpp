@@ -291,6 +291,49 @@ TEST(ImportRecording, names_the_likely_mistake_of_each_unit) {
                    "is the threshold right"));
 }
 
+TEST(ImportRecording, takes_what_the_cnc_tells_of_its_program) {
+    const std::string table =
+        "t,F,G,S\n"
+        "0,1200,0,6000\n"
+        "1,1200,1,6000\n"
+        "2,1500,1,\n";
+    const std::string map =
+        "[time_s]\nsource = \"t\"\nunit = \"ms\"\n"
+        "[programmed_feed_mm_s]\nsource = \"F\"\nunit = \"mm/min\"\n"
+        "[rapid]\nsource = \"G\"\nequals = 0\n"
+        "[commanded_speed_rad_s]\nsource = \"S\"\nunit = \"rpm\"\n";
+    const std::string text = report(table, map);
+    STRCMP_EQUAL("20 20 25", joined(bench.column("programmed_feed_mm_s")).c_str());
+    STRCMP_EQUAL("1 0 0", joined(bench.column("rapid")).c_str());
+    const std::vector<std::string> speed = bench.column("commanded_speed_rad_s");
+    DOUBLES_EQUAL(200.0 * std::numbers::pi, std::stod(speed.at(1)), 1e-6);
+    STRCMP_EQUAL("", speed.at(2).c_str());
+    CHECK(contains(text, "1 where it is 0"));
+    CHECK(!contains(text, "implausible: rapid"));
+}
+
+TEST(ImportRecording, takes_a_state_for_set_above_its_threshold) {
+    const auto rapid_of = [&](const std::string& rest) {
+        bench.import("t,r\n0,0\n1,1\n2,2\n",
+                     "[time_s]\nsource = \"t\"\nunit = \"ms\"\n[rapid]\nsource = \"r\"\n" + rest);
+        return joined(bench.column("rapid"));
+    };
+    STRCMP_EQUAL("0 1 1", rapid_of("").c_str());
+    STRCMP_EQUAL("0 0 1", rapid_of("threshold = 1.5\n").c_str());
+}
+
+TEST(ImportRecording, doubts_a_feed_or_a_commanded_speed_that_cannot_be) {
+    const auto doubt = [&](const std::string& column) { return report(table_of(200), table_map + column); };
+    CHECK(contains(doubt("[programmed_feed_mm_s]\nsource = \"v\"\nsign = -1\n"),
+                   "programmed_feed_mm_s falls to -15, expected a feed from 0 on: is it sign = -1?"));
+    CHECK(contains(doubt("[programmed_feed_mm_s]\nsource = \"v\"\nscale = 200\n"), "is it mm/min?"));
+    CHECK(contains(doubt("[commanded_speed_rad_s]\nsource = \"v\"\nsign = -1\n"),
+                   "commanded_speed_rad_s falls to -15, expected a speed from 0 on"));
+    CHECK(contains(doubt("[commanded_speed_rad_s]\nsource = \"v\"\nscale = 1000\n"), "is it rpm?"));
+    CHECK(!contains(doubt("[programmed_feed_mm_s]\nsource = \"v\"\n[commanded_speed_rad_s]\nsource = \"v\"\n"),
+                    "implausible"));
+}
+
 TEST(ImportRecording, takes_plausible_forces_and_overrides_without_a_word) {
     const std::string map = table_map + "[fx_N]\nsource = \"v\"\n[override]\nsource = \"v\"\nunit = \"%\"\n";
     CHECK(!contains(report(table_of(200), map), "implausible"));
