@@ -128,6 +128,22 @@ TEST(FeedAhead, brakes_earlier_where_the_machine_answers_later_or_the_place_is_l
     CHECK_COMPARE(feed_with(0.02F, 1.0F), <, feed_with(0.02F, 0.0F));
 }
 
+TEST(FeedAhead, where_the_force_comes_late_a_stretch_counts_from_as_far_off_as_it_is_not_seen) {
+    const auto feed_before_the_wall = [](float window_mm, float before_mm) {
+        FeedAheadSettings<float> settings = exact();
+        settings.farthest_off_mm = 1.5F;
+        Ahead ahead = with(wall, settings);
+        Ahead::Step in_air = estimate_at(wall_mm - 20.0F, 0.0F, air_feed_mm_s);
+        in_air.window_mm = window_mm;
+        (void)ahead.step(in_air);
+        return ahead.step(at(wall_mm - before_mm)).feed_mm_s;
+    };
+    DOUBLES_EQUAL(wall_feed_mm_s, feed_before_the_wall(6.0F, 6.4F), 1e-3);
+    CHECK_COMPARE(feed_before_the_wall(6.0F, 6.6F), >, wall_feed_mm_s);
+    DOUBLES_EQUAL(wall_feed_mm_s, feed_before_the_wall(0.5F, 1.4F), 1e-3);
+    CHECK_COMPARE(feed_before_the_wall(0.5F, 1.6F), >, wall_feed_mm_s);
+}
+
 TEST(FeedAhead, an_exit_counts_as_left_where_no_map_can_be_wrong_about_it) {
     FeedAheadSettings<float> settings = exact();
     settings.farthest_off_mm = 1.0F;

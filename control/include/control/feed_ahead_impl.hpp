@@ -15,7 +15,8 @@ FeedAhead<Scalar, Capacity>::FeedAhead(const FeedAheadSettings<Scalar>& settings
     : settings_(settings),
       latest_s_(literal<Scalar>(1.4L) * settings.reaction_s),
       hardness_(settings.assumed_hardness),
-      hardening_(Scalar(1) - Scalar(1) / hardness_) {}
+      hardening_(Scalar(1) - Scalar(1) / hardness_),
+      off_unseen_mm_(settings.farthest_off_mm) {}
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::restart() {
@@ -116,11 +117,13 @@ void FeedAhead<Scalar, Capacity>::drop_passed(Scalar behind_mm) {
 
 template <typename Scalar, std::size_t Capacity>
 void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
+    constexpr Scalar beyond_window_mm{Scalar(0.5F)};
     const Expected expected = expected_within(now, settings_.position_tolerance_mm);
     const Scalar travel_mm = since_estimate_mm_ < now.window_mm ? since_estimate_mm_ : now.window_mm;
     const bool is_in_contact = now.tangential_N > now.contact_level_N;
     const bool touches_in_air = is_in_contact && !expected.has_unknown && !(expected.tangential_N.high > Scalar(0));
     since_estimate_mm_ = Scalar(0);
+    off_unseen_mm_ = now.window_mm + beyond_window_mm;
     mapped_ = mapped_within(now);
     may_cut_ = expected.tangential_N.high > Scalar(0);
     is_refuted_ = is_refuted_ || (touches_in_air && touched_in_air_);
@@ -305,7 +308,7 @@ template <typename Scalar, std::size_t Capacity>
 Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     using estimation::square;
     using std::sqrt;
-    const Scalar margin_mm = settings_.farthest_off_mm;
+    const Scalar margin_mm = off_unseen_mm_ > settings_.farthest_off_mm ? off_unseen_mm_ : settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
     const Scalar acts_mm = now.position_mm + pending_mm_;
     const Scalar at_this_feed_mm = latest_s_ * now.feed_mm_s;

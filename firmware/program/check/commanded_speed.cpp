@@ -23,10 +23,10 @@ const char* unit_of_command(double turned_by_commanded) {
     const auto is_near = [turned_by_commanded](double ratio) {
         return std::abs(turned_by_commanded / ratio - 1.0) < near_share;
     };
-    return is_near(1.0 / rpm_per_rad_s)                 ? "is it in rpm?"
-           : is_near(estimation::turn_rad<double>)      ? "is it in rev/s?"
+    return is_near(1.0 / rpm_per_rad_s)                    ? "is it in rpm?"
+           : is_near(estimation::turn_rad<double>)         ? "is it in rev/s?"
            : is_near(estimation::turn_rad<double> / 360.0) ? "is it in deg/s?"
-                                                        : nullptr;
+                                                           : nullptr;
 }
 
 }  // namespace
@@ -58,7 +58,8 @@ Findings check_commanded_speed(std::span<const MotionWindow> windows, const firm
     if (!ratio || std::abs(*ratio - 1.0) <= largest_share) {
         return {};
     }
-    const std::string seen = fmt::format("spindle: by the encoder it turns at {:.4g} times the commanded speed", *ratio);
+    const std::string seen =
+        fmt::format("spindle: by the encoder it turns at {:.4g} times the commanded speed", *ratio);
     if (const char* unit = unit_of_command(*ratio)) {
         return {{Severity::error, fmt::format("{}; {}", seen, unit), "commanded_speed_rad_s"}};
     }
