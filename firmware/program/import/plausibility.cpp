@@ -16,6 +16,7 @@ constexpr double largest_current_A = 500.0;
 constexpr double largest_force_N = 1e5;
 constexpr double largest_override = 3.0;
 constexpr double fastest_spindle_rpm = 1e5;
+constexpr double fastest_spindle_rad_s = fastest_spindle_rpm * estimation::turn_rad<double> / 60.0;
 constexpr double largest_fall_rad = 0.1;  // a spindle at rest may oscillate by less
 constexpr double slowest_rate_hz = 20.0;
 constexpr double fastest_rate_hz = 1e6;
@@ -35,26 +36,15 @@ std::string velocity_doubt(const ColumnMap& column, double largest) {
     return unit_doubt(column, largest, "2 m/s", likely);
 }
 
-std::vector<std::string> feed_doubts(const ColumnMap& column, const ColumnStatistics& feed) {
-    if (feed.minimum() < 0.0) {
-        return {fmt::format("{} falls to {:.4g}, expected a feed from 0 on: is it sign = -1?", column.column.name,
-                            feed.minimum())};
+/// Of what the CNC commands, a feed or a speed.
+std::vector<std::string> command_doubts(const ColumnMap& column, const ColumnStatistics& command, double largest,
+                                        const char* limit, const char* likely) {
+    if (command.minimum() < 0.0) {
+        return {fmt::format("{} falls to {:.4g}, expected nothing below 0: is it sign = -1?", column.column.name,
+                            command.minimum())};
     }
-    if (feed.largest_magnitude() > fastest_axis_mm_s) {
-        return {unit_doubt(column, feed.largest_magnitude(), "2 m/s", "is it mm/min?")};
-    }
-    return {};
-}
-
-std::vector<std::string> speed_doubts(const ColumnMap& column, const ColumnStatistics& speed) {
-    const double largest_rpm = speed.largest_magnitude() * 60.0 / estimation::turn_rad<double>;
-    if (speed.minimum() < 0.0) {
-        return {fmt::format("{} falls to {:.4g}, expected a speed from 0 on: is it sign = -1?", column.column.name,
-                            speed.minimum())};
-    }
-    if (largest_rpm > fastest_spindle_rpm) {
-        return {fmt::format("{} reaches {:.3g} rpm; its unit is \"{}\": is it rpm?", column.column.name, largest_rpm,
-                            column.unit)};
+    if (command.maximum() > largest) {
+        return {unit_doubt(column, command.maximum(), limit, likely)};
     }
     return {};
 }
@@ -119,9 +109,9 @@ std::vector<std::string> doubts_about(const ColumnMap& column, const ColumnStati
             return largest > largest_override ? std::vector{unit_doubt(column, largest, "3", "is it %?")}
                                               : std::vector<std::string>{};
         case Quantity::feed:
-            return feed_doubts(column, statistics);
+            return command_doubts(column, statistics, fastest_axis_mm_s, "2 m/s", "is it mm/min?");
         case Quantity::speed:
-            return speed_doubts(column, statistics);
+            return command_doubts(column, statistics, fastest_spindle_rad_s, "100,000 rpm", "is it rpm?");
         case Quantity::angle:
             return angle_doubts(column, statistics, duration_s);
         default:

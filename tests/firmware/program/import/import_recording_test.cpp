@@ -325,10 +325,10 @@ TEST(ImportRecording, takes_a_state_for_set_above_its_threshold) {
 TEST(ImportRecording, doubts_a_feed_or_a_commanded_speed_that_cannot_be) {
     const auto doubt = [&](const std::string& column) { return report(table_of(200), table_map + column); };
     CHECK(contains(doubt("[programmed_feed_mm_s]\nsource = \"v\"\nsign = -1\n"),
-                   "programmed_feed_mm_s falls to -15, expected a feed from 0 on: is it sign = -1?"));
+                   "programmed_feed_mm_s falls to -15, expected nothing below 0: is it sign = -1?"));
     CHECK(contains(doubt("[programmed_feed_mm_s]\nsource = \"v\"\nscale = 200\n"), "is it mm/min?"));
     CHECK(contains(doubt("[commanded_speed_rad_s]\nsource = \"v\"\nsign = -1\n"),
-                   "commanded_speed_rad_s falls to -15, expected a speed from 0 on"));
+                   "commanded_speed_rad_s falls to -15, expected nothing below 0"));
     CHECK(contains(doubt("[commanded_speed_rad_s]\nsource = \"v\"\nscale = 1000\n"), "is it rpm?"));
     CHECK(!contains(doubt("[programmed_feed_mm_s]\nsource = \"v\"\n[commanded_speed_rad_s]\nsource = \"v\"\n"),
                     "implausible"));
