@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "calibration/plausible_units.hpp"
 #include "estimation/number/circle.hpp"
 
 namespace millforce::host {
@@ -47,9 +48,7 @@ std::optional<double> ratio_to_commanded_speed(std::span<const MotionWindow> win
     if (ratios.empty()) {
         return std::nullopt;
     }
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle;
+    return median_of(std::move(ratios));
 }
 
 Findings check_commanded_speed(std::span<const MotionWindow> windows, const firmware::MachineParameters<float>& machine,

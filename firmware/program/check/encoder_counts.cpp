@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "calibration/plausible_units.hpp"
 
 namespace millforce::host {
 
@@ -56,10 +57,7 @@ bool EncoderCounts::is_enough() const {
 }
 
 double EncoderCounts::typical_rev() const {
-    std::vector<double> sorted = between_pulses_rev_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
+    return median_of(between_pulses_rev_);
 }
 
 double EncoderCounts::tolerance_rev() const {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace millforce::host {
@@ -64,9 +65,7 @@ double median_ratio_to_program(std::span<const MotionWindow> windows) {
     if (ratios.empty()) {
         return 0.0;
     }
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle;
+    return median_of(std::move(ratios));
 }
 
 Findings check_program(std::span<const MotionWindow> windows, const std::string& velocity_column,
