@@ -123,7 +123,8 @@ void FeedAhead<Scalar, Capacity>::compare(const Step& now) {
     const bool is_in_contact = now.tangential_N > now.contact_level_N;
     const bool touches_in_air = is_in_contact && !expected.has_unknown && !(expected.tangential_N.high > Scalar(0));
     since_estimate_mm_ = Scalar(0);
-    off_unseen_mm_ = now.window_mm + beyond_window_mm;
+    const Scalar late_mm = now.window_mm + beyond_window_mm;
+    off_unseen_mm_ = late_mm > settings_.farthest_off_mm ? late_mm : settings_.farthest_off_mm;
     mapped_ = mapped_within(now);
     may_cut_ = expected.tangential_N.high > Scalar(0);
     is_refuted_ = is_refuted_ || (touches_in_air && touched_in_air_);
@@ -308,20 +309,19 @@ template <typename Scalar, std::size_t Capacity>
 Scalar FeedAhead<Scalar, Capacity>::fastest_for(const Step& now) const {
     using estimation::square;
     using std::sqrt;
-    const Scalar margin_mm = off_unseen_mm_ > settings_.farthest_off_mm ? off_unseen_mm_ : settings_.farthest_off_mm;
     const Scalar twice_a = settings_.acceleration_mm_s2 + settings_.acceleration_mm_s2;
     const Scalar acts_mm = now.position_mm + pending_mm_;
     const Scalar at_this_feed_mm = latest_s_ * now.feed_mm_s;
     const Scalar surely_mm = estimation::halved(pending_mm_ < at_this_feed_mm ? pending_mm_ : at_this_feed_mm);
     const Scalar passed_mm = now.position_mm + surely_mm;
     const auto square_before = [&](Scalar feed_mm_s, Scalar begin_mm) {
-        const Scalar spare_mm = begin_mm - margin_mm - acts_mm;
+        const Scalar spare_mm = begin_mm - off_unseen_mm_ - acts_mm;
         return spare_mm > Scalar(0) ? square(feed_mm_s) + twice_a * spare_mm : square(feed_mm_s);
     };
     const std::size_t last = count_ - 1;  // its begin is where the map ends
     Scalar fastest = square_before(now.blind_feed_mm_s, at(last).begin_mm);
     for (std::size_t i = 0; i < last; ++i) {
-        if (end_mm(i) + margin_mm < passed_mm) {
+        if (end_mm(i) + off_unseen_mm_ < passed_mm) {
             continue;
         }
         const Scalar here = square_before(feed_at(i, now), at(i).begin_mm);

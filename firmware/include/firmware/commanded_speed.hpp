@@ -17,6 +17,9 @@ namespace millforce::firmware {
 template <typename Scalar>
 class CommandedSpeed {
   public:
+    static constexpr Scalar settled_s = Scalar(1);
+    static constexpr Scalar largest_share = estimation::literal<Scalar>(0.2L);
+
     void restart() { *this = CommandedSpeed(); }
 
     /// Each estimate. `elapsed_s`: since the last one. True: the spindle turns evenly, and at another speed.
@@ -34,9 +37,7 @@ class CommandedSpeed {
     }
 
   private:
-    static constexpr Scalar settled_s = Scalar(1);
     static constexpr Scalar even_share = estimation::literal<Scalar>(0.03L);
-    static constexpr Scalar largest_share = estimation::literal<Scalar>(0.2L);
 
     [[nodiscard]] static bool is_near(Scalar a, Scalar b, Scalar share) {
         const Scalar most = share * b;

@@ -116,9 +116,10 @@ Findings RecordingCheck::findings(const std::string& name) const {
     }
     Findings findings = check_motion(name, windows, parameters_);
     const bool is_motion_wrong = is_something_wrong(findings);
-    Findings of_encoder = encoder_.findings({has_index_, ratio_to_commanded_speed(windows).has_value()});
+    const std::optional<double> to_command = ratio_to_commanded_speed(windows);
+    Findings of_encoder = encoder_.findings({has_index_, to_command.has_value()});
     if (!is_something_wrong(of_encoder)) {
-        append(of_encoder, check_commanded_speed(windows, parameters_.machine, encoder_.is_proven(has_index_)));
+        append(of_encoder, check_commanded_speed(to_command, parameters_.machine, encoder_.is_proven(has_index_)));
     }
     append(findings, std::move(of_encoder));
     append(findings, check_spindle_current(windows, parameters_.machine, channels_[0].stands()));

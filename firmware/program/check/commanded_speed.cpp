@@ -9,13 +9,15 @@
 
 #include "calibration/plausible_units.hpp"
 #include "estimation/number/circle.hpp"
+#include "firmware/commanded_speed.hpp"
 
 namespace millforce::host {
 
 namespace {
 
-constexpr double settled_s = 1.0;
-constexpr double largest_share = 0.2;
+using WhileItRuns = firmware::CommandedSpeed<double>;
+
+constexpr const char* command_key = "commanded_speed_rad_s";
 constexpr double rpm_per_rad_s = 60.0 / estimation::turn_rad<double>;
 
 /// A speed that was written down in another unit than rad/s.
@@ -40,7 +42,7 @@ std::optional<double> ratio_to_commanded_speed(std::span<const MotionWindow> win
         const bool goes_on = last != nullptr && window.turns_steadily() && window.commanded_rad_s > 0.0 &&
                              window.commanded_rad_s == last->commanded_rad_s;
         even_s = goes_on ? even_s + window.duration_s : 0.0;
-        if (even_s > settled_s) {
+        if (even_s > WhileItRuns::settled_s) {
             ratios.push_back(window.spindle_rad_s() / window.commanded_rad_s);
         }
         last = &window;
@@ -51,20 +53,19 @@ std::optional<double> ratio_to_commanded_speed(std::span<const MotionWindow> win
     return median_of(std::move(ratios));
 }
 
-Findings check_commanded_speed(std::span<const MotionWindow> windows, const firmware::MachineParameters<float>& machine,
+Findings check_commanded_speed(std::optional<double> ratio, const firmware::MachineParameters<float>& machine,
                                bool counts_are_proven) {
-    const std::optional<double> ratio = ratio_to_commanded_speed(windows);
-    if (!ratio || std::abs(*ratio - 1.0) <= largest_share) {
+    if (!ratio || std::abs(*ratio - 1.0) <= WhileItRuns::largest_share) {
         return {};
     }
     const std::string seen =
         fmt::format("spindle: by the encoder it turns at {:.4g} times the commanded speed", *ratio);
     if (const char* unit = unit_of_command(*ratio)) {
-        return {{Severity::error, fmt::format("{}; {}", seen, unit), "commanded_speed_rad_s"}};
+        return {{Severity::error, fmt::format("{}; {}", seen, unit), command_key}};
     }
     if (counts_are_proven) {
         return {{Severity::error, seen + ", and index pulses prove its counts; is there a gear, or an override?",
-                 "commanded_speed_rad_s"}};
+                 command_key}};
     }
     return {{Severity::error,
              fmt::format("{}: {:.0f} counts per revolution instead of {}?", seen,

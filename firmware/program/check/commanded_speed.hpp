@@ -14,9 +14,9 @@ namespace millforce::host {
 /// even speed, and was commanded one, for a second. Nothing where there is none.
 [[nodiscard]] std::optional<double> ratio_to_commanded_speed(std::span<const MotionWindow> windows);
 
-/// Wrong is what is a fifth off, as while the machine runs (firmware/commanded_speed.hpp).
+/// Wrong is what is a fifth off, as while the machine runs (firmware/commanded_speed.hpp). `ratio`: that above.
 /// `counts_are_proven`: index pulses prove the encoder's counts right, so it is the command that is wrong.
-[[nodiscard]] Findings check_commanded_speed(std::span<const MotionWindow> windows,
+[[nodiscard]] Findings check_commanded_speed(std::optional<double> ratio,
                                              const firmware::MachineParameters<float>& machine, bool counts_are_proven);
 
 }  // namespace millforce::host

@@ -34,7 +34,7 @@ std::vector<MotionWindow> turning(double ratio, double duration_s = 4.0) {
 std::string lines_for(const std::vector<MotionWindow>& windows, bool counts_are_proven = false) {
     firmware::MachineParameters<float> machine;
     machine.encoder_counts_per_rev = 1024;
-    return lines_of(check_commanded_speed(windows, machine, counts_are_proven));
+    return lines_of(check_commanded_speed(ratio_to_commanded_speed(windows), machine, counts_are_proven));
 }
 
 }  // namespace
