@@ -100,7 +100,6 @@ TEST(SignalSupervisorAxes, does_not_compare_the_axes_with_the_torque_in_a_cut_a_
     Supervisor in_a_rapid(machine_and_tool());
     CHECK(judged(in_a_rapid, e, 20, CutState::exit, rapid) == Fault::none);
     Supervisor in_a_cut(machine_and_tool());
-    judged(in_a_cut, e, 20, CutState::air);
     e.feed_N = known_N(1000.0F);
     CHECK(judged(in_a_cut, e, 20, CutState::in_cut) == Fault::none);
     Supervisor unsteady(machine_and_tool());
@@ -189,4 +188,39 @@ TEST(SignalSupervisorAxes, does_not_judge_the_feed_in_a_rapid_or_where_the_progr
     rapid.rapid = true;
     CHECK(judged(supervisor, e, 100, CutState::air, rapid) == Fault::none);
     CHECK(judged(supervisor, e, 100) == Fault::feed_mismatch);
+}
+
+TEST(SignalSupervisorAxes, finds_a_force_along_the_feed_that_leaps_in_a_light_cut_as_it_begins) {
+    Estimate e = revolution();
+    e.tangential_N = known_N(100.0F);
+    e.feed_N = known_N(-50.0F);
+    Estimate leapt = e;
+    leapt.feed_N = known_N(150.0F);
+    const auto fault_of = [&](CutState state, const millforce::firmware::Parameters<float>& parameters = machine_and_tool()) {
+        Supervisor supervisor(parameters);
+        judged(supervisor, e, 6, state);
+        CHECK(judged(supervisor, leapt, 2, state) == Fault::none);
+        return judged(supervisor, leapt, 4, state);
+    };
+    CHECK(fault_of(CutState::entry) == Fault::force_jumped);
+    CHECK(fault_of(CutState::in_cut) == Fault::force_jumped);
+    CHECK(fault_of(CutState::air) != Fault::force_jumped);
+    auto with_late_load = machine_and_tool();
+    with_late_load.machine.spindle_load_period_s = 0.1F;
+    CHECK(fault_of(CutState::in_cut, with_late_load) == Fault::none);
+}
+
+TEST(SignalSupervisorAxes, does_not_take_a_change_of_feed_for_a_leap) {
+    Estimate e = revolution();
+    e.tangential_N = known_N(100.0F);
+    e.feed_N = known_N(-50.0F);
+    Estimate brakes = e;
+    brakes.feed_N = known_N(-250.0F);
+    Estimate slower = e;
+    slower.tooth_change.feed_is_steady = slower.tooth_change.feed_is_alike = false;
+    Supervisor brakes_first(machine_and_tool());
+    judged(brakes_first, e, 6, CutState::in_cut);
+    judged(brakes_first, brakes, 2, CutState::in_cut);
+    judged(brakes_first, slower, 1, CutState::in_cut);
+    CHECK(judged(brakes_first, e, 20, CutState::in_cut) == Fault::none);
 }

@@ -7,6 +7,7 @@
 #include "control/cut_state.hpp"
 #include "estimation/cut_estimate.hpp"
 #include "firmware/commanded_speed.hpp"
+#include "firmware/feed_force_leap.hpp"
 #include "firmware/parameters.hpp"
 #include "firmware/stuck_signal.hpp"
 #include "hal/drive_sample.hpp"
@@ -23,7 +24,8 @@
 ///   signal_stuck       the current of a turning spindle, or in a cut of a moving axis, stands (stuck_signal.hpp);
 ///                      a load that comes seldom does not answer the feed (load_answer.hpp)
 ///   force_vanished     F_at falls within two teeth by more than a cut that ends can fall
-///   force_jumped       F_x or F_y changes within two teeth by more than that
+///   force_jumped       F_x or F_y changes within two teeth by more than that, or the force along the feed from one
+///                      revolution to the next but one while F_at stays (feed_force_leap.hpp)
 ///   forces_contradict  out of the cut the axes carry more than twice the F_at that the spindle's current leaves open:
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end.
@@ -104,6 +106,7 @@ class SignalSupervisor {
     void judge_revolution(const Estimate& e, const hal::ProgramStatus& program, control::CutState state,
                           bool feed_is_settled);
     [[nodiscard]] bool is_negative_in_the_mean(const estimation::Measurement<Scalar>& tangential_N, bool feeds);
+    void judge_leap(const Estimate& e, control::CutState state);
     void judge_axes(const Estimate& e, bool rapid, control::CutState state);
     void judge_feed(const Estimate& e, const hal::ProgramStatus& program);
     void judge_speed(const Estimate& e, const hal::ProgramStatus& program);
@@ -183,6 +186,7 @@ class SignalSupervisor {
     };
     Suspicion steady_suspicion_{};
     Suspicion alike_suspicion_{};
+    Suspicion leap_suspicion_{};
     int last_periods_ = 0;  // of the estimate before
     int periods_in_turn_ = 0;
     Scalar last_speed_rad_s_{0};
@@ -201,6 +205,7 @@ class SignalSupervisor {
     Scalar least_feed_force_N_{0};
     Scalar too_fast_s_{0};
     CommandedSpeed<Scalar> commanded_speed_{};
+    FeedForceLeap<Scalar> feed_force_leap_{};
 };
 
 }  // namespace millforce::firmware

@@ -46,7 +46,7 @@ template <typename Scalar>
 void SignalSupervisor<Scalar>::restart() {
     tangential_ = {};
     axis_jumps_ = {};
-    steady_suspicion_ = alike_suspicion_ = {};
+    steady_suspicion_ = alike_suspicion_ = leap_suspicion_ = {};
     steady_periods_ = alike_periods_ = 0;
     periods_in_turn_ = 0;
     last_speed_rad_s_ = Scalar(0);
@@ -55,6 +55,7 @@ void SignalSupervisor<Scalar>::restart() {
     feed_torque_ = {};
     too_fast_s_ = Scalar(0);
     commanded_speed_.restart();
+    feed_force_leap_.restart();
 }
 
 template <typename Scalar>
@@ -297,7 +298,22 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
             find(control::Fault::contact_in_rapid);
         }
     }
+    judge_leap(e, state);
     judge_axes(e, program.rapid, state);
+}
+
+/// A load that is late belongs to an earlier revolution.
+template <typename Scalar>
+void SignalSupervisor<Scalar>::judge_leap(const Estimate& e, control::CutState state) {
+    const bool is_steady = Scalar(steady_periods_) > teeth_;
+    if (!is_steady || load_period_s_ > Scalar(0)) {
+        feed_force_leap_.restart();
+    }
+    const Scalar larger = hidden_inertia_[0] > hidden_inertia_[1] ? hidden_inertia_[0] : hidden_inertia_[1];
+    const Scalar hidden_N = larger * e.feed_mm_s * e.spindle_speed_rad_s;
+    const bool leaps = feed_force_leap_.follow(e, teeth_, per_radius_, hidden_N) && control::is_cutting(state);
+    find(leap_suspicion_.follow(leaps ? control::Fault::force_jumped : control::Fault::none, steady_periods_, is_steady,
+                                teeth_));
 }
 
 /// The mean of many revolutions has less noise than each of them.

@@ -70,6 +70,39 @@ TEST(FeedDrive, learns_twenty_percent_more_friction_in_air_and_nearly_so_much_fo
     DOUBLES_EQUAL(0.0, axis.force_N(moving(10.0, 1.2 * friction - 5.39)).value, 3.0);
 }
 
+TEST(FeedDrive, learns_at_once_what_denies_its_friction_eight_times_on_end) {
+    const auto p = paper_axis();
+    const double friction_A = p.positive.at(0.6) + p.K_x3_A;
+    const auto with = [&](double scale) { return moving(10.0, p.gravity_A + scale * friction_A); };
+    FeedDrive<double> axis(p);
+    for (int k = 0; k < 2000; ++k) {
+        axis.rezero(with(1.0));
+    }
+    for (int k = 0; k < 7; ++k) {
+        axis.rezero(with(1.1));
+    }
+    CHECK(axis.friction_scale(true) < 1.01);  // a cut that begins is no friction
+    axis.rezero(with(1.1));
+    DOUBLES_EQUAL(1.1, axis.friction_scale(true), 0.001);
+}
+
+TEST(FeedDrive, learns_slowly_what_denies_its_friction_now_and_then_or_to_both_sides) {
+    const auto p = paper_axis();
+    const double friction_A = p.positive.at(0.6) + p.K_x3_A;
+    const auto with = [&](double scale) { return moving(10.0, p.gravity_A + scale * friction_A); };
+    for (const double every_other : {1.0, 0.9}) {
+        FeedDrive<double> axis(p);
+        for (int k = 0; k < 2000; ++k) {
+            axis.rezero(with(1.0));
+        }
+        for (int k = 0; k < 20; ++k) {
+            axis.rezero(with(1.1));
+            axis.rezero(with(every_other));
+        }
+        CHECK(axis.friction_scale(true) < 1.02);
+    }
+}
+
 TEST(FeedDrive, does_not_learn_a_reversed_current_or_the_friction_of_another_machine) {
     const auto p = paper_axis();
     const double friction_A = p.positive.at(0.6) + p.K_x3_A;

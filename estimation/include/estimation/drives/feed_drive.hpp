@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace millforce::estimation {
 
@@ -60,8 +61,12 @@ class FrictionScale {
 
     void correct(std::size_t direction, Measurement<Scalar> seen) {
         const std::size_t other = 1U - direction;
+        if (!seen.valid) {
+            return;
+        }
+        doubt_what_is_denied(direction, seen);
         const Scalar total = own_[direction] + seen.variance;
-        if (!seen.valid || !(total > Scalar(0))) {
+        if (!(total > Scalar(0))) {
             return;
         }
         const Scalar gain = own_[direction] / total;
@@ -78,11 +83,29 @@ class FrictionScale {
     [[nodiscard]] Scalar variance(std::size_t direction) const { return own_[direction]; }
 
   private:
+    /// The friction has moved by more than it walks, as at another feed: the doubt becomes what is seen, so that it is
+    /// learnt at once. Several times on end: a cut that begins looks like it for a moment.
+    void doubt_what_is_denied(std::size_t direction, const Measurement<Scalar>& seen) {
+        constexpr Scalar deviations{3};
+        constexpr std::int8_t on_end = 8;
+        const Scalar surprise = seen.value - value_[direction];
+        const Scalar total = own_[direction] + seen.variance;
+        const bool is_denied = square(surprise) > square(deviations) * total;
+        const bool is_above = surprise > Scalar(0);
+        const bool goes_on = is_denied && is_above == (denials_ > 0);
+        denials_ = static_cast<std::int8_t>(!is_denied ? 0 : (goes_on ? denials_ : 0) + (is_above ? 1 : -1));
+        if (denials_ == on_end || denials_ == -on_end) {
+            own_[direction] += square(surprise) - total;
+            denials_ = 0;
+        }
+    }
+
     std::array<Scalar, 2> value_{Scalar(1), Scalar(1)};
     std::array<Scalar, 2> own_{};
     Scalar shared_{0};
     Scalar limit_{0};
     Scalar walk_per_s_{0};
+    std::int8_t denials_ = 0;  // on end; negative: below what is believed
 };
 
 template <typename Scalar>
