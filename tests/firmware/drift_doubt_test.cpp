@@ -4,6 +4,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include <cmath>
+#include <initializer_list>
 
 #include "estimation/cut_estimate.hpp"
 #include "firmware/default_parameters.hpp"
@@ -11,15 +12,16 @@
 using DriftDoubt = millforce::firmware::DriftDoubt<float>;
 using millforce::estimation::CutEstimate;
 using millforce::firmware::DoubtStage;
+using Parameters = millforce::firmware::Parameters<float>;
 
 namespace {
 
-constexpr float programmed_mm_s = 10.0F;
+constexpr float usual_feed_mm_s = 10.0F;
 constexpr float tooth_period_s = 0.01F;
 constexpr DoubtStage in_cut{true, true, false, false};
 
-millforce::firmware::Parameters<float> parameters() {
-    millforce::firmware::Parameters<float> p = millforce::firmware::default_parameters<float>();
+Parameters parameters() {
+    Parameters p = millforce::firmware::default_parameters<float>();
     p.machine.spindle_rated_current_A = 12.0F;
     p.machine.axis_rated_current_A = {12.0F, 12.0F, 12.0F};
     p.machine.axes[0].K_x4_N_per_A = p.machine.axes[1].K_x4_N_per_A = 100.0F;
@@ -30,6 +32,10 @@ millforce::firmware::Parameters<float> parameters() {
 /// A cut whose feed follows the bound. Its width makes the force on a tooth smaller by `widening`.
 class Milling {
   public:
+    explicit Milling(const Parameters& with = parameters()) : doubt_(with) {}
+
+    float programmed_mm_s = usual_feed_mm_s;
+    float period_s = tooth_period_s;
     float tangential_N = 300.0F;
     float feed_N = 150.0F;
     float feed_drift_N = 0.0F;
@@ -46,7 +52,7 @@ class Milling {
             lowest_mm_s_ = std::fmin(lowest_mm_s_, feed_mm_s_);
             dips_ += feed_mm_s_ < last_feed_mm_s ? 1 : 0;
             const CutEstimate<float> e = estimate();
-            tooth_N = doubt_.follow(e, e.tooth_force_N.value, tooth_period_s, stage).tooth_N / e.tangential_N.value;
+            tooth_N = doubt_.follow(e, e.tooth_force_N.value, period_s, stage).tooth_N / e.tangential_N.value;
         }
         return tooth_N;
     }
@@ -57,7 +63,7 @@ class Milling {
 
   private:
     [[nodiscard]] CutEstimate<float> estimate() const {
-        const float share = std::sqrt(feed_mm_s_ / programmed_mm_s);
+        const float share = std::sqrt(feed_mm_s_ / usual_feed_mm_s);
         CutEstimate<float> e;
         e.feed_mm_s = feed_mm_s_;
         e.feed_per_tooth_mm = feed_mm_s_ * tooth_period_s;
@@ -74,9 +80,9 @@ class Milling {
         return e;
     }
 
-    DriftDoubt doubt_{parameters()};
-    float feed_mm_s_ = programmed_mm_s;
-    float lowest_mm_s_ = programmed_mm_s;
+    DriftDoubt doubt_;
+    float feed_mm_s_ = usual_feed_mm_s;
+    float lowest_mm_s_ = usual_feed_mm_s;
     int dips_ = 0;
 };
 
@@ -94,8 +100,26 @@ void jump(Milling& milling, int estimates) {
     milling.mill(estimates);
 }
 
+void check_bound(float bound_mm_s, Milling& milling) {
+    DOUBLES_EQUAL(static_cast<double>(bound_mm_s), static_cast<double>(milling.doubt().bound_mm_s()), 1e-4);
+}
 void check_free(Milling& milling) {
     DOUBLES_EQUAL(0.0, static_cast<double>(milling.doubt().bound_mm_s()), 0.0);
+}
+/// A wall converges, until the feed dips.
+void mill_into_dip(Milling& milling) {
+    milling.widening = 1.4F;
+    milling.mill(20);
+    check_bound(7.0F, milling);
+}
+/// Of a cut that seems to widen, while the force along the feed doubles within a second.
+bool asks_about_a_sudden_force(const Parameters& p) {
+    Milling milling(p);
+    milling.mill(40);
+    milling.widening = 1.4F;
+    milling.feed_N = 300.0F;
+    milling.mill(60);
+    return milling.dips() > 0;
 }
 
 }  // namespace
@@ -185,5 +209,96 @@ TEST(DriftDoubt, holds_it_no_lower_than_at_an_entry_and_not_once_air_has_found_t
     jump(milling, 1);
     CHECK_COMPARE(milling.doubt().bound_mm_s(), >=, 0.02F / tooth_period_s);
     milling.doubt().clear();
+    check_free(milling);
+}
+
+TEST(DriftDoubt, asks_nothing_about_a_force_that_no_current_can_have_drifted_by) {
+    CHECK_FALSE(asks_about_a_sudden_force(parameters()));
+    for (const std::size_t k : {0U, 1U}) {
+        Parameters p = parameters();
+        p.machine.axes[k].K_x4_N_per_A = 1000.0F;
+        CHECK_TRUE(asks_about_a_sudden_force(p));
+    }
+}
+
+TEST(DriftDoubt, asks_about_any_force_where_the_rated_current_of_a_drive_is_not_stated) {
+    Parameters without_spindle = parameters();
+    without_spindle.machine.spindle_rated_current_A = 0.0F;
+    CHECK_TRUE(asks_about_a_sudden_force(without_spindle));
+    for (const std::size_t k : {0U, 1U}) {
+        Parameters p = parameters();
+        p.machine.axis_rated_current_A[k] = 0.0F;
+        CHECK_TRUE(asks_about_a_sudden_force(p));
+    }
+}
+
+TEST(DriftDoubt, believes_the_wall_while_it_asks) {
+    mill_into_dip(milling);
+    DOUBLES_EQUAL(2.0 / 1.4, static_cast<double>(milling.mill(1)), 1e-3);
+    check_bound(7.0F, milling);
+}
+
+TEST(DriftDoubt, asks_at_once_about_the_next_wall_after_one_that_it_has_believed) {
+    milling.widening = 1.4F;
+    milling.mill(60);
+    check_free(milling);
+    milling.widening = 2.0F;
+    milling.mill(60);
+    LONGS_EQUAL(2, milling.dips());
+}
+
+TEST(DriftDoubt, asks_no_more_once_air_a_map_or_force_drops_have_answered) {
+    mill_into_dip(milling);
+    milling.doubt().clear();
+    check_free(milling);
+    for (const DoubtStage& known : {DoubtStage{true, true, true, false}, DoubtStage{true, true, false, true}}) {
+        Milling other;
+        other.mill(40);
+        mill_into_dip(other);
+        other.stage = known;
+        other.mill(1);
+        check_free(other);
+    }
+}
+
+TEST(DriftDoubt, asks_no_more_about_a_cut_that_another_has_followed) {
+    mill_into_dip(milling);
+    milling.tangential_N = 450.0F;
+    milling.feed_N = 225.0F;
+    milling.mill(1);
+    check_free(milling);
+}
+
+TEST(DriftDoubt, holds_the_feed_of_the_first_jump_or_that_of_an_entry_if_it_is_higher) {
+    mill_into_doubt(milling);
+    jump(milling, 1);
+    check_bound(usual_feed_mm_s, milling);
+
+    Parameters p = parameters();
+    p.tool.control.entry_feed_per_tooth_mm = 0.15F;
+    Milling of_fast_entry(p);
+    of_fast_entry.mill(40);
+    mill_into_doubt(of_fast_entry);
+    jump(of_fast_entry, 1);
+    check_bound(15.0F, of_fast_entry);
+}
+
+TEST(DriftDoubt, holds_it_no_lower_where_a_slower_cut_jumps_in_doubt_once_more) {
+    mill_into_doubt(milling);
+    jump(milling, 100);
+    milling.widening = 2.0F;
+    milling.deepening = 0.4F;
+    milling.mill(40);
+    milling.programmed_mm_s = 5.0F;
+    milling.tangential_N = 700.0F;
+    milling.feed_N = 400.0F;
+    milling.mill(1);
+    check_bound(usual_feed_mm_s, milling);
+}
+
+TEST(DriftDoubt, holds_no_feed_where_the_time_of_a_tooth_is_not_known) {
+    mill_into_doubt(milling);
+    milling.period_s = 0.0F;
+    jump(milling, 1);
     check_free(milling);
 }

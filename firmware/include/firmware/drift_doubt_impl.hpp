@@ -92,8 +92,7 @@ Scalar DriftDoubt<Scalar>::by_two_forces(const Estimate& e, Scalar tooth_force_N
     }
     const Scalar by_steady_cut_N = steady_cut_.largest_force_N(e, tooth_force_N);
     const Scalar largest_N = lone_fall_.largest_force_N(e, by_steady_cut_N, per_root, stage.in_cut);
-    const bool begins = stage.in_cut && steady_cut_.begins();
-    if (was_doubtful && begins && !(held_mm_s_ > Scalar(0)) && period_s > Scalar(0)) {
+    if (was_doubtful && steady_cut_.begins() && !(held_mm_s_ > Scalar(0)) && period_s > Scalar(0)) {
         const Scalar entry_mm_s = entry_feed_per_tooth_mm_ / period_s;
         held_mm_s_ = e.feed_mm_s > entry_mm_s ? e.feed_mm_s : entry_mm_s;
         pause_ = 0;  // another cut, another question
