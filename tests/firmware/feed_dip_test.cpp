@@ -3,7 +3,9 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "estimation/cut_estimate.hpp"
 
@@ -23,10 +25,16 @@ struct Cut {
     float feed_drift_N = 0.0F;
     float growth_per_estimate = 0.0F;
     float axes_noise_N = 0.0F;
-    int late = 2;  // estimates until the axes have followed a bound
+    float y_noise_N = 0.0F;
+    int late = 2;                          // estimates until the axes follow a bound
+    float most_per_estimate = asked_mm_s;  // that the feed changes by
+    bool rises_again = true;
+    bool is_disturbed = false;  // in each sixth estimate of the feed
 
     Answer answer(FeedDip& dip, int most = 200);
     int estimates = 0;
+    int dipped = 0;  // of these, while the feed was down
+    int risen = 0;   // and up again
     float feed_mm_s = asked_mm_s;
     float lowest_feed_mm_s = asked_mm_s;
 
@@ -35,10 +43,11 @@ struct Cut {
         const float share =
             std::pow(feed_mm_s / asked_mm_s, 0.8F) * (1.0F + growth_per_estimate * static_cast<float>(estimates));
         CutEstimate<float> e;
-        e.feed_mm_s = feed_mm_s;
+        e.feed_mm_s = is_disturbed && estimates % 6 == 0 ? 1.1F * feed_mm_s : feed_mm_s;
         e.tangential_N = {true, tangential_N * share + tangential_drift_N, 1.0F, 1.0F};
         e.feed_N = {true, feed_N * share + feed_drift_N, 1.0F, 0.0F};
         e.x_N = {true, e.feed_N.value, 1.0F, axes_noise_N * axes_noise_N};
+        e.y_N = {true, 0.0F, 1.0F, y_noise_N * y_noise_N};
         return e;
     }
 };
@@ -53,9 +62,13 @@ Answer Cut::answer(FeedDip& dip, int most) {
             since = 0;
         }
         if (++since > late) {
-            feed_mm_s = bound_mm_s;
+            const float followed_mm_s = rises_again ? bound_mm_s : std::fmin(bound_mm_s, feed_mm_s);
+            feed_mm_s += std::clamp(followed_mm_s - feed_mm_s, -most_per_estimate, most_per_estimate);
         }
         lowest_feed_mm_s = std::fmin(lowest_feed_mm_s, feed_mm_s);
+        const bool has_followed = std::fabs(feed_mm_s - bound_mm_s) < 0.01F;
+        dipped += has_followed && bound_mm_s < asked_mm_s ? 1 : 0;
+        risen += has_followed && !(bound_mm_s < asked_mm_s) && dipped > 0 ? 1 : 0;
         const Answer answer = dip.follow(estimate());
         if (answer != Answer::none || !dip.is_asking()) {
             return answer;
@@ -115,9 +128,44 @@ TEST(FeedDip, waits_for_a_cnc_that_is_late) {
     CHECK(answer_of({.feed_drift_N = -90.0F, .late = 6}) == Answer::unlike);
 }
 
+TEST(FeedDip, dips_after_8_estimates_of_a_steady_feed) {
+    FeedDip dip;
+    dip.ask(asked_mm_s);
+    Cut cut;
+    CHECK(cut.answer(dip, 7) == Answer::none);
+    DOUBLES_EQUAL(10.0, static_cast<double>(dip.bound_mm_s()), 1e-4);
+    CHECK(cut.answer(dip, 1) == Answer::none);
+    DOUBLES_EQUAL(7.0, static_cast<double>(dip.bound_mm_s()), 1e-4);
+}
+
+TEST(FeedDip, measures_as_soon_as_the_feed_has_followed_and_is_steady) {
+    for (Cut cut : {Cut{.late = 0}, Cut{.late = 6}, Cut{.most_per_estimate = 0.5F}}) {
+        FeedDip dip;
+        dip.ask(asked_mm_s);
+        CHECK(cut.answer(dip) == Answer::alike);
+        for (const int steady : {cut.dipped, cut.risen}) {
+            CHECK_COMPARE(steady, >=, 8);
+            CHECK_COMPARE(steady, <=, 12);
+        }
+    }
+}
+
+TEST(FeedDip, ends_also_where_the_feed_does_not_rise_again) {
+    CHECK(answer_of({.rises_again = false}) == Answer::alike);
+}
+
+TEST(FeedDip, is_not_held_up_by_a_feed_that_is_disturbed_while_it_measures) {
+    FeedDip dip;
+    dip.ask(asked_mm_s);
+    Cut cut{.is_disturbed = true};
+    CHECK(cut.answer(dip) == Answer::alike);
+    CHECK_COMPARE(cut.estimates, <, 50);
+}
+
 TEST(FeedDip, finds_nothing_alike_in_noise_as_large_as_the_answer) {
-    CHECK(answer_of({.axes_noise_N = 10.0F}) == Answer::alike);
+    CHECK(answer_of({.axes_noise_N = 10.0F, .y_noise_N = 10.0F}) == Answer::alike);
     CHECK(answer_of({.axes_noise_N = 40.0F}) == Answer::unlike);
+    CHECK(answer_of({.y_noise_N = 40.0F}) == Answer::unlike);
 }
 
 TEST(FeedDip, finds_nothing_alike_where_the_feed_does_not_follow) {
@@ -126,6 +174,7 @@ TEST(FeedDip, finds_nothing_alike_where_the_feed_does_not_follow) {
     Cut cut{.late = 1000};
     CHECK(cut.answer(dip) == Answer::unlike);
     CHECK_COMPARE(cut.estimates, ==, 121);
+    CHECK_FALSE(dip.is_asking());
 }
 
 TEST(FeedDip, dips_again_where_the_force_has_not_changed) {
