@@ -135,6 +135,43 @@ TEST(SteadyCut, doubts_the_width_where_the_answer_is_a_drift_and_begins_anew_whe
     CHECK_FALSE(sound.is_doubtful());
 }
 
+TEST(SteadyCut, asks_nothing_of_a_cut_that_is_in_doubt_already_has_kept_its_width_or_has_no_known_force) {
+    CutEstimate<float> in_doubt = cut_with_drift(300.0F, 90.0F);
+    in_doubt.tooth_force_N.value = 400.0F;
+    CutEstimate<float> as_wide = wider(1.0F);
+    as_wide.tooth_force_N.value = 400.0F;
+    CutEstimate<float> unknown = wider(1.5F);
+    unknown.tooth_force_N.valid = false;
+    for (const CutEstimate<float>& e : {in_doubt, as_wide, unknown}) {
+        SteadyCut cut = in_steady_cut();
+        follow(cut, e, 4 * settled);
+        CHECK_FALSE(cut.has_question());
+    }
+}
+
+TEST(SteadyCut, doubts_no_width_that_is_as_it_was_though_the_answer_is_a_drift) {
+    SteadyCut unmoved = in_steady_cut();
+    unmoved.take_answer(false);
+    CHECK_FALSE(unmoved.is_doubtful());
+
+    SteadyCut back = in_steady_cut();
+    follow(back, wider(1.3F), 4 * settled);
+    back.take_answer(false);
+    follow(back, wider(1.3F), 1);
+    CHECK_TRUE(back.is_doubtful());
+    follow(back, wider(1.0F), 4 * settled);
+    CHECK_FALSE(back.is_doubtful());
+}
+
+TEST(SteadyCut, keeps_its_doubt_of_a_cut_where_a_force_changes_faster_than_a_current_can_drift) {
+    SteadyCut cut = in_steady_cut();
+    follow(cut, cut_with_drift(240.0F, 150.0F), 2 * settled);
+    const CutEstimate<float> fast = cut_with_drift(240.0F, 350.0F);
+    follow(cut, fast, 4 * settled);
+    CHECK_TRUE(cut.is_doubtful());
+    DOUBLES_EQUAL(4.0 * 350.0, largest_N(cut, fast), 1e-2);
+}
+
 TEST(SteadyCut, asks_nothing_about_a_force_that_changes_faster_than_a_current_can_drift) {
     const CutEstimate<float> slowly = wider(1.3F, 140.0F);
     const CutEstimate<float> fast = wider(1.3F, 300.0F);
