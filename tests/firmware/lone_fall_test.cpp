@@ -285,3 +285,10 @@ TEST(LoneFall, forgets_a_cut_without_a_fall_at_its_end) {
     follow(fall, cut_of(0.8F, 1.0F));
     DOUBLES_EQUAL(480.0, possible_N(fall, cut_of(0.8F, 1.0F)), 1e-3);
 }
+
+TEST(LoneFall, hears_axes_that_still_cut_by_a_force_that_is_known_alone) {
+    CutEstimate<float> e = cut_of(0.0F, 1.0F);
+    CHECK_TRUE(fall.axes_still_cut(e, per_root_feed(e)));
+    e.feed_N.valid = false;
+    CHECK_FALSE(fall.axes_still_cut(e, per_root_feed(e)));
+}
