@@ -3,6 +3,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include <initializer_list>
+
 using namespace millforce::control;
 using namespace millforce::control::bench;
 
@@ -258,15 +260,19 @@ TEST(CeilingsAhead, an_estimate_that_the_law_says_nothing_of_moves_no_ceiling_of
 TEST(CeilingsAhead, a_feed_that_was_not_known_for_a_step_lifts_no_ceiling_of_a_surge) {
     Parameters p = immediate();
     p.surge_radial_immersion = 1.0F;
-    Controller controller(p);
     Input input = in_contact();
     input.cut.surge_ratio = 3.0F;
-    bring_into_cut(controller, input);
-    const Output before = repeat(controller, input, 20);
-    CHECK(before.limit == Limit::surge);
-    input.programmed_feed_mm_s = 0.0F;
-    controller.step(input);
-    input.programmed_feed_mm_s = in_contact().programmed_feed_mm_s;
-    input.cut.fresh = false;
-    check_ratio(before.ratio, controller.step(input));
+    for (const bool in_rapid : {false, true}) {
+        Controller controller(p);
+        bring_into_cut(controller, input);
+        const Output before = repeat(controller, input, 20);
+        CHECK(before.limit == Limit::surge);
+        Input unknown = input;
+        unknown.programmed_feed_mm_s = 0.0F;
+        unknown.rapid = in_rapid;
+        controller.step(unknown);
+        Input old = input;
+        old.cut.fresh = false;
+        check_ratio(before.ratio, controller.step(old));
+    }
 }
