@@ -53,6 +53,19 @@ TEST(SignalSupervisorAxes, does_not_take_what_drift_explains_or_is_below_the_con
     CHECK(judged(another, small, 100) == Fault::none);
 }
 
+TEST(SignalSupervisorAxes, allows_a_torque_below_zero_what_may_have_been_learnt_in_a_light_cut) {
+    for (const float value_N : {-30.0F, -200.0F}) {
+        Estimate e = revolution();
+        e.tangential_N.value = value_N;
+        e.uncertain_idle_N = -value_N - 10.0F;
+        Supervisor after_a_light_cut(machine_and_tool());
+        CHECK(judged(after_a_light_cut, e, 100) == Fault::none);
+        e.uncertain_idle_N = 0.0F;
+        Supervisor after_air(machine_and_tool());
+        CHECK(judged(after_air, e, 100) == Fault::negative_torque);
+    }
+}
+
 TEST(SignalSupervisorAxes, does_not_judge_a_torque_that_is_not_known_or_of_a_spindle_that_changes_its_speed) {
     Supervisor supervisor(machine_and_tool());
     Estimate unknown = revolution();

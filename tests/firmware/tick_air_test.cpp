@@ -44,6 +44,34 @@ TEST(TickInAir, takes_torque_beyond_the_doubt_of_the_idle_torque_for_a_cut_where
     CHECK(milling.tick().control().fault == control::Fault::idle_torque);
 }
 
+/// Of 28 N, where contact is 60 N, like an idle torque that has drifted.
+TEST(TickInAir, finds_no_fault_where_a_cut_too_light_for_contact_was_learnt_as_idle_torque) {
+    constexpr Load light_cut{28.0F / 250.0F, 28.0F / 250.0F};
+    Parameters p = well_known_machine();
+    p.tool.control.contact_force_N = 60.0F;
+    milling = Milling{Tick(p)};
+    milling.rest(300).mill(light_cut, 5000);
+    CHECK(milling.state() == CutState::air);
+    DOUBLES_EQUAL(28.0, static_cast<double>(milling.tick().estimate().uncertain_idle_N), 3.0);
+    milling.mill(Load{-4.0F / 250.0F, 0.0F}, 60);
+    CHECK_COMPARE(force_N(), <, -10.0);
+    milling.mill(air, 1500);
+    CHECK(milling.tick().control().fault == control::Fault::none);
+    DOUBLES_EQUAL(0.0, force_N(), 2.0);
+}
+
+TEST(TickInAir, goes_on_learning_an_idle_torque_that_drifts_while_the_axes_feed) {
+    Parameters p = well_known_machine();
+    p.tool.control.contact_force_N = 60.0F;
+    milling = Milling{Tick(p)};
+    milling.rest(300);
+    for (int k = 0; k < 20; ++k) {
+        milling.mill({static_cast<float>(k) / 250.0F, 0.0F}, 1000);  // 1 N a second
+    }
+    CHECK(milling.state() == CutState::air);
+    DOUBLES_EQUAL(0.0, force_N(), 3.0);
+}
+
 TEST(TickInAir, learns_no_friction_where_no_spindle_current_says_that_it_is_air) {
     constexpr Load axis_alone{0.0F, 1.0F};
     const Milling begun = milling.rest(300);

@@ -74,6 +74,7 @@ struct CutEstimate {
     /// load is held.
     Measurement<Scalar> steady_tangential_N{};
     Scalar tangential_gain_doubt{0};  ///< relative deviation of F_at, beyond its variance (SpindleDrive::gain_doubt)
+    Scalar uncertain_idle_N{0};       ///< of the idle torque: learnt where it may have been a light cut; ≥ 0
     Measurement<Scalar> x_N{};        ///< mean force on the workpiece along the machine's axes, over the window
     Measurement<Scalar> y_N{};
     Measurement<Scalar> z_N{};

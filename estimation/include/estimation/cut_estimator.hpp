@@ -69,8 +69,9 @@ class CutEstimator {
 
     /// The tool has been in air up to now: re-zero the spindle's idle torque and the moving axes' friction, and learn
     /// how noisy their currents are. Uses the window from one revolution earlier, so that first contact is not taken
-    /// for drift. Call once per new estimate while in air; leave_air() when that ends. Returns whether it was done.
-    bool rezero();
+    /// for drift. `may_cut`: nothing but the forces says that this is air. Call once per new estimate while in air;
+    /// leave_air() when that ends. Returns whether it was done.
+    bool rezero(bool may_cut);
     /// The last re-zeroing found more torque than the idle torque can be, and this may be a cut: one so light that its
     /// noise hides it. Then the idle torque stays as it was. Returns whether it was so.
     bool find_hidden_cut() { return drives_.spindle.find_hidden_cut(); }
@@ -125,7 +126,7 @@ class CutEstimator {
     void estimate_tooth_change();
     void begin_engagement(Scalar passed_s);
     void publish();
-    void rezero_drives();
+    void rezero_drives(bool may_cut);
     void learn_noise();
     void follow_turning_force(Scalar dt_s, const EncoderReading<Scalar>& reading, const DriveSignals<Scalar>& signals);
     [[nodiscard]] TurningForce<Scalar> turning_force(const typename RevolutionHarmonic<Scalar>::Mean& seen,

@@ -231,6 +231,7 @@ void CutEstimator<Scalar>::estimate_forces() {
     if (per_Nm_ > Scalar(0)) {
         e.tangential_N = drives_.spindle.force_N(spindle_average(window_), per_Nm_);
         e.tooth_tangential_N = drives_.spindle.force_N(spindle_average_of_tooth(window_), per_Nm_);
+        e.uncertain_idle_N = drives_.spindle.uncertain_drift_Nm() * per_Nm_;
     }
     e.tangential_gain_doubt = drives_.spindle.gain_doubt();
     e.x_N = drives_.axes[0].force_N(axis_average(window_, 0));
@@ -333,7 +334,7 @@ void CutEstimator<Scalar>::learn_in_cut() {
 // Learning in air
 
 template <typename Scalar>
-bool CutEstimator<Scalar>::rezero() {
+bool CutEstimator<Scalar>::rezero(bool may_cut) {
     if (window_.revolutions == 0) {
         return false;
     }
@@ -345,7 +346,7 @@ bool CutEstimator<Scalar>::rezero() {
     air_periods_ = 0;
     const bool has_window = air_window_.revolutions > 0;
     if (has_window) {
-        rezero_drives();
+        rezero_drives(may_cut);
     }
     learn_noise();
     air_window_ = window_;
@@ -362,8 +363,8 @@ void CutEstimator<Scalar>::learn_air_of_runout() {
 
 /// A spindle that shows no idle torque does not say that this is air: the axes may carry a cut.
 template <typename Scalar>
-void CutEstimator<Scalar>::rezero_drives() {
-    drives_.spindle.rezero(spindle_average(air_window_));
+void CutEstimator<Scalar>::rezero_drives(bool may_cut) {
+    drives_.spindle.rezero(spindle_average(air_window_), may_cut);
     for (std::size_t k = 0; k < drives_.axes.size() && !drives_.spindle.is_implausible(); ++k) {
         drives_.axes[k].rezero(axis_average(air_window_, k));
     }

@@ -30,8 +30,8 @@
 ///                      3 revolutions
 ///   idle_torque        re-zeroing in air found the idle torque beyond its stated deviation, for 10 revolutions on end.
 ///                      In a feed move only where it is too small: too large, it may be a light cut
-///   negative_torque    F_at below zero by twice the contact level in a feed move: 3 revolutions, or in the mean of
-///                      16, whose noise is smaller
+///   negative_torque    F_at below zero by twice the contact level in a feed move, by the idle torque of the last rapid
+///                      or rest: 3 revolutions, or in the mean of 16, whose noise is smaller
 ///   contact_in_rapid   F_at above twice the contact level in a rapid move: 3 revolutions, once a late load is of that
 ///                      move
 ///   feed_mismatch      the axes move at more than 1.5 times the programmed feed with the largest override, for longer

@@ -290,8 +290,11 @@ void SignalSupervisor<Scalar>::judge_revolution(const Estimate& e, const hal::Pr
                                                                     sqrt(e.tangential_N.variance));
         // After a move the spindle may be switched off: its drive brakes, or its current falls before its speed does.
         const bool feeds = e.feed_mm_s > Scalar(moving_mm_s) && !program.rapid;
-        if (is_so_in_a_row(negative_turns_, feeds && -e.tangential_N.value > level_N, surely_turns) ||
-            is_negative_in_the_mean(e.tangential_N, feeds)) {
+        // Below zero by what a light cut has taught of the idle torque: air, and no wrong signal.
+        estimation::Measurement<Scalar> by_certain_idle_N = e.tangential_N;
+        by_certain_idle_N.value += e.uncertain_idle_N;
+        if (is_so_in_a_row(negative_turns_, feeds && -by_certain_idle_N.value > level_N, surely_turns) ||
+            is_negative_in_the_mean(by_certain_idle_N, feeds)) {
             find(control::Fault::negative_torque);
         }
         if (is_so_in_a_row(rapid_turns_, program.rapid && e.tangential_N.value > level_N, surely_turns)) {

@@ -319,14 +319,15 @@ void ForceControlTick<Scalar, WideBand>::work_on_wide_band() {
     }
 }
 
-/// Within half the contact level of nothing, above it or below: a choice of one side would be learnt as drift.
+/// Within half the contact level of nothing, above it or below: a choice of one side would be learnt as drift. Further
+/// below where a light cut has been.
 template <typename Scalar, typename WideBand>
 bool ForceControlTick<Scalar, WideBand>::is_idle(const estimation::CutEstimate<Scalar>& e) const {
     using std::sqrt;
     const Scalar level_N = control::contact_level_N(controller_.parameters(), sqrt(e.steady_tangential_N.variance));
     const Scalar half_N = estimation::halved(level_N);
     const Scalar force_N = e.steady_tangential_N.value;
-    return e.tangential_N.valid && force_N < half_N && force_N > -half_N;
+    return e.tangential_N.valid && force_N < half_N && force_N + e.uncertain_idle_N > -half_N;
 }
 
 template <typename Scalar, typename WideBand>
@@ -342,8 +343,8 @@ void ForceControlTick<Scalar, WideBand>::rezero_in_air() {
     // The first windows after a change hold a mixture of air and cut.
     const int enough = 2 * static_cast<int>(controller_.parameters().teeth) + 1;
     if (air_periods_ >= enough) {
-        was_rezeroed_ = estimator_.rezero() || was_rezeroed_;
         const bool may_cut = !program_.rapid && !axes_rest;
+        was_rezeroed_ = estimator_.rezero(may_cut) || was_rezeroed_;
         if (may_cut && estimator_.find_hidden_cut()) {
             was_rezeroed_ = false;  // nothing is learnt in a feed move until a rapid or a rest has shown what is air
         }

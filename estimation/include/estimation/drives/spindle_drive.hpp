@@ -52,7 +52,8 @@ class SpindleDrive {
     explicit SpindleDrive(const SpindleDriveParameters<Scalar>& parameters = {})
         : parameters_(parameters),
           drift_Nm_({parameters.idle_torque_sd_Nm, square(parameters.idle_walk_Nm_per_sqrt_s),
-                     parameters.warm_up_torque_Nm, parameters.warm_up_torque_sd_Nm, parameters.warm_up_time_s}) {}
+                     parameters.warm_up_torque_Nm, parameters.warm_up_torque_sd_Nm, parameters.warm_up_time_s}),
+          certain_drift_Nm_(drift_Nm_.value()) {}
 
     struct Average {
         Scalar current_A{0};
@@ -118,7 +119,8 @@ class SpindleDrive {
     /// The tool is known to be in air: what is left of the torque is drift. A spindle that runs up teaches little:
     /// a share of its inertia's torque is uncertain. A torque that the idle torque's stated deviation cannot explain
     /// teaches nothing: the signal is implausible, and there is no force until one in air is plausible again.
-    void rezero(const Average& average) {
+    /// `may_cut`: nothing but the force says that this is air, so it may be a light cut.
+    void rezero(const Average& average, bool may_cut = false) {
         if (!is_usable(average)) {
             return;
         }
@@ -131,6 +133,7 @@ class SpindleDrive {
         is_above_idle_ = seen.value > drift_Nm_.excess();
         if (!is_implausible_) {
             drift_Nm_.correct(seen);
+            certain_drift_Nm_ = may_cut ? certain_drift_Nm_ : drift_Nm_.value();
             doubt_gain(average.speed_rad_s);
         }
     }
@@ -151,6 +154,11 @@ class SpindleDrive {
     [[nodiscard]] Scalar gain_doubt() const { return noise_.is_as_stated() ? Scalar(0) : gain_doubt_; }
 
     [[nodiscard]] Scalar drift_Nm() const { return drift_Nm_.value(); }
+    /// By how much the drift has grown where it may have been a light cut, ≥ 0: the torque may be so much too small.
+    [[nodiscard]] Scalar uncertain_drift_Nm() const {
+        const Scalar grown_Nm = drift_Nm_.value() - certain_drift_Nm_;
+        return grown_Nm > Scalar(0) ? grown_Nm : Scalar(0);
+    }
 
     [[nodiscard]] Scalar torque_constant_Nm_per_A(Scalar speed_rad_s) const {
         const bool weakened = parameters_.base_speed_rad_s > Scalar(0) && speed_rad_s > parameters_.base_speed_rad_s;
@@ -209,6 +217,7 @@ class SpindleDrive {
     NoiseRatio<Scalar> noise_;
     Scalar zeroed_speed_rad_s_{0};
     Scalar gain_doubt_{0};
+    Scalar certain_drift_Nm_{0};
     bool is_implausible_ = false;
     bool is_above_idle_ = false;
 };
