@@ -6,6 +6,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include "firmware/tick_bench.hpp"
+#include "supervisor_bench.hpp"
 
 namespace hal = millforce::hal;
 using namespace millforce::test;
@@ -45,6 +46,19 @@ Fault fault_of(float commanded_rad_s, bool is_rapid) {
         (void)step_and_work(tick, sample, status);
     }
     return tick.control().fault;
+}
+
+hal::ProgramStatus program_with_half_the_speed() {
+    hal::ProgramStatus status = program();
+    status.commanded_speed_rad_s = 0.5F * turns_at_rad_s;
+    return status;
+}
+
+/// Of a supervisor, after so many revolutions of 15 ms in air.
+Fault after_revolutions_at_twice_the_command(Supervisor& supervisor, int revolutions, float feed = feed_mm_s) {
+    Estimate e = revolution();
+    e.feed_mm_s = feed;
+    return judged(supervisor, e, revolutions, CutState::air, program_with_half_the_speed());
 }
 
 }  // namespace
@@ -92,4 +106,20 @@ TEST(CommandedSpeed, that_is_not_told_or_no_speed_says_nothing) {
     for (const float commanded_rad_s : {0.0F, -turns_at_rad_s, std::numeric_limits<float>::quiet_NaN()}) {
         CHECK(fault_of(commanded_rad_s, false) == Fault::none);
     }
+}
+
+TEST(CommandedSpeed, must_be_missed_for_a_second_on_end_without_a_restart_or_a_time_without_a_command) {
+    Supervisor supervisor(machine_and_tool());
+    CHECK(after_revolutions_at_twice_the_command(supervisor, 60) == Fault::none);
+    supervisor.restart();
+    CHECK(after_revolutions_at_twice_the_command(supervisor, 60) == Fault::none);
+    CHECK(judged(supervisor, revolution(), 1, CutState::air, program()) == Fault::none);
+    CHECK(after_revolutions_at_twice_the_command(supervisor, 60) == Fault::none);
+    CHECK(after_revolutions_at_twice_the_command(supervisor, 10) == Fault::encoder_mismatch);
+}
+
+TEST(CommandedSpeed, that_is_missed_while_the_axes_rest_is_a_fault_as_soon_as_they_move) {
+    Supervisor supervisor(machine_and_tool());
+    CHECK(after_revolutions_at_twice_the_command(supervisor, 200, 0.0F) == Fault::none);
+    CHECK(after_revolutions_at_twice_the_command(supervisor, 1) == Fault::encoder_mismatch);
 }

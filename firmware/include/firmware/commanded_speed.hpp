@@ -32,7 +32,7 @@ class CommandedSpeed {
             even_s_ = Scalar(0);
             return false;
         }
-        even_s_ = even_s_ > settled_s ? even_s_ : even_s_ + elapsed_s;
+        even_s_ += elapsed_s;
         return even_s_ > settled_s && !is_near(speed_rad_s, commanded_rad_s, largest_share);
     }
 
