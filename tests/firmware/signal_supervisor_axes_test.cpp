@@ -125,6 +125,20 @@ TEST(SignalSupervisorAxes, does_not_compare_the_axes_with_the_torque_in_a_cut_a_
     CHECK(judged(without_torque, e, 20, CutState::exit) == Fault::none);
 }
 
+TEST(SignalSupervisorAxes, lets_the_force_along_the_feed_grow_alone_within_a_cut_and_not_in_air) {
+    const auto fault_in = [](CutState state) {
+        Supervisor supervisor(machine_and_tool());
+        Estimate e = revolution();
+        for (int k = 0; k < 20; ++k) {
+            e.feed_N = {.valid = true, .value = 50.0F * static_cast<float>(k), .variance = 400.0F, .noise = 400.0F};
+            judged(supervisor, e, 1, state);
+        }
+        return supervisor.fault();
+    };
+    CHECK(fault_in(CutState::in_cut) == Fault::none);
+    CHECK(fault_in(CutState::air) == Fault::forces_contradict);
+}
+
 TEST(SignalSupervisorAxes, lets_the_axes_carry_twice_the_torque_and_never_less_than_none) {
     Estimate e = revolution();
     e.tangential_N.value = 100.0F;
@@ -209,7 +223,8 @@ TEST(SignalSupervisorAxes, finds_a_force_along_the_feed_that_leaps_in_a_light_cu
     e.feed_N = known_N(-50.0F);
     Estimate leapt = e;
     leapt.feed_N = known_N(150.0F);
-    const auto fault_of = [&](CutState state, const millforce::firmware::Parameters<float>& parameters = machine_and_tool()) {
+    const auto fault_of = [&](CutState state,
+                              const millforce::firmware::Parameters<float>& parameters = machine_and_tool()) {
         Supervisor supervisor(parameters);
         judged(supervisor, e, 6, state);
         CHECK(judged(supervisor, leapt, 2, state) == Fault::none);
@@ -236,4 +251,40 @@ TEST(SignalSupervisorAxes, does_not_take_a_change_of_feed_for_a_leap) {
     judged(brakes_first, brakes, 2, CutState::in_cut);
     judged(brakes_first, slower, 1, CutState::in_cut);
     CHECK(judged(brakes_first, e, 20, CutState::in_cut) == Fault::none);
+}
+
+TEST(SignalSupervisorAxes, leaves_room_in_a_leap_for_the_inertia_of_either_axis) {
+    Estimate e = revolution();
+    e.tangential_N = known_N(100.0F);
+    e.feed_N = known_N(-50.0F);
+    Estimate leapt = e;
+    leapt.feed_N = known_N(150.0F);
+    const auto fault_with_masses = [&](float x_kg, float y_kg) {
+        auto parameters = machine_and_tool();
+        parameters.machine.axes[0].mass_kg = x_kg;
+        parameters.machine.axes[1].mass_kg = y_kg;
+        Supervisor supervisor(parameters);
+        judged(supervisor, e, 6, CutState::in_cut);
+        return judged(supervisor, leapt, 6, CutState::in_cut);
+    };
+    CHECK(fault_with_masses(0.0F, 0.0F) == Fault::force_jumped);
+    CHECK(fault_with_masses(1000.0F, 0.0F) == Fault::none);  // at 0.2 × 20 mm/s × 66.7/s: 267 N
+    CHECK(fault_with_masses(0.0F, 1000.0F) == Fault::none);
+}
+
+TEST(SignalSupervisorAxes, takes_no_change_of_force_across_a_restart_for_a_leap) {
+    Estimate e = revolution();
+    e.tangential_N = known_N(100.0F);
+    e.feed_N = known_N(-50.0F);
+    Estimate other = e;
+    other.feed_N = known_N(150.0F);
+    other.tooth_periods = 8;  // an estimate that was late
+    for (const bool restarts : {false, true}) {
+        Supervisor supervisor(machine_and_tool());
+        judged(supervisor, e, 6, CutState::in_cut);
+        if (restarts) {
+            supervisor.restart();
+        }
+        CHECK(judged(supervisor, other, 6, CutState::in_cut) == (restarts ? Fault::none : Fault::force_jumped));
+    }
 }

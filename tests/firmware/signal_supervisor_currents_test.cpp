@@ -2,6 +2,7 @@
 #include "supervisor_bench.hpp"
 
 #include <cmath>
+#include <initializer_list>
 
 #include <CppUTest/TestHarness.h>
 
@@ -123,6 +124,28 @@ TEST(SignalSupervisorCurrents, lets_the_speed_of_the_spindle_double_out_of_the_c
         }
         CHECK(supervisor.fault() == (speed_rad_s < 200.0F ? Fault::none : Fault::encoder_mismatch));
     }
+}
+
+/// Each tooth's speed over that a revolution before.
+static Fault of_speeds_in_air(float speed_rad_s, std::initializer_list<float> ratios) {
+    Estimate e = one_tooth();
+    e.spindle_speed_rad_s = speed_rad_s;
+    Supervisor supervisor(machine_and_tool());
+    for (const float ratio : ratios) {
+        e.tooth_change.speed_ratio = ratio;
+        judged(supervisor, e, 1);
+    }
+    return supervisor.fault();
+}
+
+TEST(SignalSupervisorCurrents, lets_a_spindle_gain_three_tenths_in_each_revolution_but_not_within_two_teeth) {
+    CHECK(of_speeds_in_air(600.0F, {1.0F, 1.1F, 1.2F, 1.3F, 1.3F, 1.3F, 1.3F}) == Fault::none);
+    CHECK(of_speeds_in_air(600.0F, {1.0F, 1.3F, 1.3F}) == Fault::encoder_mismatch);
+}
+
+TEST(SignalSupervisorCurrents, lets_the_teeth_of_a_fast_spindle_seem_unequal_by_a_tenth) {
+    CHECK(of_speeds_in_air(2000.0F, {1.0F, 1.1F, 1.1F, 1.0F}) == Fault::none);
+    CHECK(of_speeds_in_air(2000.0F, {1.0F, 1.3F, 1.3F, 1.0F}) == Fault::encoder_mismatch);
 }
 
 TEST(SignalSupervisorCurrents, lets_the_speed_of_the_spindle_change_at_once_out_of_the_cut_alone) {

@@ -65,6 +65,44 @@ TEST(SignalSupervisorForces, finds_a_force_that_vanishes_at_a_feed_that_varies_w
     CHECK(of_fall(245.0F - by_a_lower_feed_N, true) == Fault::none);
 }
 
+TEST(SignalSupervisorForces, does_not_judge_a_force_at_a_feed_that_varies_on_a_ramp_or_before_the_feed_has_settled) {
+    Estimate varies = one_tooth();
+    varies.tooth_change.feed_is_alike = true;
+    varies.tooth_change.feed_is_steady = false;
+    Estimate fall = fallen_force();
+    fall.tooth_change.tangential_N = known_N(-245.0F);
+    fall.tooth_tangential_N = known_N(5.0F);
+    fall.tooth_change.feed_is_alike = true;
+    fall.tooth_change.feed_is_steady = false;
+    const auto of_fall = [&](float axial_speed_mm_s, bool feed_is_settled) {
+        fall.axial_speed_mm_s = axial_speed_mm_s;
+        Supervisor supervisor(machine_and_tool());
+        judged(supervisor, varies, 8, CutState::in_cut);
+        supervisor.judge(fall, program(), CutState::in_cut, feed_is_settled);
+        return judged(supervisor, varies, 6, CutState::in_cut);
+    };
+    CHECK(of_fall(0.0F, true) == Fault::force_vanished);
+    CHECK(of_fall(0.1F * feed_mm_s, true) == Fault::none);
+    CHECK(of_fall(0.0F, false) == Fault::none);
+}
+
+TEST(SignalSupervisorForces, lets_a_bent_tool_spring_back_for_two_tenths_of_a_millimetre_behind_a_sharp_turn) {
+    Estimate slow = one_tooth();
+    slow.feed_per_tooth_mm = 0.01F;
+    Estimate turn = slow;
+    turn.tooth_change.feed_is_new = true;
+    turn.tooth_change.feed_is_steady = false;
+    Estimate fall = fallen_force();
+    fall.feed_per_tooth_mm = slow.feed_per_tooth_mm;
+    const auto of_fall_behind = [&](int teeth) {
+        Supervisor supervisor(machine_and_tool());
+        judged(supervisor, turn, 1, CutState::in_cut);
+        return of_change_among(supervisor, slow, fall, teeth);
+    };
+    CHECK(of_fall_behind(18) == Fault::none);
+    CHECK(of_fall_behind(21) == Fault::force_vanished);
+}
+
 TEST(SignalSupervisorForces, needs_four_deviations_of_a_load_that_is_held) {
     const auto of_fall = [](float period_s, float sd_N) {
         auto parameters = machine_and_tool();

@@ -182,11 +182,8 @@ void SignalSupervisor<Scalar>::judge_teeth(const Estimate& e, control::CutState 
     const bool is_known = feed_is_settled && is_level;
     steady_periods_ = change.feed_is_steady && is_known ? steady_periods_ + e.tooth_periods : 0;
     alike_periods_ = change.feed_is_alike && is_known ? alike_periods_ + e.tooth_periods : 0;
-    if (change.feed_is_new) {
-        spring_back_left_mm_ = spring_back_mm;
-    } else if (spring_back_left_mm_ > Scalar(0)) {
-        spring_back_left_mm_ -= e.feed_per_tooth_mm * Scalar(e.tooth_periods);
-    }
+    const Scalar travel_mm = e.feed_per_tooth_mm * Scalar(e.tooth_periods);
+    spring_back_left_mm_ = change.feed_is_new ? spring_back_mm : spring_back_left_mm_ - travel_mm;
     const SuddenChange sudden = sudden_change(e);
     const bool cuts = control::is_cutting(state);
     if (is_speed_impossible(e, cuts)) {
@@ -221,13 +218,12 @@ bool SignalSupervisor<Scalar>::is_speed_impossible(const Estimate& e, bool cuts)
 template <typename Scalar>
 bool SignalSupervisor<Scalar>::gains_more_than_any_spindle(const Estimate& e, Scalar growth, Scalar ratio) {
     constexpr Scalar most_rad_s2 = Scalar(20000);
-    constexpr Scalar longest_s = Scalar(0.25F);
     constexpr Scalar least_share = estimation::literal<Scalar>(0.2L);
     if (!(growth > least_share * ratio)) {
         return false;
     }
     const Scalar tooth_s = elapsed_s(e);
-    return tooth_s < longest_s && e.spindle_speed_rad_s * (growth / ratio) > most_rad_s2 * (tooth_s + tooth_s);
+    return e.spindle_speed_rad_s * (growth / ratio) > most_rad_s2 * (tooth_s + tooth_s);
 }
 
 /// A change that no cut makes from one tooth to the next but one; none where that cannot be judged.
