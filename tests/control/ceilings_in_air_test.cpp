@@ -113,6 +113,24 @@ TEST(CeilingsInAir, an_estimate_that_stands_for_many_steps_shows_no_more_than_on
     check_ratio(ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air()), repeat(controller, in_air(), 2000));
 }
 
+TEST(CeilingsInAir, an_estimate_without_a_speed_or_before_any_feed_was_told_does_not_spoil_the_feed_that_is_safe) {
+    const auto after = [](const Input& unknown) {
+        Controller controller(immediate());
+        repeat(controller, unknown, 10);
+        repeat(controller, in_contact(), 2000);
+        return repeat(controller, in_air(), 2000);
+    };
+    const float told = ratio_of(Parameters{}.air_feed_per_tooth_mm, in_air());
+    const float safe = after(in_contact()).ratio;
+    CHECK_COMPARE(safe, >, 1.5F * told);
+    Input without_speed = in_contact();
+    without_speed.cut.spindle_speed_rad_s = 0.0F;
+    Input before_any_feed = in_contact();
+    before_any_feed.programmed_feed_mm_s = 0.0F;
+    check_ratio(safe, after(without_speed));
+    check_ratio(safe, after(before_any_feed));
+}
+
 TEST(CeilingsInAir, below_the_cuts_before_the_next_contact_comes_at_the_feed_that_is_told) {
     Controller controller(immediate());
     repeat(controller, in_contact(), 2000);
@@ -248,6 +266,20 @@ TEST(CeilingsInAir, over_a_gap_the_override_returns_to_that_of_the_cut_before) {
     const Output output = repeat(controller, gap, 20);
     CHECK(output.state == CutState::exit);
     check_ratio(before, output);
+}
+
+TEST(CeilingsInAir, behind_a_gap_too_short_to_slow_down_in_a_cut_goes_on_as_fast_as_the_tool_comes) {
+    Controller controller;
+    Input input = in_contact();
+    input.cut.turn_ratio = 5.0F;  // a slot of that depth is too heavy
+    const float may_begin = ratio_of(Parameters{}.entry_feed_per_tooth_mm, input);
+    CHECK_COMPARE(repeat(controller, input, 2000).ratio, >, 1.5F * may_begin);
+    const float comes = repeat(controller, in_air(), 5).ratio;
+    CHECK_COMPARE(comes, >, 1.2F * may_begin);
+    const Output again = repeat(controller, input, 5);
+    CHECK(again.state == CutState::entry);
+    CHECK(again.limit == Limit::entry_feed);
+    check_ratio(comes, again);
 }
 
 TEST(CeilingsInAir, a_cut_goes_on_behind_a_feed_hold_as_fast_as_it_was_though_it_may_not_begin_so_fast) {

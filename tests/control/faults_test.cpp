@@ -63,6 +63,16 @@ TEST(Faults, an_overload_that_is_only_forecast_or_possible_is_none) {
     CHECK(repeat(controller, growing, 100).fault == Fault::overload);
 }
 
+TEST(Faults, an_overload_is_none_where_the_override_is_the_operators) {
+    Parameters p;
+    p.monitor_only = true;
+    Controller controller(p);
+    bring_into_cut(controller);
+    const Output output = repeat(controller, in_contact_with(2000.0F), 100);
+    CHECK(output.fault == Fault::none);
+    CHECK(output.state == CutState::in_cut);
+}
+
 TEST(Faults, overload_is_forgotten_by_one_tooth_below_it_and_does_not_count_old_estimates) {
     Controller controller;
     bring_into_cut(controller);
