@@ -20,8 +20,9 @@ namespace millforce::firmware {
 ///
 ///     2 |ΔF_at| + 3 (s/R) F_at + 5 σ,   s: the travel of the three revolutions
 ///
-/// and what a feed that seems steady may hide of the axis' inertia. Twice in a row, so that a caught chip is none. Unlike a change from tooth to tooth, this is seen while a cut begins as well, and in a light cut whose noise
-/// is large.
+/// and what a feed that seems steady may hide of the axis' inertia. Twice in a row, so that a caught chip is none.
+/// Unlike a change from tooth to tooth, this is seen while a cut begins as well, and in a light cut whose noise is
+/// large.
 ///
 /// Not judged: a force along the feed that is not known, as where an axis turns round. The history begins anew there;
 /// so it must by restart() where the velocity changes.
