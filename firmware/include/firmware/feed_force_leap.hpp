@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-
 #include "estimation/cut_estimate.hpp"
 #include "estimation/number/literal.hpp"
 
@@ -13,16 +8,15 @@ namespace millforce::firmware {
 
 /// Whether the force along the feed leaps while F_at does not: an axis' current is wrong from then on.
 ///
-/// Where an end of the arc moves, or the feed changes, the axes change by at most twice what F_at does, as every tooth
-/// has a radial force no larger than √3 times its tangential one. Both ends may move at once so that F_at stays. In s
-/// of travel that turns each by at most some 1.5 s/R. So from one revolution to the next but one, the force along the
-/// feed changes by no more than
+/// Where one end of the arc moves, or the feed changes, the axes' force changes by at most twice as much as F_at, since
+/// no tooth's radial force is more than √3 times its tangential one. Both ends may move at once so that F_at stays:
+/// within s of travel each by some 1.5 s/R at most. So from one revolution to the next but one the force along the feed
+/// changes by no more than
 ///
 ///     2 |ΔF_at| + 3 (s/R) F_at + 5 σ,   s: the travel of the three revolutions
 ///
-/// and what a feed that seems steady may hide of the axis' inertia. Twice in a row, so that a caught chip is none.
-/// Unlike a change from tooth to tooth, this is seen while a cut begins as well, and in a light cut whose noise is
-/// large.
+/// and what a feed that seems steady may hide of the axis' inertia. Twice in a row: a caught chip is no leap. Unlike a
+/// change from tooth to tooth, this is seen while a cut begins as well, and in a light cut whose noise is large.
 ///
 /// Not judged: a force along the feed that is not known, as where an axis turns round. The history begins anew there;
 /// so it must by restart() where the velocity changes.
