@@ -56,7 +56,7 @@ class FaultReporter {
     void follow(const hal::FeedOverride& output, LinePrinter& printer) {
         if (output.fault != fault_) {
             fault_ = output.fault;
-            printer.print(fmt::format("millforce: fault: {}", control::name(static_cast<control::Fault>(fault_))));
+            printer.print("millforce: fault: {}", control::name(static_cast<control::Fault>(fault_)));
         }
     }
 
@@ -68,7 +68,7 @@ class FaultReporter {
 void report_map(LiveMaps& maps, LinePrinter& printer, Notes& notes) {
     for (const std::string& map : maps.dropped()) {
         notes.add(fmt::format("The {} does not fit this cut: the run went on without it.", map));
-        printer.print(fmt::format("millforce: the {} does not fit this cut: continuing without it", map));
+        printer.print("millforce: the {} does not fit this cut: continuing without it", map);
     }
 }
 
@@ -79,12 +79,14 @@ class ToolReporter {
         if (controller.is_tool_known() != is_known_ || controller.tool() != tool_) {
             is_known_ = controller.is_tool_known();
             tool_ = controller.tool();
-            printer.print(is_known_ ? fmt::format("millforce: tool {}", tool_)
-                                    : "millforce: tool not known: the override is the operator's");
+            if (is_known_) {
+                printer.print("millforce: tool {}", tool_);
+            } else {
+                printer.print("millforce: tool not known: the override is the operator's");
+            }
         }
         if (controller.is_tool_change_due() && !was_change_due_) {
-            printer.print(
-                fmt::format("millforce: another tool number: the limits of tool {} hold until the axes rest", tool_));
+            printer.print("millforce: another tool number: the limits of tool {} hold until the axes rest", tool_);
         }
         was_change_due_ = controller.is_tool_change_due();
     }
@@ -107,8 +109,8 @@ class Turns final : public TurnListener {
         if (pause_watch_.look(now_us)) {
             hold_until_us_ = now_us + drain_us;
             notes_.add("This program was stopped for a while: the feed was held until newer samples came.");
-            printer_.print(fmt::format("millforce: was stopped for {:.1f} s: hold, until newer samples come",
-                                       1e-6 * static_cast<double>(pause_watch_.pause_us())));
+            printer_.print("millforce: was stopped for {:.1f} s: hold, until newer samples come",
+                           1e-6 * static_cast<double>(pause_watch_.pause_us()));
         }
         is_held_ = now_us < hold_until_us_;
     }
@@ -176,8 +178,7 @@ void serve_peer(UnixServer& server, const Turns& turns, firmware::LinkController
         local_link::OverrideBytes answer{};
         const local_link::MessageError error = controller.on_message(bytes, answer);
         if (error != local_link::MessageError::none) {
-            printer.print(fmt::format("millforce: invalid message of {} bytes ({}): connection closed", bytes.size(),
-                                      name(error)));
+            printer.print("millforce: invalid message of {} bytes ({}): connection closed", bytes.size(), name(error));
             notes.add("The CNC sent a message that is not valid: the connection was closed.");
             server.drop_peer();
             return;
@@ -207,13 +208,13 @@ int serve(const ServeOptions& options) {
     const auto hub =
         watch(options.watch, tools, options.socket, recorder_of(report.get(), notes.of_page(), RunClock::monotonic));
     for (const std::string& note : become_real_time()) {
-        printer.print(fmt::format("millforce: note: {}", note));
+        printer.print("millforce: note: {}", note);
     }
     notify_service_manager("READY=1");
-    printer.print(fmt::format("millforce: {}: waiting", options.socket));
+    printer.print("millforce: {}: waiting", options.socket);
     notify_service_manager("STATUS=waiting for a CNC");
     for (const std::string& fault : unseen_faults(parameters)) {
-        printer.print(fmt::format("millforce: not seen here: {}", fault));
+        printer.print("millforce: not seen here: {}", fault);
     }
     while (server.wait_for_peer()) {
         notify_service_manager("STATUS=connected");
@@ -225,7 +226,7 @@ int serve(const ServeOptions& options) {
         server.drop_peer();
         notes.add("The CNC disconnected.");
         notify_service_manager("STATUS=waiting for a CNC");
-        printer.print(fmt::format("millforce: disconnected after {} samples", controller->output().heartbeat));
+        printer.print("millforce: disconnected after {} samples", controller->output().heartbeat);
     }
     notify_service_manager("STOPPING=1");
     notify_service_manager(time_for_the_report);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/line_printer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "files/console.hpp"
@@ -49,8 +47,10 @@ void LinePrinter::write_all() {
 
 void LinePrinter::report_lost(std::uint64_t lost) {
     if (lost != reported_lost_) {
-        print_line(stream_,
-                   fmt::format("millforce: {} lines are missing here: nobody took them", lost - reported_lost_));
+        std::array<char, longest_line> text{};  // a string would take memory, and there may be none
+        std::snprintf(text.data(), text.size(), "millforce: %llu lines are missing here: nobody took them",
+                      static_cast<unsigned long long>(lost - reported_lost_));
+        print_line(stream_, text.data());
         reported_lost_ = lost;
     }
 }

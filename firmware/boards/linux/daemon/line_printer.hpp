@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -27,6 +30,12 @@ class LinePrinter {
 
     /// Neither waits nor allocates. Cut off after `longest_line` bytes.
     void print(std::string_view line) noexcept;
+    template <typename First, typename... Others>
+    void print(fmt::format_string<const First&, const Others&...> text, const First& first, const Others&... others) {
+        std::array<char, longest_line> line{};
+        const std::size_t length = fmt::format_to_n(line.data(), line.size(), text, first, others...).size;
+        print(std::string_view(line.data(), std::min(length, line.size())));
+    }
 
     static constexpr std::size_t longest_line = 160;
     static constexpr std::size_t capacity = 64;

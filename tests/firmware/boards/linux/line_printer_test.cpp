@@ -2,7 +2,6 @@
 #include "daemon/line_printer.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -60,7 +59,7 @@ TEST(LinePrinter, does_not_wait_for_who_takes_no_line_and_says_how_many_are_miss
     auto printer = std::make_unique<LinePrinter>(pipe.stream);
     constexpr int lines = 1000;
     for (int k = 0; k < lines; ++k) {
-        printer->print(fmt::format("line {}", k));
+        printer->print("line {}", k);
     }
     std::string taken;
     std::thread reader([&] { taken = pipe.rest(); });
@@ -86,10 +85,12 @@ TEST(LinePrinter, writes_every_line_that_was_printed_before_its_end) {
         LinePrinter printer(file);
         printer.print("one");
         printer.print(std::string(2 * LinePrinter::longest_line, 'x'));
+        printer.print("{}", std::string(2 * LinePrinter::longest_line, 'y'));
     }
     std::rewind(file);
     std::array<char, 1024> text{};
     const std::size_t length = std::fread(text.data(), 1, text.size(), file);
     std::fclose(file);
-    CHECK(std::string(text.data(), length) == "one\n" + std::string(LinePrinter::longest_line, 'x') + "\n");
+    CHECK(std::string(text.data(), length) == "one\n" + std::string(LinePrinter::longest_line, 'x') + "\n" +
+                                                  std::string(LinePrinter::longest_line, 'y') + "\n");
 }
