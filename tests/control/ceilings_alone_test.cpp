@@ -80,3 +80,11 @@ TEST(CeilingsAlone, an_override_at_its_lowest_warns_of_a_force_above_the_limit_o
         CHECK(lowest(input, CutState::in_cut).limit == Limit::override_min);
     }
 }
+
+TEST(CeilingsAlone, an_override_at_its_lowest_for_want_of_an_estimate_says_so) {
+    Input blind = in_air();
+    blind.cut.force_valid = false;
+    const Ceiling<float> fed_blind = lowest(blind, CutState::air);
+    CHECK(fed_blind.limit == Limit::no_estimate);
+    DOUBLES_EQUAL(static_cast<double>(Parameters{}.override_min), static_cast<double>(fed_blind.override_ratio), 0.0);
+}

@@ -329,10 +329,13 @@ void Tally::add(const Outcome& outcome, bool is_unseen) {
     }
 }
 
+double median_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? std::nan("") : values[values.size() / 2];
+}
+
 double Tally::median_reaction_s() const {
-    std::vector<double> sorted = reactions_s;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? std::nan("") : sorted[sorted.size() / 2];
+    return median_of(reactions_s);
 }
 
 double Tally::longest_reaction_s() const {

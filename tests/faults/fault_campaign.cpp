@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <random>
 #include <string>
 #include <thread>
 
+#include "control/cut_state.hpp"
 #include "faults/campaign.hpp"
 #include "files/input_error.hpp"
 #include "percent.hpp"
@@ -139,7 +141,22 @@ void show_progress(std::size_t done, std::size_t all) {
     }
 }
 
-void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Options& options) {
+using Finders = std::map<std::uint8_t, Finder>;
+
+void add(Finders& finders, const Reaction& reaction, bool is_sound) {
+    if (!reaction.has_begun || !reaction.has_reacted) {
+        return;
+    }
+    Finder& finder = finders[reaction.found_by];
+    if (is_sound) {
+        ++finder.false_alarms;
+    } else {
+        finder.after_s.push_back(reaction.after_s);
+    }
+}
+
+Finders mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Options& options) {
+    Finders finders;
     std::mutex lock;
     std::atomic<std::size_t> next{0};
     std::size_t done = 0;
@@ -149,6 +166,7 @@ void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Option
             const Outcome outcome = mill_with(*runs[k].part, row.path, row.fault, runs[k].seed, runs[k].is_repaired);
             const std::scoped_lock hold(lock);
             row.tally.add(outcome, is_unseen(row.fault, *runs[k].part));
+            add(finders, outcome.reaction, row.is_sound());
             show_progress(++done, runs.size());
             if (options.lists_violations) {
                 say(row, runs[k], outcome);
@@ -165,6 +183,23 @@ void mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Option
     work();
     for (std::thread& thread : threads) {
         thread.join();
+    }
+    return finders;
+}
+
+/// Which check found how many faults, and how often it found one where there was none.
+void print(const Finders& finders) {
+    fmt::print("\n| found by | runs with a fault | after, s: median, longest | false alarms |\n|---|---|---|---|\n");
+    for (const auto& [fault, finder] : finders) {
+        const bool is_hold = fault == static_cast<std::uint8_t>(millforce::control::Fault::none);
+        const std::string name =
+            is_hold ? "a hold"
+                    : fmt::format("`{}`", millforce::control::name(static_cast<millforce::control::Fault>(fault)));
+        const std::string after = finder.after_s.empty()
+                                      ? ""
+                                      : fmt::format("{:.2f}, {:.2f}", median_of(finder.after_s),
+                                                    *std::max_element(finder.after_s.begin(), finder.after_s.end()));
+        fmt::print("| {} | {} | {} | {} |\n", name, finder.after_s.size(), after, finder.false_alarms);
     }
 }
 
@@ -189,7 +224,7 @@ int run(const Options& options) {
         fmt::print(stderr, "fault_campaign: no such fault on these paths\n");
         return 2;
     }
-    mill_all(runs_of(options, rows), rows, options);
+    const Finders finders = mill_all(runs_of(options, rows), rows, options);
     fmt::print(
         "| fault | path | runs | tooth broken, % | peak above 110 %, % | largest peak, % | feed held, % | after, s: "
         "median, longest | peak until held, % | crawls, % | mill on | "
@@ -212,6 +247,7 @@ int run(const Options& options) {
             false_alarms += static_cast<int>(row.tally.reactions_s.size());
         }
     }
+    print(finders);
     fmt::print("\n{} violations, and {} in {} runs by what no signal contradicts; {} false alarms in {} sound runs\n",
                violations, unseen, unseen_runs, false_alarms, sound_runs);
     constexpr int runs_per_false_alarm = 1000;

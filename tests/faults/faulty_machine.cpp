@@ -40,6 +40,7 @@ hal::FeedOverride FaultyMachine::step_with_fault(const hal::DriveSample& sample,
     if (!reaction_.has_reacted && (output.hold || output.fault != 0)) {
         reaction_.has_reacted = true;
         reaction_.after_s = since_s;
+        reaction_.found_by = output.fault;
     }
     return output;
 }

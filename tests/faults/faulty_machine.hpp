@@ -18,6 +18,7 @@ struct Reaction {
     bool has_begun = false;  ///< the part was not over before
     bool has_reacted = false;
     double after_s = 0.0;
+    std::uint8_t found_by = 0;      ///< control::Fault at that moment; none: a hold alone
     std::uint8_t fault = 0;         ///< control::Fault
     bool is_beyond_bound = false;   ///< at any time: an override that is not a number within [0, override_max]
     bool ran_in_fault = false;      ///< a fault was latched, and the feed free
