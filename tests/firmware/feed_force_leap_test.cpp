@@ -19,19 +19,24 @@ CutEstimate<float> cut(float feed_N, float tangential_N = 80.0F) {
     e.feed_N = {true, feed_N, noise_N * noise_N, noise_N * noise_N};
     e.tangential_N = {true, tangential_N, 1.0F, 1.0F};
     e.feed_per_tooth_mm = feed_per_tooth_mm;
+    e.feed_mm_s = 2.0F;
+    e.spindle_speed_rad_s = 5.0F;
     return e;
 }
 
-struct Followed {
-    FeedForceLeap leap{};
-    bool is_found = false;
-
-    Followed& turns(const CutEstimate<float>& e, int revolutions, float hidden_N = 0.0F) {
+class Followed {
+  public:
+    explicit Followed(float hidden_N = 0.0F) : leap_(teeth, 1.0F / radius_mm, hidden_N / (2.0F * 5.0F)) {}
+    Followed& turns(const CutEstimate<float>& e, int revolutions) {
         for (int k = 0; k < revolutions; ++k) {
-            is_found = leap.follow(e, teeth, 1.0F / radius_mm, hidden_N) || is_found;
+            is_found = leap_.follow(e) || is_found;
         }
         return *this;
     }
+    bool is_found = false;
+
+  private:
+    FeedForceLeap leap_;
 };
 
 /// What a leap must exceed while F_at stays: 3 (s/R) F_at, and five deviations of the difference of two revolutions.
@@ -68,8 +73,8 @@ TEST(FeedForceLeap, is_none_that_lasts_for_one_revolution) {
 }
 
 TEST(FeedForceLeap, leaves_room_for_the_inertia_that_a_feed_may_hide) {
-    CHECK_FALSE(Followed().turns(cut(-40.0F), 3, 20.0F).turns(cut(-20.0F + most_N), 5, 20.1F).is_found);
-    CHECK_TRUE(Followed().turns(cut(-40.0F), 3, 20.0F).turns(cut(-20.0F + most_N), 5, 19.0F).is_found);
+    CHECK_FALSE(Followed(20.1F).turns(cut(-40.0F), 3).turns(cut(-20.0F + most_N), 5).is_found);
+    CHECK_TRUE(Followed(19.0F).turns(cut(-40.0F), 3).turns(cut(-20.0F + most_N), 5).is_found);
 }
 
 TEST(FeedForceLeap, begins_anew_after_a_force_that_is_not_known) {

@@ -25,53 +25,63 @@ namespace millforce::firmware {
 template <typename Scalar>
 class FeedForceLeap {
   public:
-    void restart() { *this = FeedForceLeap(); }
+    /// `hidden_inertia`: N per mm/s of feed and rad/s of the spindle that an acceleration may hide at a steady feed.
+    FeedForceLeap(Scalar teeth, Scalar per_radius, Scalar hidden_inertia)
+        : share_per_feed_(Scalar(both_ends * revolutions) * teeth * per_radius), hidden_inertia_(hidden_inertia) {}
 
-    /// Each revolution at a steady velocity. `hidden_N`: the inertia of an acceleration that a steady feed may hide.
-    [[nodiscard]] bool follow(const estimation::CutEstimate<Scalar>& e, Scalar teeth, Scalar per_radius,
-                              Scalar hidden_N) {
+    void restart() {
+        known_ = 0;
+        has_leapt_ = false;
+    }
+
+    /// Each revolution at a steady velocity.
+    [[nodiscard]] bool follow(const estimation::CutEstimate<Scalar>& e) {
         if (!e.feed_N.valid || !e.tangential_N.valid) {
             restart();
             return false;
         }
         const Revolution now{e.feed_N.value, e.tangential_N.value};
-        const bool is_leap = revolutions_ == history && leaps(e, now, teeth * per_radius, hidden_N);
+        const bool leaps = known_ == history && is_leap(e, now);
         last_but_one_ = last_;
         last_ = now;
-        revolutions_ = revolutions_ < history ? revolutions_ + 1 : history;
-        const bool is_sure = is_leap && has_leapt_;
-        has_leapt_ = is_leap;
+        known_ = known_ < history ? known_ + 1 : history;
+        const bool is_sure = leaps && has_leapt_;
+        has_leapt_ = leaps;
         return is_sure;
     }
 
   private:
     static constexpr int history = 2;
+    static constexpr int revolutions = 3;
+    static constexpr int both_ends = 3;
     struct Revolution {
         Scalar feed_N{0};
         Scalar tangential_N{0};
     };
 
-    [[nodiscard]] bool leaps(const estimation::CutEstimate<Scalar>& e, const Revolution& now, Scalar teeth_per_radius,
-                             Scalar hidden_N) const {
+    /// What costs least comes first.
+    [[nodiscard]] bool is_leap(const estimation::CutEstimate<Scalar>& e, const Revolution& now) const {
         using estimation::square;
-        constexpr Scalar axes_per_tangential{2};
-        constexpr Scalar revolutions{3};
-        constexpr Scalar both_ends{3};
         constexpr Scalar significance{5};
         const Scalar leap_N = magnitude(now.feed_N - last_but_one_.feed_N);
         const Scalar change_N = magnitude(now.tangential_N - last_but_one_.tangential_N);
-        const Scalar cut_N = magnitude(now.tangential_N);
-        const Scalar travel_in_radii = revolutions * e.feed_per_tooth_mm * teeth_per_radius;
-        const Scalar excess_N =
-            leap_N - axes_per_tangential * change_N - both_ends * travel_in_radii * cut_N - hidden_N;
+        const Scalar beyond_change_N = leap_N - change_N - change_N;
+        if (!(beyond_change_N > Scalar(0))) {
+            return false;
+        }
+        const Scalar by_both_ends_N = share_per_feed_ * e.feed_per_tooth_mm * magnitude(now.tangential_N);
+        const Scalar hidden_N = hidden_inertia_ * e.feed_mm_s * e.spindle_speed_rad_s;
+        const Scalar excess_N = beyond_change_N - by_both_ends_N - hidden_N;
         const Scalar variance_N2 = e.feed_N.noise + e.feed_N.noise;
         return excess_N > Scalar(0) && square(excess_N) > square(significance) * variance_N2;
     }
     [[nodiscard]] static Scalar magnitude(Scalar value) { return value < Scalar(0) ? -value : value; }
 
+    Scalar share_per_feed_;  // 1/mm
+    Scalar hidden_inertia_;
     Revolution last_{};
     Revolution last_but_one_{};
-    int revolutions_ = 0;
+    int known_ = 0;
     bool has_leapt_ = false;
 };
 

@@ -205,7 +205,7 @@ class SignalSupervisor {
     Scalar least_feed_force_N_{0};
     Scalar too_fast_s_{0};
     CommandedSpeed<Scalar> commanded_speed_{};
-    FeedForceLeap<Scalar> feed_force_leap_{};
+    FeedForceLeap<Scalar> feed_force_leap_;
 };
 
 }  // namespace millforce::firmware

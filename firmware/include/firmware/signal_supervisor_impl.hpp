@@ -40,7 +40,8 @@ SignalSupervisor<Scalar>::SignalSupervisor(const Parameters<Scalar>& p)
                                                                      : Scalar(0)),
       load_period_s_(p.machine.spindle_load_period_s),
       hidden_inertia_(hidden_inertia(p.machine)),
-      counts_per_rev_(static_cast<std::int32_t>(p.machine.encoder_counts_per_rev)) {}
+      counts_per_rev_(static_cast<std::int32_t>(p.machine.encoder_counts_per_rev)),
+      feed_force_leap_(teeth_, per_radius_, std::max(hidden_inertia_[0], hidden_inertia_[1])) {}
 
 template <typename Scalar>
 void SignalSupervisor<Scalar>::restart() {
@@ -308,9 +309,7 @@ void SignalSupervisor<Scalar>::judge_leap(const Estimate& e, control::CutState s
     if (!is_steady || load_period_s_ > Scalar(0)) {
         feed_force_leap_.restart();
     }
-    const Scalar larger = hidden_inertia_[0] > hidden_inertia_[1] ? hidden_inertia_[0] : hidden_inertia_[1];
-    const Scalar hidden_N = larger * e.feed_mm_s * e.spindle_speed_rad_s;
-    const bool leaps = feed_force_leap_.follow(e, teeth_, per_radius_, hidden_N) && control::is_cutting(state);
+    const bool leaps = feed_force_leap_.follow(e) && control::is_cutting(state);
     find(leap_suspicion_.follow(leaps ? control::Fault::force_jumped : control::Fault::none, steady_periods_, is_steady,
                                 teeth_));
 }
