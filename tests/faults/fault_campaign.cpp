@@ -189,6 +189,9 @@ Finders mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Opt
 
 /// Which check found how many faults, and how often it found one where there was none.
 void print(const Finders& finders) {
+    if (finders.empty()) {
+        return;
+    }
     fmt::print("\n| found by | runs with a fault | after, s: median, longest | false alarms |\n|---|---|---|---|\n");
     for (const auto& [fault, finder] : finders) {
         const bool is_hold = fault == static_cast<std::uint8_t>(millforce::control::Fault::none);
