@@ -6,6 +6,19 @@
 namespace hal = millforce::hal;
 using namespace millforce::test;
 
+namespace {
+
+constexpr float leapt_N = 150.0F;
+
+Estimate light_cut(float feed_N = -50.0F) {
+    Estimate e = revolution();
+    e.tangential_N = known_N(100.0F);
+    e.feed_N = known_N(feed_N);
+    return e;
+}
+
+}  // namespace
+
 /// The axes against the spindle, the feed against the program, over revolutions.
 TEST_GROUP(SignalSupervisorAxes){};
 
@@ -218,17 +231,12 @@ TEST(SignalSupervisorAxes, does_not_judge_the_feed_in_a_rapid_or_where_the_progr
 }
 
 TEST(SignalSupervisorAxes, finds_a_force_along_the_feed_that_leaps_in_a_light_cut_as_it_begins) {
-    Estimate e = revolution();
-    e.tangential_N = known_N(100.0F);
-    e.feed_N = known_N(-50.0F);
-    Estimate leapt = e;
-    leapt.feed_N = known_N(150.0F);
-    const auto fault_of = [&](CutState state,
-                              const millforce::firmware::Parameters<float>& parameters = machine_and_tool()) {
+    const auto fault_of = [](CutState state,
+                             const millforce::firmware::Parameters<float>& parameters = machine_and_tool()) {
         Supervisor supervisor(parameters);
-        judged(supervisor, e, 6, state);
-        CHECK(judged(supervisor, leapt, 2, state) == Fault::none);
-        return judged(supervisor, leapt, 4, state);
+        judged(supervisor, light_cut(), 6, state);
+        CHECK(judged(supervisor, light_cut(leapt_N), 2, state) == Fault::none);
+        return judged(supervisor, light_cut(leapt_N), 4, state);
     };
     CHECK(fault_of(CutState::entry) == Fault::force_jumped);
     CHECK(fault_of(CutState::in_cut) == Fault::force_jumped);
@@ -239,33 +247,23 @@ TEST(SignalSupervisorAxes, finds_a_force_along_the_feed_that_leaps_in_a_light_cu
 }
 
 TEST(SignalSupervisorAxes, does_not_take_a_change_of_feed_for_a_leap) {
-    Estimate e = revolution();
-    e.tangential_N = known_N(100.0F);
-    e.feed_N = known_N(-50.0F);
-    Estimate brakes = e;
-    brakes.feed_N = known_N(-250.0F);
-    Estimate slower = e;
+    Estimate slower = light_cut();
     slower.tooth_change.feed_is_steady = slower.tooth_change.feed_is_alike = false;
     Supervisor brakes_first(machine_and_tool());
-    judged(brakes_first, e, 6, CutState::in_cut);
-    judged(brakes_first, brakes, 2, CutState::in_cut);
+    judged(brakes_first, light_cut(), 6, CutState::in_cut);
+    judged(brakes_first, light_cut(-250.0F), 2, CutState::in_cut);
     judged(brakes_first, slower, 1, CutState::in_cut);
-    CHECK(judged(brakes_first, e, 20, CutState::in_cut) == Fault::none);
+    CHECK(judged(brakes_first, light_cut(), 20, CutState::in_cut) == Fault::none);
 }
 
 TEST(SignalSupervisorAxes, leaves_room_in_a_leap_for_the_inertia_of_either_axis) {
-    Estimate e = revolution();
-    e.tangential_N = known_N(100.0F);
-    e.feed_N = known_N(-50.0F);
-    Estimate leapt = e;
-    leapt.feed_N = known_N(150.0F);
-    const auto fault_with_masses = [&](float x_kg, float y_kg) {
+    const auto fault_with_masses = [](float x_kg, float y_kg) {
         auto parameters = machine_and_tool();
         parameters.machine.axes[0].mass_kg = x_kg;
         parameters.machine.axes[1].mass_kg = y_kg;
         Supervisor supervisor(parameters);
-        judged(supervisor, e, 6, CutState::in_cut);
-        return judged(supervisor, leapt, 6, CutState::in_cut);
+        judged(supervisor, light_cut(), 6, CutState::in_cut);
+        return judged(supervisor, light_cut(leapt_N), 6, CutState::in_cut);
     };
     CHECK(fault_with_masses(0.0F, 0.0F) == Fault::force_jumped);
     CHECK(fault_with_masses(1000.0F, 0.0F) == Fault::none);  // at 0.2 × 20 mm/s × 66.7/s: 267 N
@@ -273,18 +271,14 @@ TEST(SignalSupervisorAxes, leaves_room_in_a_leap_for_the_inertia_of_either_axis)
 }
 
 TEST(SignalSupervisorAxes, takes_no_change_of_force_across_a_restart_for_a_leap) {
-    Estimate e = revolution();
-    e.tangential_N = known_N(100.0F);
-    e.feed_N = known_N(-50.0F);
-    Estimate other = e;
-    other.feed_N = known_N(150.0F);
-    other.tooth_periods = 8;  // an estimate that was late
+    Estimate late = light_cut(leapt_N);
+    late.tooth_periods = 8;
     for (const bool restarts : {false, true}) {
         Supervisor supervisor(machine_and_tool());
-        judged(supervisor, e, 6, CutState::in_cut);
+        judged(supervisor, light_cut(), 6, CutState::in_cut);
         if (restarts) {
             supervisor.restart();
         }
-        CHECK(judged(supervisor, other, 6, CutState::in_cut) == (restarts ? Fault::none : Fault::force_jumped));
+        CHECK(judged(supervisor, late, 6, CutState::in_cut) == (restarts ? Fault::none : Fault::force_jumped));
     }
 }
