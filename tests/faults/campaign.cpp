@@ -329,17 +329,4 @@ void Tally::add(const Outcome& outcome, bool is_unseen) {
     }
 }
 
-double median_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? std::nan("") : values[values.size() / 2];
-}
-
-double Tally::median_reaction_s() const {
-    return median_of(reactions_s);
-}
-
-double Tally::longest_reaction_s() const {
-    return reactions_s.empty() ? std::nan("") : *std::max_element(reactions_s.begin(), reactions_s.end());
-}
-
 }  // namespace millforce::faults

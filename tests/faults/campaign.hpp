@@ -71,13 +71,6 @@ Outcome mill_with(const Part& part, Path path, const Fault& fault, std::uint64_t
 Outcome mill_with_controller(const Part& part, sim::OverrideSource& controller, const Fault& fault, std::uint64_t seed,
                              const OnPath& on_path = {});
 
-/// What one check, a control::Fault, or a hold alone found, in all runs.
-struct Finder {
-    std::vector<double> after_s{};  ///< in the runs with a fault
-    int false_alarms = 0;           ///< in those without
-};
-[[nodiscard]] double median_of(std::vector<double> values);
-
 /// What the runs of one fault came to.
 struct Tally {
     int runs = 0;          ///< in which the fault began before the part's end
@@ -97,8 +90,6 @@ struct Tally {
     int unseen_violations = 0;             ///< of those
 
     void add(const Outcome& outcome, bool is_unseen = false);
-    [[nodiscard]] double median_reaction_s() const;
-    [[nodiscard]] double longest_reaction_s() const;
     /// What must never be, but by a fault that nothing shows.
     [[nodiscard]] int violations() const {
         return broken_parts + beyond_bound + ran_in_fault + rose_blind + stopped_silently - unseen_violations;

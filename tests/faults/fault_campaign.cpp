@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "calibration/plausible_units.hpp"
 #include "control/cut_state.hpp"
 #include "faults/campaign.hpp"
 #include "files/input_error.hpp"
@@ -141,6 +142,11 @@ void show_progress(std::size_t done, std::size_t all) {
     }
 }
 
+/// What one check, a control::Fault, or a hold alone found, in all runs.
+struct Finder {
+    std::vector<double> after_s{};  ///< in the runs with a fault
+    int false_alarms = 0;           ///< in those without
+};
 using Finders = std::map<std::uint8_t, Finder>;
 
 void add(Finders& finders, const Reaction& reaction, bool is_sound) {
@@ -187,6 +193,12 @@ Finders mill_all(const std::vector<Run>& runs, std::vector<Row>& rows, const Opt
     return finders;
 }
 
+std::string median_and_longest(const std::vector<double>& after_s) {
+    return after_s.empty() ? ""
+                           : fmt::format("{:.2f}, {:.2f}", millforce::host::median_of(after_s),
+                                         *std::max_element(after_s.begin(), after_s.end()));
+}
+
 /// Which check found how many faults, and how often it found one where there was none.
 void print(const Finders& finders) {
     if (finders.empty()) {
@@ -198,11 +210,8 @@ void print(const Finders& finders) {
         const std::string name =
             is_hold ? "a hold"
                     : fmt::format("`{}`", millforce::control::name(static_cast<millforce::control::Fault>(fault)));
-        const std::string after = finder.after_s.empty()
-                                      ? ""
-                                      : fmt::format("{:.2f}, {:.2f}", median_of(finder.after_s),
-                                                    *std::max_element(finder.after_s.begin(), finder.after_s.end()));
-        fmt::print("| {} | {} | {} | {} |\n", name, finder.after_s.size(), after, finder.false_alarms);
+        fmt::print("| {} | {} | {} | {} |\n", name, finder.after_s.size(), median_and_longest(finder.after_s),
+                   finder.false_alarms);
     }
 }
 
@@ -212,7 +221,7 @@ void print(const Row& row) {
     fmt::print("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {} | {} | {} |\n", name_of(row.fault),
                name_of(row.path), t.runs, percent(t.broken_parts, t.runs), percent(t.over, t.runs),
                100.0 * t.largest_peak, percent(static_cast<int>(t.reactions_s.size()), t.runs),
-               has_reacted ? fmt::format("{:.2f}, {:.2f}", t.median_reaction_s(), t.longest_reaction_s()) : "",
+               median_and_longest(t.reactions_s),
                has_reacted ? fmt::format("{:.0f}", 100.0 * t.largest_peak_until_held) : "", percent(t.crawled, t.runs),
                t.repaired > 0 ? fmt::format("{}/{}", t.milled_on, t.repaired) : "", t.violations());
 }

@@ -162,8 +162,8 @@ Ceiling<Scalar> Ceilings<Scalar>::lowest(const Parameters& parameters, const Con
     } else if (input.operator_override < Scalar(1)) {
         lowest.lower_to(input.operator_override, Limit::operator_limit);
     }
-    const bool is_reason = lowest.limit == Limit::operator_limit || lowest.limit == Limit::no_estimate;
-    if (lowest.override_ratio <= parameters.override_min && !is_reason) {
+    const bool says_why = lowest.limit == Limit::operator_limit || lowest.limit == Limit::no_estimate;
+    if (lowest.override_ratio <= parameters.override_min && !says_why) {
         lowest.limit = may_exceed_the_limit(parameters, input.cut) && is_cutting(situation.state)
                            ? Limit::force_at_minimum
                            : Limit::override_min;

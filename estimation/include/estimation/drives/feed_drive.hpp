@@ -28,6 +28,7 @@ struct FrictionCurrent {
 /// Temperature and lubrication act on both directions alike: the two scales are two states with correlated errors,
 /// and travel in air in one direction teaches about the other as well. Kalman filter with two states:
 ///   P ← P + q dt [1 ρ; ρ 1],   k = P e_d/(P_dd + R),   κ ← κ + k (z − κ_d),   P ← P − k e_dᵀ P
+/// What lies beyond 3 √(P_dd + R) on one side, eight times on end, is learnt at once: P_dd ← (z − κ_d)² − R.
 template <typename Scalar>
 class FrictionScale {
   public:
@@ -87,14 +88,16 @@ class FrictionScale {
     /// learnt at once. Several times on end: a cut that begins looks like it for a moment.
     void doubt_what_is_denied(std::size_t direction, const Measurement<Scalar>& seen) {
         constexpr Scalar deviations{3};
-        constexpr std::int8_t on_end = 8;
+        constexpr int on_end = 8;
         const Scalar surprise = seen.value - value_[direction];
         const Scalar total = own_[direction] + seen.variance;
-        const bool is_denied = square(surprise) > square(deviations) * total;
-        const bool is_above = surprise > Scalar(0);
-        const bool goes_on = is_denied && is_above == (denials_ > 0);
-        denials_ = static_cast<std::int8_t>(!is_denied ? 0 : (goes_on ? denials_ : 0) + (is_above ? 1 : -1));
-        if (denials_ == on_end || denials_ == -on_end) {
+        if (!(square(surprise) > square(deviations) * total)) {
+            denials_ = 0;
+            return;
+        }
+        const int one = surprise > Scalar(0) ? 1 : -1;
+        denials_ = static_cast<std::int8_t>(one * denials_ > 0 ? denials_ + one : one);
+        if (one * denials_ == on_end) {
             own_[direction] += square(surprise) - total;
             denials_ = 0;
         }

@@ -133,7 +133,9 @@ class SpindleDrive {
         is_above_idle_ = seen.value > drift_Nm_.excess();
         if (!is_implausible_) {
             drift_Nm_.correct(seen);
-            certain_drift_Nm_ = may_cut ? certain_drift_Nm_ : drift_Nm_.value();
+            if (!may_cut) {
+                certain_drift_Nm_ = drift_Nm_.value();
+            }
             doubt_gain(average.speed_rad_s);
         }
     }

@@ -47,10 +47,9 @@ void LinePrinter::write_all() {
 
 void LinePrinter::report_lost(std::uint64_t lost) {
     if (lost != reported_lost_) {
-        std::array<char, longest_line> text{};  // a string would take memory, and there may be none
-        std::snprintf(text.data(), text.size(), "millforce: %llu lines are missing here: nobody took them",
-                      static_cast<unsigned long long>(lost - reported_lost_));
-        print_line(stream_, text.data());
+        Text line{};
+        print_line(stream_,
+                   written_into(line, "millforce: {} lines are missing here: nobody took them", lost - reported_lost_));
         reported_lost_ = lost;
     }
 }

@@ -32,21 +32,28 @@ class LinePrinter {
     void print(std::string_view line) noexcept;
     template <typename First, typename... Others>
     void print(fmt::format_string<const First&, const Others&...> text, const First& first, const Others&... others) {
-        std::array<char, longest_line> line{};
-        const std::size_t length = fmt::format_to_n(line.data(), line.size(), text, first, others...).size;
-        print(std::string_view(line.data(), std::min(length, line.size())));
+        Text line{};
+        print(written_into(line, text, first, others...));
     }
 
     static constexpr std::size_t longest_line = 160;
     static constexpr std::size_t capacity = 64;
 
   private:
+    using Text = std::array<char, longest_line>;
     struct Line {
-        std::array<char, longest_line> text{};
+        Text text{};
         std::size_t length = 0;
         std::uint64_t lost_before = 0;
     };
 
+    /// Takes no memory: there may be none.
+    template <typename... Values>
+    static std::string_view written_into(Text& line, fmt::format_string<const Values&...> text,
+                                         const Values&... values) {
+        const std::size_t length = fmt::format_to_n(line.data(), line.size(), text, values...).size;
+        return {line.data(), std::min(length, line.size())};
+    }
     void run();
     void write_all();
     void report_lost(std::uint64_t lost);
